@@ -1,21 +1,21 @@
 ## Before there is a draft
-enrol-show-part = Einzulernendes Bauteil zeigen
+enrol-show-part = Einzulernendes Teil zeigen
 enrol-capture-replacement = Ersatz für { $part } aufnehmen
 enrol-how = Vor die Kamera hängen und „Aufnehmen“ drücken, eine Aufnahme, eine Punktwolke oder ein Netz öffnen oder die Datei hier ablegen
 enrol-take-shown = { $scene } aus „Prüfen“ übernehmen
 enrol-use-shown = Geprüfte Szene verwenden
 enrol-open-scan = Scan öffnen…
 enrol-open-scan-hint = Mehrere Einzelaufnahmen von mehreren Seiten, jede mit ihrer Kamerapose (Ctrl Shift O)
-enrol-step-capture = 1  Bauteil aufnehmen oder Datei öffnen
+enrol-step-capture = 1  Teil aufnehmen oder Datei öffnen
 enrol-step-correct = 2  Prüfen, was behalten wird, und korrigieren
 enrol-step-title = 3  Titel eingeben
 enrol-step-save = 4  Speichern: Prüfungen erkennen es
 
 ## The card of the draft
-enrol-new-part = Neues Bauteil
+enrol-new-part = Neues Teil
 enrol-replaces = Ersetzt { $part }
 enrol-previous-draft = Voriger Entwurf: ein neuer wird vorbereitet
-enrol-as-new = Stattdessen als neues Bauteil einlernen
+enrol-as-new = Stattdessen als neues Teil einlernen
 enrol-unready-trouble = Noch nichts zu speichern: siehe oben
 enrol-unready-title = Zuerst einen Titel eingeben
 enrol-unready-name = Zuerst den Namen korrigieren
@@ -27,7 +27,7 @@ enrol-openings = Öffnungen { $count }
 enrol-seen-one-side = Von einer Seite gesehen
 enrol-seen-all-around = Rundum gesehen
 enrol-seen-several-sides = Von mehreren Seiten gesehen
-enrol-examining = Bauteil wird untersucht…
+enrol-examining = Teil wird untersucht…
 enrol-stored-unknown = Nicht bekannt, was gespeichert wird
 enrol-look-again = Erneut untersuchen
 enrol-title = Titel
@@ -38,16 +38,16 @@ enrol-notes = Notizen
 enrol-notes-hint = Alles Wissenswerte
 enrol-reference-of = Weitere Referenz von
 enrol-reference-of-chosen = Weitere Referenz von: { $part }
-enrol-reference-of-none = Kein anderes Bauteil
+enrol-reference-of-none = Kein anderes Teil
 enrol-reference-choice = Referenz von: { $part }
-enrol-reference-of-hint = Eine weitere Ansicht oder Variante eines eingelernten Bauteils: Ergebnisse nennen jenes Bauteil
+enrol-reference-of-hint = Eine weitere Ansicht oder Variante eines eingelernten Teils: Ergebnisse nennen jenes Teil
 enrol-namesake = { $part } hat diesen Namen bereits
-enrol-namesake-advice = Speichern ersetzt das Bauteil; die vorige Version lässt sich wiederherstellen
+enrol-namesake-advice = Speichern ersetzt das Teil; die vorige Version lässt sich wiederherstellen
 enrol-most-similar = Am ähnlichsten: { $part } (zu { $percent } % gleich)
 enrol-most-similar-mirrored = Am ähnlichsten: { $part } (gespiegelt zu { $percent } % gleich)
 enrol-distinguishable = Die beiden sind unterscheidbar
 enrol-indistinguishable = Die beiden sind nicht unterscheidbar
-enrol-indistinguishable-advice = Prüfungen beider Bauteile enden fast gleichauf: das eingelernte ersetzen oder eine Seite aufnehmen, auf der sie sich unterscheiden
+enrol-indistinguishable-advice = Prüfungen beider Teile enden fast gleichauf: das eingelernte ersetzen oder eine Seite aufnehmen, auf der sie sich unterscheiden
 enrol-replace = { $part } ersetzen
 enrol-discard = Verwerfen
 enrol-saving = Wird gespeichert…
@@ -66,19 +66,19 @@ enrol-origin-points = { $points } Punkte
 enrol-origin-simulated = simuliert, nicht von einer Kamera
 enrol-origin-seen = von einer Kamera gesehen
 enrol-origin-path = Lackierbahn mit { $count } Punkten
-enrol-method-segmented = das in einer aufgenommenen Szene gefundene Bauteil
+enrol-method-segmented = das in einer aufgenommenen Szene gefundene Teil
 enrol-method-whole = eine ganze Punktwolke
 enrol-method-mesh = ein Netz
 enrol-method-scan = ein Scan
 
 ## The strip of enrolled parts
-enrol-enrolled-parts = Eingelernte Bauteile
+enrol-enrolled-parts = Eingelernte Teile
 enrol-library-loading = Die Bibliothek wird geladen…
 enrol-num-parts =
     { $count ->
-        [0] Noch kein Bauteil eingelernt: das erste gespeicherte erscheint hier
-        [one] { $count } eingelerntes Bauteil
-       *[other] { $count } eingelernte Bauteile
+        [0] Noch kein Teil eingelernt: das erste gespeicherte erscheint hier
+        [one] { $count } eingelerntes Teil
+       *[other] { $count } eingelernte Teile
     }
 enrol-damaged = Beschädigt
 enrol-simulated = Simuliert
@@ -118,7 +118,7 @@ enrol-partly-kept = teilweise behalten
 enrol-dropped = entfernt
 enrol-take-it = Übernehmen
 enrol-drop-it = Entfernen
-enrol-segment-part = Bauteil
+enrol-segment-part = Teil
 enrol-segment-stand = Gestell
 enrol-segment-surface = Fläche { $number }
 enrol-segment-background = Hintergrund { $number }
@@ -135,20 +135,20 @@ enrol-view-side = Seite
 ## Keys
 enrol-key-redo = Letzte rückgängig gemachte Änderung wiederholen
 enrol-key-undo = Letzte Korrektur oder Änderung der Bibliothek rückgängig machen
-enrol-key-save = Bauteil speichern
+enrol-key-save = Teil speichern
 
 ## Work and notices
-enrol-path-file-title = Bahn der Düse über diesem Bauteil
+enrol-path-file-title = Bahn der Düse über diesem Teil
 enrol-path-files = Tabellen
-enrol-examining-part = Bauteil wird untersucht
+enrol-examining-part = Teil wird untersucht
 enrol-taking-scan = Angezeigter Scan wird übernommen
 enrol-taking-scene = Angezeigte Szene wird übernommen
 enrol-changing-library = Bibliothek wird geändert
-enrol-unsaved = Das Bauteil in „Einlernen“ ist nicht gespeichert
-enrol-unsaved-titled = { $part }, das Bauteil in „Einlernen“, ist nicht gespeichert
+enrol-unsaved = Das Teil in „Einlernen“ ist nicht gespeichert
+enrol-unsaved-titled = { $part }, das Teil in „Einlernen“, ist nicht gespeichert
 enrol-nothing-to-save = Es gibt noch nichts zu speichern
 enrol-nothing-to-save-advice = Speichern, sobald das Bild des zu Speichernden da ist
-enrol-other-program = Ein anderes Programm hat ein Bauteil namens { $name } gespeichert, seit diese Bibliothek geöffnet wurde
+enrol-other-program = Ein anderes Programm hat ein Teil namens { $name } gespeichert, seit diese Bibliothek geöffnet wurde
 enrol-other-program-advice = Erneut speichern, um es zu ersetzen, oder diesem einen anderen Namen geben
 enrol-saved = { $part } gespeichert
 enrol-saved-over = { $part } gespeichert; die vorige Version liegt im Papierkorb der Bibliothek

@@ -3,7 +3,7 @@ history-empty = Noch nichts geprüft
 history-empty-advice = „Aufnehmen“ drücken: Jede Prüfung erscheint hier und bleibt nach dem Schließen des Fensters erhalten
 history-in-memory = Nur im Arbeitsspeicher: { $reason }
 history-none-listed = Keine passenden Prüfungen: Filter ändern
-history-column-part = Bauteil
+history-column-part = Teil
 history-column-scene = Szene
 history-column-score = Score
 history-column-ms = ms
@@ -18,20 +18,20 @@ history-row =
 
 ## The bar above the list
 history-show-all = Alle zeigen
-history-counted = { $matching } von { $count } Bauteilen
+history-counted = { $matching } von { $count } Teilen
 history-export-csv = CSV exportieren…
 history-export-csv-hint = Die angezeigten Prüfungen in eine Tabelle schreiben
 history-export-cases = Testfälle exportieren…
-history-export-cases-hint = Die angezeigten Prüfungen, zu denen es ein Tiefenbild und ein tatsächliches Bauteil gibt, als Testfälle für „Vergleichen“ und partsight evaluate speichern
+history-export-cases-hint = Die angezeigten Prüfungen, zu denen es ein Bild und ein tatsächliches Teil gibt, als Testfälle für „Vergleichen“ und partsight evaluate speichern
 history-statistics = Statistik
-history-statistics-hint = IO und NIO nach Schicht, Bauteil und Grund, für die angezeigten Prüfungen
-history-frames-button = Tiefenbilder…
-history-frames-button-hint = Welche Tiefenbilder wie lange aufbewahrt werden
+history-statistics-hint = IO und NIO nach Schicht, Teil und Grund, für die angezeigten Prüfungen
+history-frames-button = Bilder…
+history-frames-button-hint = Welche Bilder wie lange aufbewahrt werden
 history-find = Suchen
-history-find-hint = Bauteil, Szene, Bemerkung
+history-find-hint = Teil, Szene, Bemerkung
 history-filter-days = Tage
 history-filter-verdict = Ergebnis
-history-filter-part = Bauteil
+history-filter-part = Teil
 history-filter-all-verdicts = Alle
 history-filter-all-parts = Alle
 history-days-all = Alle Tage
@@ -51,9 +51,9 @@ history-inspection = Prüfung { $number }
 history-no-picture = Die Szene hat keine Zeilen und Spalten, daher gibt es kein Bild
 history-picture = Segmentierung der Prüfung { $number }
 history-simulated = Simuliert, nicht von einer Kamera
-history-of-part = Prüfungen dieses Bauteils
+history-of-part = Prüfungen dieses Teils
 history-counts = zählt
-history-of-this-part = Dieses Bauteil: Prüfung { $number }, { $verdict }
+history-of-this-part = Dieses Teil: Prüfung { $number }, { $verdict }
 history-found-same = Prüfung { $number }: gleiches Ergebnis
 history-found-other = Prüfung { $number }: anderes Ergebnis
 history-figure-scene = Szene
@@ -67,7 +67,7 @@ history-figure-margin = Vorsprung
 history-figure-recipe = Rezept
 history-figure-library = Bibliothek
 history-figure-program = Programm
-history-figure-frame = Tiefenbild
+history-figure-frame = Bild
 history-figure-verdict = Ergebnis
 history-figure-nearest = am nächsten
 history-frame-not-kept = nicht aufbewahrt
@@ -78,9 +78,9 @@ history-open = Öffnen
 history-open-hint = Mit allen Stufen öffnen, mit dem eigenen Rezept der Prüfung
 history-again = Erneut prüfen
 history-again-hint = Mit dem jetzigen Rezept und der jetzigen Bibliothek; Änderungen werden hier angezeigt
-history-frame-gone = Das Tiefenbild von { $scene } wurde nicht aufbewahrt
-history-frame-gone-advice = Künftig mehr Tiefenbilder aufbewahren: „Tiefenbilder…“ über der Liste
-history-actual-part = Tatsächliches Bauteil
+history-frame-gone = Das Bild von { $scene } wurde nicht aufbewahrt
+history-frame-gone-advice = Künftig mehr Bilder aufbewahren: „Bilder…“ über der Liste
+history-actual-part = Tatsächliches Teil
 history-truth-not-set = Nicht angegeben
 history-truth-not-enrolled = Nicht eingelernt
 history-truth-nothing = Nichts (leere Zelle)
@@ -103,8 +103,8 @@ history-key-open = Mit allen Stufen öffnen
 history-key-again = Mit jetzigem Rezept und jetziger Bibliothek erneut prüfen
 
 ## Frames to keep
-history-keep-title = Aufbewahrte Tiefenbilder
-history-keep-why = Mit ihrem Tiefenbild lässt sich eine Prüfung später mit allen Stufen öffnen. Die Prüfungen selbst bleiben dauerhaft erhalten.
+history-keep-title = Aufbewahrte Bilder
+history-keep-why = Mit ihrem Bild lässt sich eine Prüfung später mit allen Stufen öffnen. Die Prüfungen selbst bleiben dauerhaft erhalten.
 history-keep-which = Von welchen Prüfungen
 history-keep-all = Alle
 history-keep-not-accepted = Nur nicht akzeptierte
@@ -113,29 +113,29 @@ history-keep-days = Höchstens, Tage
 history-keep-gigabytes = Höchstens, Gigabyte
 history-keep-used =
     Jetzt: { $count ->
-        [one] 1 Tiefenbild
-       *[other] { $count } Tiefenbilder
+        [one] 1 Bild
+       *[other] { $count } Bilder
     }, { $size }. Die ältesten werden zuerst gelöscht
-history-keep-marked = Solche mit Bemerkung oder tatsächlichem Bauteil bleiben erhalten: { $size }
+history-keep-marked = Solche mit Bemerkung oder tatsächlichem Teil bleiben erhalten: { $size }
 history-apply = Übernehmen
 history-close = Schließen
 
 ## Statistics
 history-counting = Wird gezählt…
-history-none-counted = Keine passenden Bauteile: Filter ändern
-history-by-part = Nach Bauteil
+history-none-counted = Keine passenden Teile: Filter ändern
+history-by-part = Nach Teil
 history-by-reason = Nach Grund
 history-ok = IO
 history-not-ok = NIO
 history-ok-share = IO, %
 history-shift = Schicht vom { $start }: { $ok } IO, { $nok } NIO
-history-by-shift = Bauteile nach Schicht
+history-by-shift = Teile nach Schicht
 history-not-ok-on-top = NIO, oben
-history-total = { $count } Bauteile, { $share } IO
+history-total = { $count } Teile, { $share } IO
 
 ## Work and notices
-history-looking = Historie wird gelesen
-history-counting-parts = Bauteile werden gezählt
+history-looking = Verlauf wird gelesen
+history-counting-parts = Teile werden gezählt
 history-writing = { $file } wird geschrieben
 history-export-csv-title = Angezeigte Prüfungen exportieren
 history-csv-files = Kommagetrennte Werte
@@ -146,25 +146,25 @@ history-wrote =
        *[other] { $count } Prüfungen
     } nach { $path } geschrieben
 history-no-cases = Aus keiner Prüfung wurde ein Testfall: { $what }
-history-no-cases-advice = Für einige Prüfungen das tatsächliche Bauteil angeben und ihre Tiefenbilder aufbewahren
+history-no-cases-advice = Für einige Prüfungen das tatsächliche Teil angeben und ihre Bilder aufbewahren
 history-wrote-cases = { $path }: { $what }
 history-cases-kept = { $count } als Testfälle gespeichert
-history-cases-without-truth = { $count } ohne tatsächliches Bauteil
-history-cases-without-frame = { $count } ohne aufbewahrtes Tiefenbild
+history-cases-without-truth = { $count } ohne tatsächliches Teil
+history-cases-without-frame = { $count } ohne aufbewahrtes Bild
 history-cases-scans = { $count }, die Scans sind
-history-cases-unreadable = { $count } mit unlesbarem Tiefenbild
-history-crowded = Die Historie kommt nicht nach: Die Tiefenbilder einiger Prüfungen wurden nicht gespeichert
-history-crowded-advice = Weniger Tiefenbilder aufbewahren („Tiefenbilder…“ in der Historie) oder einen schnelleren Datenträger verwenden
-history-set-aside = Historie: { $what }
-history-set-aside-advice = Sie wurde als { $path } beiseitegelegt; eine neue wurde begonnen
+history-cases-unreadable = { $count } mit unlesbarem Bild
+history-crowded = Der Verlauf kommt nicht nach: Die Bilder einiger Prüfungen wurden nicht gespeichert
+history-crowded-advice = Weniger Bilder aufbewahren („Bilder…“ im Verlauf) oder einen schnelleren Datenträger verwenden
+history-set-aside = Verlauf: { $what }
+history-set-aside-advice = Er wurde als { $path } beiseitegelegt; ein neuer wurde begonnen
 history-failed-advice = { $advice }; bis dahin bleiben Prüfungen im Arbeitsspeicher
 history-works =
-    Die Historie ist wieder beschreibbar: { $count ->
+    Der Verlauf ist wieder beschreibbar: { $count ->
         [one] eine wartende Prüfung
        *[other] { $count } wartende Prüfungen
     } gespeichert
 history-works-lost =
-    Die Historie ist wieder beschreibbar: { $count ->
+    Der Verlauf ist wieder beschreibbar: { $count ->
         [one] eine wartende Prüfung
        *[other] { $count } wartende Prüfungen
     } gespeichert, { $lost ->
@@ -173,17 +173,17 @@ history-works-lost =
     } verloren
 history-swept =
     Die Aufbewahrungsregel hat { $count ->
-        [one] 1 Tiefenbild
-       *[other] { $count } Tiefenbilder
-    }, { $megabytes } MB, aus der Historie entfernt
+        [one] 1 Bild
+       *[other] { $count } Bilder
+    }, { $megabytes } MB, aus dem Verlauf entfernt
 history-inspecting-again = { $scene } wird erneut geprüft
 history-opening = { $scene } wird geöffnet
 history-other-version = Das Rezept von { $scene } stammt von einer anderen Version von Partsight
 history-other-version-advice = „Erneut prüfen“ drücken, um das jetzige Rezept zu verwenden
-history-changed-frame = Datei oder Tiefenbild
+history-changed-frame = Datei oder Bild
 history-changed-recipe = Rezept
 history-changed-library = Bibliothek
 history-changed-program = Programm
 history-changed-both = { $first }, { $second }
 history-other-result = { $scene } ergibt jetzt ein anderes Ergebnis; seither geändert: { $changed }
-history-other-result-advice = Die Historie behält das erste Ergebnis
+history-other-result-advice = Der Verlauf behält das erste Ergebnis

@@ -1,1 +1,277 @@
-# compare
+## The case in front
+compare-case = Case
+compare-case-hint = Which scene is looked at
+compare-no-case = none
+compare-in-front = { $scene } (in front)
+compare-kept-cases = Kept cases
+compare-no-cases-listed = None yet
+compare-asked = which part is it actually?
+compare-taken-for = taken for
+compare-nearest-to = nearest to
+compare-nothing = nothing
+compare-accepted-asked = accepted · which part is it actually?
+compare-not-accepted-asked = not accepted · which part is it actually?
+compare-accepted-right = accepted, and it is
+compare-not-accepted-right = not accepted, and it is
+compare-accepted-wrong = accepted, but it is
+compare-not-accepted-wrong = not accepted, but it is
+compare-choose-truth = Choose…
+compare-truth-hint = What actually hung in front of the camera
+compare-actual-part = Actual part: { $part }
+compare-truth-nothing = Nothing (empty cell)
+compare-against = against
+compare-against-none = no part
+compare-against-hint = The enrolled part that the case is compared with
+compare-against-follows = What it is, else the best
+compare-against-choice = Against: { $part }
+compare-remark = Remark
+compare-keep-case = Keep case
+compare-keep-case-hint = Keep this scene with its actual part
+compare-keep-case-first = Choose first what it is
+compare-kept-case = Kept case
+compare-remove-case = Remove case
+compare-run-all = Run all cases
+compare-run-all-hint = Inspect every kept case with the recipe on the right
+compare-undo-removal = Put case back
+compare-undo-recipe = Put recipe back
+compare-undo-use = Undo use
+compare-undo-open = Undo open
+
+## The pictures
+compare-nothing-to-compare = Nothing to compare yet
+compare-nothing-to-compare-advice = Capture a scene (Space), open one, or open a kept case
+compare-no-outline = There is no outline to compare: { $reason }
+compare-no-outline-reason = no outline
+compare-contours = Contours at the best lag
+compare-signatures = Signatures
+compare-signatures-default = query and part, part shifted by the lag
+compare-signatures-paper = as the paper writes them: no lag, Θ folded
+compare-correlations = Auto- and cross-correlation
+compare-correlations-default = default: finds the lag · ‖A − C‖₁ { $share } of ‖A‖₁ · axis not from 0
+compare-correlations-paper = paper: ‖A − C‖₁ { $value } px² + rad² · { $share } of ‖A‖₁
+compare-no-lag = no lag found
+compare-overlay = lag { $lag } of { $rays } · turned { $angle } · { $distance } apart
+compare-legend-query = — query
+compare-rays = Rays, m²
+compare-lag-zero-rays = lag 0, in rays
+compare-lag-zero-pixels = lag 0, in pixels
+compare-lag-read = lag { $lag }: A { $auto }, C { $cross }
+compare-auto = A: itself
+compare-cross = C: query
+
+## The distances
+compare-distances = Distance per part
+compare-distances-none = Needs an outline
+compare-distance-default = default: outlines apart
+compare-distance-paper = paper: ‖A − C‖₁, px² + rad²
+compare-distance-in-use = { $name } (in use)
+compare-distance-paper-hint = The paper's own figure (eq. 11): the differences of the lengths' correlations, in squared pixels, and of the angles', in squared radians, added up
+compare-compare-with = Compare with { $part }: { $figures }
+compare-distance-hint = Outlines apart { $outline } (default) · ‖A − C‖₁ { $paper } px² + rad² (paper) · score in the end { $score }
+
+## The kept cases
+compare-all-cases = All kept cases
+compare-looking = Looking for kept cases
+compare-no-cases-in = No kept cases in { $folder }
+compare-no-cases = No kept cases yet
+compare-no-cases-advice = Capture a scene, choose what it is and press Keep case; kept cases show what another recipe gains and what it breaks
+compare-folder = Folder…
+compare-folder-of-cases = Folder of cases…
+compare-back = Back to matrix
+compare-earlier = Earlier run…
+compare-earlier-label = Compare with an earlier run…
+compare-earlier-hint = Compare with what partsight evaluate --json has written of an earlier run
+compare-ran-at = ran at { $time }
+compare-false-accepts =
+    { $count ->
+        [0] no false accepts
+        [one] 1 false accept
+       *[other] { $count } false accepts
+    }
+compare-tally =
+    { $right } of { $total } right · { $refused ->
+        [0] none
+       *[other] { $refused }
+    } wrongly refused
+compare-num-damaged = { $count } damaged
+compare-run-running = running, { $done } of { $total } done
+compare-run-stopped = stopped, { $done } of { $total } done
+compare-other-recipe = with another recipe
+compare-running = Running
+compare-run-hint = Run all cases (Ctrl R) shows what each is taken for now
+compare-it-is = it is: { $part }
+compare-cell-taken-for = { $truth } taken for { $part }: { $count }
+compare-cell-not-accepted = { $truth }, not accepted: { $count }
+compare-open-case = Open { $name }
+compare-open-case-hint = Bring this case to the front
+compare-remove = Remove
+compare-remove-named = Remove { $name }
+compare-cell-right = right
+compare-cell-false-accept = false accept
+compare-cell-refused = wrongly refused
+compare-matrix-hint = Rows: what it is · columns: what it was accepted as · a cell opens its cases
+compare-not-enrolled = Not enrolled
+compare-empty-cell = Empty cell
+compare-not-accepted = Not accepted
+
+## Changes since an earlier run
+compare-num-worse =
+    { $count ->
+        [0] none worse
+       *[other] { $count } worse
+    }
+compare-num-better = { $count } better
+compare-num-rescored = { $count } with another score
+compare-num-common = { $count } cases of both
+compare-num-new = { $count } new
+compare-num-gone = { $count } gone or damaged
+compare-against-file = against { $file }
+compare-no-changes = Every case of both runs came out as before
+compare-worse = worse
+compare-better = better
+compare-rescored = score
+compare-outcome-right = right
+compare-outcome-refused = refused
+compare-outcome-false-accept = false accept
+compare-change-same = { $change }: { $before } → { $now }
+compare-change = { $change }: { $is }, was { $was } · { $before } → { $now }
+
+## The recipe
+compare-recipe = Recipe
+compare-recipe-named = Recipe { $recipe }
+compare-recipe-modified = { $name } (modified)
+compare-built-in-hint = Every parameter at its default
+compare-is-default = default
+compare-save = Save
+compare-save-as = Save as…
+compare-duplicate = Duplicate
+compare-rename = Rename…
+compare-delete = Delete
+compare-set-default = Set as default
+compare-import = Import…
+compare-export = Export…
+compare-take-rename = Rename
+compare-name-hint = name
+compare-name = Name of the recipe
+compare-save-name = Save under this name
+compare-rename-name = Rename under this name
+compare-cancel = Cancel
+compare-cancel-name = Cancel the name
+compare-name-taken = There is a recipe named { $name } already
+compare-num-changed = { $count } changed from default
+compare-list-changes = List them
+compare-reset-all = Reset all
+compare-reset-all-hint = Every parameter back to its default
+compare-parameter-change = { $parameter }: { $value }, default { $default }
+compare-scaling = Scaling: one core against several
+compare-more = More of { $group } ({ $count })
+compare-more-changed = More of { $group } ({ $count }, { $changed } changed)
+compare-parameter-changed = { $parameter } · changed
+compare-reset = Reset
+compare-reset-named = Reset { $parameter }
+compare-back-to = Back to { $value }
+compare-valid-range = Valid from { $least } to { $most }; default { $default }
+compare-valid-options = One of { $options }; default { $default }
+compare-slider = { $parameter }, slider
+compare-case-is-pending = With this recipe this case is…
+compare-case-is = With this recipe this case is
+compare-verdict-nearest = Not accepted · nearest { $part } { $score }
+compare-verdict-nothing = Not accepted · no part found
+compare-right-accepted = Right and accepted
+compare-rightly-refused = Rightly refused
+compare-false-accept = False accept
+compare-wrongly-refused = Wrongly refused
+compare-accepted = Accepted
+compare-truth-not-set = The actual part is not set
+compare-use = Use this recipe
+compare-use-hint = Scenes are inspected with it from now on
+compare-in-use-hint = Scenes are inspected with this recipe already
+
+## Why a case is refused
+compare-refused = Refused: { $reason }
+compare-refused-apart = Refused: { $reason }; the outlines lie { $distance } apart
+compare-low-score = score { $score } is below { $threshold }
+compare-small-margin = its lead over { $part } is { $margin }, below { $threshold }
+compare-unconfirmed = the paper's matcher alone cannot tell it from an unknown part
+compare-piece = score { $score } is below { $threshold }: only a piece is in sight
+compare-another-model = its surface is off by { $relief }, its outline by { $outline }, { $missing } % of it is missing: another model
+compare-another-make = of the same type with a probability of { $likeness }: another make
+compare-ambiguous-pose = its lead over another pose is { $margin }, below { $threshold }
+compare-hardly-seen = score { $score }: hardly in sight
+compare-unknown = score { $score }: unknown
+compare-mirrored = it looks like the mirror image of { $part }
+compare-mirrored-image = it fits { $part } only as its mirror image: the image is probably mirrored
+compare-unconstrained = the pose is unconstrained: { $freedom }
+compare-uncertain = the pose is uncertain by { $shift }, and { $limit } is allowed
+
+## The plots
+compare-calibration = Calibration
+compare-calibration-caption = right over score · error { $error }
+compare-calibration-caption-none = right over score
+compare-calibration-hint = The best guesses of all cases, by score: on the line a score of 0.9 is right nine times in ten. Numbers are guesses
+compare-calibration-none = Calibration: nothing was taken for a part
+compare-calibration-bin = { $from } to { $to }, { $right } of { $count } right
+compare-calibration-words = Calibration: expected error { $error }; { $bins }
+compare-threshold = Threshold
+compare-threshold-caption = share over least score
+compare-threshold-words = Threshold: at { $threshold } the score alone accepts { $wrong } of { $cases } cases wrongly and refuses { $refused } of { $enrolled } parts
+compare-threshold-hint = What every least score would accept wrongly, of all cases, and what it would refuse, of the enrolled parts, by the score alone. The upright line is the recipe's
+compare-plot-false-accepts = false accepts
+compare-plot-refused = parts refused
+compare-scaling-says = Ranks one query over 8 to 2048 simulated references by 1, 2, 4 and 8 workers; takes some seconds
+compare-measure = Measure
+compare-measure-label = Measure scaling
+compare-scaling-cores = { $cores } cores
+compare-scaling-cores-shared = { $cores } cores; { $workers } workers and more share them
+compare-scaling-from = { $cores }: several pay from { $count } references on
+compare-scaling-never = { $cores }: several never paid
+compare-scaling-plot = Time of a ranking over the number of references; { $words }
+compare-one-worker = 1 worker
+
+## Keys
+compare-key-keep = Keep the case in front
+compare-key-run = Run all kept cases
+compare-key-undo = Take back the removal of a case or recipe, or the use of a recipe
+
+## Work and notices
+compare-cases-title = Folder of kept cases
+compare-earlier-title = What partsight evaluate --json has written
+compare-evaluation-files = Evaluations
+compare-recipe-files = Recipes
+compare-import-title = Recipe to import
+compare-export-title = Export the recipe
+compare-comparing = Comparing
+compare-listing-cases = Listing the kept cases
+compare-keeping-case = Keeping the case
+compare-removing-case = Removing a case
+compare-restoring-case = Putting the case back
+compare-running-cases = Running the kept cases
+compare-measuring = Measuring the ranking
+compare-comparing-earlier = Comparing with an earlier run
+compare-changing-recipes = Changing recipes
+compare-inspecting = Inspecting with another recipe
+compare-nothing-to-keep = There is no case to keep yet
+compare-nothing-to-keep-advice = Capture or open a scene, and wait until it is inspected
+compare-kept-already = This case is kept already
+compare-kept-already-advice = Capture or open another scene
+compare-no-truth = A case without a truth teaches nothing
+compare-no-cases-to-run = There are no kept cases to run
+compare-no-cases-to-run-advice = Keep a case first, or choose a folder of cases
+compare-no-run = There is no run to compare with an earlier one
+compare-no-run-advice = Run all cases first
+compare-kept-as = Kept as { $name }
+compare-removed-case = Removed { $name }
+compare-restored-case = { $name } is back
+compare-case-gone = There is no kept case named { $name } any more
+compare-case-gone-advice = Run all cases again
+compare-recipe-changed-elsewhere = Recipe { $name } was changed by another program
+compare-recipe-changed-elsewhere-advice = Open it in Compare to use it; until then its former parameters are used
+compare-saved-recipe = Saved recipe { $name }
+compare-restored-recipe = Recipe { $name } is back
+compare-renamed-recipe = Recipe { $before } is named { $now } now
+compare-removed-recipe = Removed recipe { $name }
+compare-default-recipe = Commands without --recipe now use "{ $name }"
+compare-imported-recipe = Imported recipe { $name }
+compare-exported-recipe = Wrote { $path }
+compare-recipe-used = Scenes are inspected with recipe { $recipe } now: { $count } changed from default
+compare-recipe-used-before = Scenes are inspected with the recipe before again

@@ -1,8 +1,8 @@
 ## The list
 history-empty = Todavía no hay inspecciones
-history-empty-advice = Pulse Capturar: cada inspección aparece aquí y se conserva al cerrar la ventana
+history-empty-advice = Pulsar Capturar: cada inspección aparece aquí y se conserva al cerrar la ventana
 history-in-memory = Solo en memoria: { $reason }
-history-none-listed = Ninguna inspección coincide: cambie el filtro
+history-none-listed = Ninguna inspección coincide: cambiar el filtro
 history-column-part = Pieza
 history-column-scene = Escena
 history-column-score = Punt.
@@ -43,10 +43,10 @@ history-from = de
 history-to = a
 history-first-day = Primer día
 history-last-day = Último día
-history-day-format = Escriba el día como año-mes-día: 2026-11-20
+history-day-format = Escribir el día como año-mes-día: 2026-11-20
 
 ## The inspection on the right
-history-choose = Elija una inspección para ver más detalles
+history-choose = Elegir una inspección para ver más detalles
 history-inspection = Inspección { $number }
 history-no-picture = La escena no tiene filas ni columnas, por lo que no hay imagen
 history-picture = Segmentación de la inspección { $number }
@@ -61,9 +61,9 @@ history-figure-source = fuente
 history-figure-time = hora
 history-figure-serial = n.º de serie
 history-figure-order = orden
-history-figure-operator = operario
+history-figure-operator = operador
 history-figure-score = puntuación
-history-figure-margin = ventaja
+history-figure-margin = margen
 history-figure-recipe = receta
 history-figure-library = biblioteca
 history-figure-program = programa
@@ -79,7 +79,7 @@ history-open-hint = Abrir con todas las etapas y con su propia receta
 history-again = Repetir inspección
 history-again-hint = Con la receta y la biblioteca actuales; los cambios se muestran aquí
 history-frame-gone = La imagen de { $scene } no se ha conservado
-history-frame-gone-advice = Conserve más imágenes en adelante: Imágenes… encima de la lista
+history-frame-gone-advice = Conservar más imágenes en adelante: Imágenes… encima de la lista
 history-actual-part = Pieza real
 history-truth-not-set = Sin indicar
 history-truth-not-enrolled = No registrada
@@ -122,7 +122,7 @@ history-close = Cerrar
 
 ## Statistics
 history-counting = Contando…
-history-none-counted = Ninguna pieza coincide: cambie el filtro
+history-none-counted = Ninguna pieza coincide: cambiar el filtro
 history-by-part = Por pieza
 history-by-reason = Por motivo
 history-ok = OK
@@ -146,7 +146,7 @@ history-wrote =
        *[other] { $count } inspecciones escritas
     } en { $path }
 history-no-cases = Ninguna inspección se ha convertido en caso: { $what }
-history-no-cases-advice = Indique la pieza real de algunas inspecciones y conserve sus imágenes
+history-no-cases-advice = Indicar la pieza real de algunas inspecciones y conservar sus imágenes
 history-wrote-cases = { $path }: { $what }
 history-cases-kept =
     { $count ->
@@ -158,7 +158,7 @@ history-cases-without-frame = { $count } sin imagen conservada
 history-cases-scans = { $count } que son escaneos
 history-cases-unreadable = { $count } cuya imagen no se puede leer
 history-crowded = El historial no da abasto: no se guardaron las imágenes de algunas inspecciones
-history-crowded-advice = Conserve menos imágenes (Imágenes… en Historial) o utilice un disco más rápido
+history-crowded-advice = Conservar menos imágenes (Imágenes… en Historial) o usar un disco más rápido
 history-set-aside = Historial: { $what }
 history-set-aside-advice = Se ha apartado como { $path } y se ha empezado uno nuevo
 history-failed-advice = { $advice }; hasta entonces las inspecciones se guardan en memoria
@@ -176,14 +176,14 @@ history-works-lost =
        *[other] se han perdido { $lost }
     }
 history-swept =
-    La regla de conservación ha quitado del historial { $count ->
+    La regla de conservación ha eliminado del historial { $count ->
         [one] 1 imagen
        *[other] { $count } imágenes
     }, { $megabytes } MB
 history-inspecting-again = Inspeccionando de nuevo { $scene }
 history-opening = Abriendo { $scene }
 history-other-version = La receta de { $scene } la escribió otra versión de Partsight
-history-other-version-advice = Pulse Repetir inspección para usar la receta actual
+history-other-version-advice = Pulsar Repetir inspección para usar la receta actual
 history-changed-frame = el archivo o la imagen
 history-changed-recipe = la receta
 history-changed-library = la biblioteca

@@ -1,5 +1,5 @@
 ## Before there is a draft
-enrol-show-part = 展示要录入的零件
+enrol-show-part = 展示要注册的零件
 enrol-capture-replacement = 采集用于替换 { $part } 的零件
 enrol-how = 将零件挂在相机前并按“采集”；也可以打开采集文件、点云或网格，或将文件拖到此处
 enrol-take-shown = 使用“检测”中显示的 { $scene }
@@ -15,7 +15,7 @@ enrol-step-save = 4  保存：之后的检测即可识别它
 enrol-new-part = 新零件
 enrol-replaces = 替换 { $part }
 enrol-previous-draft = 这是上一份草稿：正在准备新的草稿
-enrol-as-new = 改为作为新零件录入
+enrol-as-new = 改为作为新零件注册
 enrol-unready-trouble = 暂时无法保存：见上文
 enrol-unready-title = 请先输入标题
 enrol-unready-name = 请先修正名称
@@ -40,14 +40,14 @@ enrol-reference-of = 作为附加参考归入
 enrol-reference-of-chosen = 作为附加参考归入：{ $part }
 enrol-reference-of-none = 不归入其他零件
 enrol-reference-choice = 参考所属零件：{ $part }
-enrol-reference-of-hint = 已录入零件的另一视图或型号：判定结果显示该零件
+enrol-reference-of-hint = 已注册零件的另一视图或型号：判定结果显示该零件
 enrol-namesake = { $part } 已使用此名称
 enrol-namesake-advice = 保存将替换它；之前的版本可以恢复
 enrol-most-similar = 最相似：{ $part }（相似度 { $percent } %）
 enrol-most-similar-mirrored = 最相似：{ $part }（镜像相似度 { $percent } %）
 enrol-distinguishable = 两者可以区分
 enrol-indistinguishable = 两者无法区分
-enrol-indistinguishable-advice = 检测其中任何一个时得分会非常接近：请替换已录入的零件，或采集两者有差异的一侧
+enrol-indistinguishable-advice = 检测其中任何一个时得分会非常接近：请替换已注册的零件，或采集两者有差异的一侧
 enrol-replace = 替换 { $part }
 enrol-discard = 放弃
 enrol-saving = 正在保存…
@@ -58,10 +58,10 @@ enrol-save = 保存
 enrol-rename = 重命名
 enrol-spray-path = 喷涂路径…
 enrol-remove-path = 移除喷涂路径
-enrol-anew = 重新录入
+enrol-anew = 重新注册
 enrol-remove = 移除
 enrol-close = 关闭
-enrol-origin = { $time } 录入，来源 { $source }，{ $method }
+enrol-origin = { $time } 注册，来源 { $source }，{ $method }
 enrol-origin-points = { $points } 个点
 enrol-origin-simulated = 仿真数据，并非来自相机
 enrol-origin-seen = 由相机采集
@@ -72,16 +72,16 @@ enrol-method-mesh = 网格
 enrol-method-scan = 扫描
 
 ## The strip of enrolled parts
-enrol-enrolled-parts = 已录入零件
+enrol-enrolled-parts = 已注册零件
 enrol-library-loading = 正在加载零件库…
 enrol-num-parts =
     { $count ->
-        [0] 尚未录入零件：保存的第一个零件会显示在此处
-       *[other] 已录入 { $count } 个零件
+        [0] 尚未注册零件：保存的第一个零件会显示在此处
+       *[other] 已注册 { $count } 个零件
     }
 enrol-damaged = 已损坏
 enrol-simulated = 仿真
-enrol-enrolled = 已录入：{ $part }
+enrol-enrolled = 已注册：{ $part }
 enrol-just-renamed = 刚刚重命名
 enrol-just-brought-back = 刚刚恢复
 enrol-just-saved = 刚刚保存
@@ -98,7 +98,7 @@ enrol-drop-box-hint = 在图像中拖出矩形框：框内部分将被去除
 enrol-add-box-hint = 在图像中拖出矩形框：框内的一切都会被选取，包括背景
 enrol-picture-hint = { $box }；单击可选取或去除一个分割区域
 enrol-picture = 保留内容的图像
-enrol-mesh-is-whole = 网格会整体录入：请在生成它的程序中裁剪
+enrol-mesh-is-whole = 网格会整体注册：请在生成它的程序中裁剪
 enrol-undo = 撤销
 enrol-undo-step = 撤销上一步
 enrol-redo = 重做
@@ -143,8 +143,8 @@ enrol-examining-part = 正在分析零件
 enrol-taking-scan = 正在使用当前显示的扫描
 enrol-taking-scene = 正在使用当前显示的场景
 enrol-changing-library = 正在更改零件库
-enrol-unsaved = “录入”中的零件尚未保存
-enrol-unsaved-titled = “录入”中的零件 { $part } 尚未保存
+enrol-unsaved = “注册”中的零件尚未保存
+enrol-unsaved-titled = “注册”中的零件 { $part } 尚未保存
 enrol-nothing-to-save = 还没有可保存的内容
 enrol-nothing-to-save-advice = 请在显示将保存内容的图像后再保存
 enrol-other-program = 打开此零件库之后，另一程序保存了名为 { $name } 的零件

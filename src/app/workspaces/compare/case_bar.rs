@@ -6,6 +6,7 @@ use super::{CompareAction, CompareState, Front, matrix::truth_title};
 use crate::{
     app::{
         inspection::library_cache::LibraryView,
+        language::text,
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -17,9 +18,6 @@ use crate::{
 
 /// A bar wider than this has room for a long remark.
 const WIDE: f32 = 800.0;
-
-/// What is asked while nobody said what the case is.
-const ASKED: &str = "which part is it actually?";
 
 /// Draws the bar.
 pub(super) fn ui(
@@ -40,14 +38,14 @@ pub(super) fn ui(
         truth_menu(ui, compare, session, acts);
     });
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new("against").color(theme.weak_text));
+        ui.label(RichText::new(text!("compare-against")).color(theme.weak_text));
         against_menu(ui, compare, session, acts);
         ui.add_space(space::MEDIUM);
         case_buttons(ui, compare, remark, theme, acts);
     });
 }
 
-fn menu(ui: &mut Ui, title: &str, hover: &str, content: &mut dyn FnMut(&mut Ui)) {
+fn menu(ui: &mut Ui, title: &str, hover: String, content: &mut dyn FnMut(&mut Ui)) {
     ui.menu_button(title, |ui| {
         ui.set_min_width(220.0);
         ScrollArea::vertical().max_height(420.0).show(ui, content);
@@ -66,18 +64,18 @@ fn case_menu(
     let title = match (&compare.front, &session.shown) {
         (Front::Kept(case), _) => case.name.clone(),
         (Front::Scene, Some(shown)) => shown.inspected.origin.title(),
-        (Front::Scene, None) => "none".into(),
+        (Front::Scene, None) => text!("compare-no-case"),
     };
-    let title = format!("Case · {} ▼", shortened(&title, 24));
-    menu(ui, &title, "Which scene is looked at", &mut |ui| {
+    let title = format!("{} · {} ▼", text!("compare-case"), shortened(&title, 24));
+    menu(ui, &title, text!("compare-case-hint"), &mut |ui| {
         if let Some(shown) = &session.shown {
-            let title = format!("{} (in front)", shown.inspected.origin.title());
+            let title = text!("compare-in-front", scene = shown.inspected.origin.title());
             if ui.selectable_label(is_scene, title).clicked() {
                 acts.push(CompareAction::FrontScene);
                 ui.close();
             }
         }
-        ui.label(RichText::new("Kept cases").font(font::heading()));
+        ui.label(RichText::new(text!("compare-kept-cases")).font(font::heading()));
         let cases = compare.cases.as_ref().map(|cases| &*cases.list);
         for case in cases.unwrap_or_default() {
             let is_front = matches!(&compare.front, Front::Kept(front) if front.name == case.name);
@@ -87,7 +85,7 @@ fn case_menu(
             }
         }
         if cases.is_none_or(<[_]>::is_empty) {
-            ui.label("None yet");
+            ui.label(text!("compare-no-cases-listed"));
         }
     });
 }
@@ -96,7 +94,7 @@ fn case_menu(
 fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme) {
     let weak = |text: &str| RichText::new(text).color(theme.weak_text);
     let Some(study) = &compare.study else {
-        ui.label(weak(ASKED));
+        ui.label(weak(&text!("compare-asked")));
         return;
     };
     let found = &study.found;
@@ -106,12 +104,12 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme
             .color(theme.text)
     };
     let (verb, part) = match (&found.part, found.accepted) {
-        (Some(_), true) => ("taken for", study.found_title.as_str()),
-        (Some(_), false) => ("nearest to", study.found_title.as_str()),
-        (None, _) => ("taken for", "nothing"),
+        (Some(_), true) => (text!("compare-taken-for"), study.found_title.clone()),
+        (Some(_), false) => (text!("compare-nearest-to"), study.found_title.clone()),
+        (None, _) => (text!("compare-taken-for"), text!("compare-nothing")),
     };
-    ui.label(weak(verb));
-    ui.label(strong(part));
+    ui.label(weak(&verb));
+    ui.label(strong(&part));
     let judgement = judged(compare);
     // What was refused, rightly or not, does not look accepted.
     let sign = if found.accepted && judgement != Some(CaseOutcome::WrongAccepted) {
@@ -121,15 +119,14 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme
     };
     let (rect, _) = ui.allocate_exact_size(Vec2::splat(18.0), Sense::hover());
     mark(ui.painter(), rect.center(), 8.0, sign, theme);
-    let word = if found.accepted {
-        "accepted"
-    } else {
-        "not accepted"
-    };
-    let asked = match judgement {
-        None => format!("{word} · {ASKED}"),
-        Some(CaseOutcome::Right) => format!("{word}, and it is"),
-        Some(CaseOutcome::WrongAccepted | CaseOutcome::Refused) => format!("{word}, but it is"),
+    let is_wrong = |outcome| matches!(outcome, CaseOutcome::WrongAccepted | CaseOutcome::Refused);
+    let asked = match (found.accepted, judgement.map(is_wrong)) {
+        (true, None) => text!("compare-accepted-asked"),
+        (false, None) => text!("compare-not-accepted-asked"),
+        (true, Some(false)) => text!("compare-accepted-right"),
+        (false, Some(false)) => text!("compare-not-accepted-right"),
+        (true, Some(true)) => text!("compare-accepted-wrong"),
+        (false, Some(true)) => text!("compare-not-accepted-wrong"),
     };
     let word = ui.label(weak(&asked));
     if let Some(refusal) = study.refusal(session.units) {
@@ -148,7 +145,7 @@ pub(super) fn judged(compare: &CompareState) -> Option<CaseOutcome> {
 /// What a truth is called where it is chosen.
 fn chosen_title(truth: &Truth, library: &LibraryView) -> String {
     match truth {
-        Truth::Nothing => "Nothing (empty cell)".into(),
+        Truth::Nothing => text!("compare-truth-nothing"),
         Truth::Part(_) | Truth::NotEnrolled => truth_title(truth, library),
     }
 }
@@ -164,37 +161,32 @@ fn truth_menu(
     };
     let chosen = compare.truth.as_ref();
     let title = chosen.map_or_else(
-        || "Choose… ▼".to_owned(),
+        || format!("{} ▼", text!("compare-choose-truth")),
         |truth| format!("{} ▼", chosen_title(truth, library)),
     );
-    menu(
-        ui,
-        &title,
-        "What actually hung in front of the camera",
-        &mut |ui| {
-            let parts = library.parts.iter();
-            let parts = parts.map(|part| Truth::Part(part.name.as_str().to_owned()));
-            // However many parts there are, what is none of them comes in sight first.
-            let others = [Truth::NotEnrolled, Truth::Nothing];
-            let num_others = others.len();
-            for (place, truth) in others.into_iter().chain(parts).enumerate() {
-                if place == num_others {
-                    ui.separator();
-                }
-                let title = chosen_title(&truth, library);
-                let response = ui.selectable_label(chosen == Some(&truth), &title);
-                // Other lists name the same parts.
-                response.widget_info(|| {
-                    let label = format!("Actual part: {title}");
-                    WidgetInfo::labeled(egui::Role::Button, true, label)
-                });
-                if response.clicked() {
-                    acts.push(CompareAction::SetTruth(truth));
-                    ui.close();
-                }
+    menu(ui, &title, text!("compare-truth-hint"), &mut |ui| {
+        let parts = library.parts.iter();
+        let parts = parts.map(|part| Truth::Part(part.name.as_str().to_owned()));
+        // However many parts there are, what is none of them comes in sight first.
+        let others = [Truth::NotEnrolled, Truth::Nothing];
+        let num_others = others.len();
+        for (place, truth) in others.into_iter().chain(parts).enumerate() {
+            if place == num_others {
+                ui.separator();
             }
-        },
-    );
+            let title = chosen_title(&truth, library);
+            let response = ui.selectable_label(chosen == Some(&truth), &title);
+            // Other lists name the same parts.
+            response.widget_info(|| {
+                let label = text!("compare-actual-part", part = &title);
+                WidgetInfo::labeled(egui::Role::Button, true, label)
+            });
+            if response.clicked() {
+                acts.push(CompareAction::SetTruth(truth));
+                ui.close();
+            }
+        }
+    });
 }
 
 fn against_menu(
@@ -209,11 +201,14 @@ fn against_menu(
     let study = compare.study.as_ref();
     let shown = study.and_then(|study| study.against.as_deref());
     let now = shown.and_then(|part| library.place_of(part));
-    let now = now.map_or("no part", |place| library.title(place));
+    let now = now.map_or_else(
+        || text!("compare-against-none"),
+        |place| library.title(place).to_owned(),
+    );
     let chosen = compare.against.as_deref();
-    let hover = "The enrolled part that the case is compared with";
+    let hover = text!("compare-against-hint");
     menu(ui, &format!("{now} ▼"), hover, &mut |ui| {
-        let follows = ui.selectable_label(chosen.is_none(), "What it is, else the best");
+        let follows = ui.selectable_label(chosen.is_none(), text!("compare-against-follows"));
         if follows.clicked() {
             acts.push(CompareAction::Against(None));
             ui.close();
@@ -223,7 +218,7 @@ fn against_menu(
             let title = part.shown_title();
             let response = ui.selectable_label(chosen == Some(name), title);
             response.widget_info(|| {
-                let label = format!("Against: {title}");
+                let label = text!("compare-against-choice", part = title);
                 WidgetInfo::labeled(egui::Role::Button, true, label)
             });
             if response.clicked() {
@@ -246,58 +241,57 @@ fn case_buttons(
     match &compare.front {
         Front::Scene => {
             let mut remark = compare.remark.clone();
+            let label = text!("compare-remark");
             let edit = TextEdit::singleline(&mut remark)
-                .hint_text("Remark")
+                .hint_text(&label)
                 .desired_width(remark_width)
                 .align(egui::Align2::LEFT_CENTER)
                 .min_size(Vec2::new(0.0, space::TARGET));
             let response = ui.add(edit);
             response.widget_info(|| {
-                let mut info = WidgetInfo::text_edit(true, &compare.remark, &remark, "Remark");
-                info.label = Some("Remark".into());
+                let mut info = WidgetInfo::text_edit(true, &compare.remark, &remark, &label);
+                info.label = Some(label.clone());
                 info
             });
             if response.changed() {
                 acts.push(CompareAction::Remark(remark));
             }
-            let keep = Button::new("Keep case").shortcut_text(key("K").color(theme.weak_text));
+            let label = text!("compare-keep-case");
+            let keep = Button::new(&label).shortcut_text(key("K").color(theme.weak_text));
             let hover = if compare.truth.is_some() {
-                "Keep this scene with its actual part"
+                text!("compare-keep-case-hint")
             } else {
-                "Choose first what it is"
+                text!("compare-keep-case-first")
             };
-            if labelled(ui, keep, "Keep case")
-                .on_hover_text(hover)
-                .clicked()
-            {
+            if labelled(ui, keep, &label).on_hover_text(hover).clicked() {
                 acts.push(CompareAction::Keep);
             }
         }
         Front::Kept(case) => {
             let remark = match case.meta.about.remark.as_str() {
-                "" => "Kept case".to_owned(),
+                "" => text!("compare-kept-case"),
                 remark => shortened(remark, 40),
             };
             ui.label(RichText::new(remark).color(theme.weak_text));
-            if labelled(ui, Button::new("Remove case"), "Remove case").clicked() {
+            let label = text!("compare-remove-case");
+            if labelled(ui, Button::new(&label), &label).clicked() {
                 acts.push(CompareAction::Remove(case.name.clone()));
             }
         }
     }
-    let run = RichText::new("Run all cases").font(font::body_strong());
+    let label = text!("compare-run-all");
+    let run = RichText::new(&label).font(font::body_strong());
     let run = Button::new(run.color(theme.on_accent))
         .shortcut_text(key("Ctrl R").color(theme.on_accent))
         .fill(theme.accent);
-    let run = labelled(ui, run, "Run all cases");
-    if run
-        .on_hover_text("Inspect every kept case with the recipe on the right")
-        .clicked()
-    {
+    let run = labelled(ui, run, &label);
+    if run.on_hover_text(text!("compare-run-all-hint")).clicked() {
         acts.push(CompareAction::RunAll);
     }
     if let Some(undo) = &compare.undo {
-        let button = Button::new(undo.title()).shortcut_text(key("Ctrl Z").color(theme.weak_text));
-        if labelled(ui, button, undo.title()).clicked() {
+        let title = undo.title();
+        let button = Button::new(&title).shortcut_text(key("Ctrl Z").color(theme.weak_text));
+        if labelled(ui, button, &title).clicked() {
             acts.push(CompareAction::Undo);
         }
     }

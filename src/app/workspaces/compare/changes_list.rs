@@ -6,6 +6,7 @@ use super::{CompareAction, RunChanges, kept_cases::case_row, matrix::part_title}
 use crate::{
     app::{
         inspection::library_cache::LibraryView,
+        language::text,
         ui::theme::{Theme, font},
     },
     cases::{CaseChange, CaseOutcome, FoundVerdict},
@@ -22,36 +23,37 @@ pub(super) fn ui(
     let RunChanges { file, changes } = changes;
     ui.horizontal_wrapped(|ui| {
         let worse = match changes.regressions.len() {
-            0 => RichText::new("none worse").color(theme.accepted),
-            num => RichText::new(format!("{num} worse")).color(theme.rejected),
+            0 => theme.accepted,
+            _ => theme.rejected,
         };
+        let num_worse = text!("compare-num-worse", count = changes.regressions.len());
+        let worse = RichText::new(num_worse).color(worse);
         ui.label(worse.font(font::body_strong()));
         let mut rest = vec![
-            format!("{} better", changes.mends.len()),
-            format!("{} with another score", changes.rescored.len()),
-            format!("{} cases of both", changes.num_common),
+            text!("compare-num-better", count = changes.mends.len()),
+            text!("compare-num-rescored", count = changes.rescored.len()),
+            text!("compare-num-common", count = changes.num_common),
         ];
-        for (num, words) in [
-            (changes.added.len(), "new"),
-            (changes.gone.len(), "gone or damaged"),
-        ] {
-            if num > 0 {
-                rest.push(format!("{num} {words}"));
-            }
+        if !changes.added.is_empty() {
+            rest.push(text!("compare-num-new", count = changes.added.len()));
         }
-        let text = format!("· {} · against {file}", rest.join(" · "));
+        if !changes.gone.is_empty() {
+            rest.push(text!("compare-num-gone", count = changes.gone.len()));
+        }
+        rest.push(text!("compare-against-file", file = file));
+        let text = format!("· {}", rest.join(" · "));
         ui.label(RichText::new(text).color(theme.text));
     });
-    let rows: Vec<(&str, &CaseChange)> = [
-        ("worse", &changes.regressions),
-        ("better", &changes.mends),
-        ("score", &changes.rescored),
+    let rows: Vec<(String, &CaseChange)> = [
+        (text!("compare-worse"), &changes.regressions),
+        (text!("compare-better"), &changes.mends),
+        (text!("compare-rescored"), &changes.rescored),
     ]
     .into_iter()
-    .flat_map(|(word, list)| list.iter().map(move |change| (word, change)))
+    .flat_map(|(word, list)| list.iter().map(move |change| (word.clone(), change)))
     .collect();
     if rows.is_empty() {
-        let text = "Every case of both runs came out as before";
+        let text = text!("compare-no-changes");
         ui.label(RichText::new(text).color(theme.weak_text));
     }
     ScrollArea::vertical()
@@ -59,7 +61,7 @@ pub(super) fn ui(
         .auto_shrink(false)
         .show(ui, |ui| {
             for (word, change) in rows {
-                case_row(ui, &change.name, &words(word, change, shown), theme, acts);
+                case_row(ui, &change.name, &words(&word, change, shown), theme, acts);
             }
         });
 }
@@ -68,17 +70,37 @@ pub(super) fn ui(
 fn words(word: &str, change: &CaseChange, shown: &LibraryView) -> String {
     let found = |found: &FoundVerdict| match (&found.part, found.score) {
         (Some(part), Some(score)) => format!("{} {score:.2}", part_title(part, shown)),
-        _ => "nothing".into(),
+        _ => text!("compare-nothing"),
     };
     let before = found(&change.before);
     let now = match change.now.score {
         Some(score) if change.before.part == change.now.part => format!("{score:.2}"),
         _ => found(&change.now),
     };
-    let [was, is] = change.judgements.map(CaseOutcome::words);
+    let [was, is] = change.judgements.map(outcome);
     if was == is {
-        format!("{word}: {before} → {now}")
+        text!(
+            "compare-change-same",
+            change = word,
+            before = before,
+            now = now
+        )
     } else {
-        format!("{word}: {is}, was {was} · {before} → {now}")
+        text!(
+            "compare-change",
+            change = word,
+            is = is,
+            was = was,
+            before = before,
+            now = now,
+        )
+    }
+}
+
+fn outcome(outcome: CaseOutcome) -> String {
+    match outcome {
+        CaseOutcome::Right => text!("compare-outcome-right"),
+        CaseOutcome::Refused => text!("compare-outcome-refused"),
+        CaseOutcome::WrongAccepted => text!("compare-outcome-false-accept"),
     }
 }

@@ -85,19 +85,28 @@ pub struct Trace {
     pub reference: Vec<f32>,
 }
 
+/// What is correlated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Correlated {
+    /// Rays, m²; a lag counts rays.
+    Rays,
+    /// L, px²; a lag counts pixels of the contour.
+    Lengths,
+    /// Θ, rad²; a lag counts pixels of the contour.
+    Angles,
+}
+
 /// A (the part with itself) and C (the part with the scene).
 #[derive(Debug)]
 pub struct Correlation {
-    /// What is correlated, with the unit of the values.
-    pub name: &'static str,
+    /// What is correlated.
+    pub of: Correlated,
     /// A per lag.
     pub auto: Vec<f32>,
     /// C per lag.
     pub cross: Vec<f32>,
     /// The lag that the first value stands at.
     pub first_lag: i64,
-    /// What a lag counts.
-    pub steps: &'static str,
     /// ‖A − C‖₁ of these two.
     pub l1: f64,
 }
@@ -187,12 +196,7 @@ impl Trace {
 }
 
 impl Correlation {
-    fn new(
-        name: &'static str,
-        auto: &[f64],
-        cross: &[f64],
-        (first_lag, steps): (i64, &'static str),
-    ) -> Self {
+    fn new(of: Correlated, auto: &[f64], cross: &[f64], first_lag: i64) -> Self {
         let num = auto.len().max(cross.len());
         let at = |values: &[f64], i: usize| values.get(i).copied().unwrap_or(0.0);
         // Eq. (11), the shorter padded with zeros (Note 1).
@@ -201,11 +205,10 @@ impl Correlation {
             |values: &[f64]| -> Vec<f32> { (0..num).map(|i| at(values, i) as f32).collect() };
         let (auto, cross) = (narrow(auto), narrow(cross));
         Self {
-            name,
+            of,
             auto,
             cross,
             first_lag,
-            steps,
             l1,
         }
     }
@@ -256,14 +259,13 @@ fn of_rays(
     };
     let auto = around(part.clone(), 0);
     let cross = around(RaySpectra::of([&scene.rays[..]]), placement.lag % num);
-    let name = "Rays, m²";
     (
         traces,
         vec![Correlation::new(
-            name,
+            Correlated::Rays,
             &auto,
             &cross,
-            (-(half as i64), "rays"),
+            -(half as i64),
         )],
     )
 }
@@ -275,19 +277,19 @@ fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Corr
     let own = SignatureCurves::of(&scene.lengths, &scene.angles);
     let other = SignatureCurves::of(&part.signature.lengths, &part.signature.angles);
     let first_lag = 1 - part.signature.lengths.len() as i64;
-    let correlated = |name, auto: &[f64], of_part: &[f64], of_scene: &[f64]| {
+    let correlated = |of, auto: &[f64], of_part: &[f64], of_scene: &[f64]| {
         let cross = linear_correlation(of_part, of_scene);
-        Correlation::new(name, auto, &cross, (first_lag, "pixels"))
+        Correlation::new(of, auto, &cross, first_lag)
     };
     let correlations = vec![
         correlated(
-            "L, px²",
+            Correlated::Lengths,
             &part.lengths_auto,
             &part.signature.lengths,
             &scene.lengths,
         ),
         correlated(
-            "Θ, rad²",
+            Correlated::Angles,
             &part.angles_auto,
             &part.signature.angles,
             &scene.angles,

@@ -9,6 +9,7 @@ use super::{
 use crate::{
     app::{
         inspection::unit_system::UnitSystem,
+        language::text,
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
@@ -38,7 +39,7 @@ pub(super) fn ui(
     }
     ui.spacing_mut().item_spacing.y = 2.0;
     ui.label(
-        RichText::new("Distance per part")
+        RichText::new(text!("compare-distances"))
             .font(font::body_strong())
             .color(theme.text),
     );
@@ -47,27 +48,25 @@ pub(super) fn ui(
         .as_ref()
         .filter(|study| !study.distances.is_empty())
     else {
-        ui.label(RichText::new("Needs an outline").color(theme.weak_text));
+        ui.label(RichText::new(text!("compare-distances-none")).color(theme.weak_text));
         return;
     };
     ui.spacing_mut().interact_size.y = 0.0;
     ui.vertical(|ui| {
         let chosen = study.recipe.rank.matcher;
         let small = |text: &str, colour| RichText::new(text).font(font::small()).color(colour);
-        let with_sign = |name: &str, matcher| {
+        let with_sign = |name: String, matcher| {
             if matcher == chosen {
-                format!("{name} (in use)")
+                text!("compare-distance-in-use", name = name)
             } else {
-                name.to_owned()
+                name
             }
         };
-        let default = with_sign("default: outlines apart", Matcher::Default);
+        let default = with_sign(text!("compare-distance-default"), Matcher::Default);
         ui.label(small(&default, theme.first_series));
-        let paper = with_sign("paper: ‖A − C‖₁, px² + rad²", Matcher::Paper);
+        let paper = with_sign(text!("compare-distance-paper"), Matcher::Paper);
         let paper = ui.label(small(&paper, theme.second_series));
-        paper.on_hover_text(
-            "The paper's own figure (eq. 11): the differences of the lengths' correlations, in squared pixels, and of the angles', in squared radians, added up",
-        );
+        paper.on_hover_text(text!("compare-distance-paper-hint"));
     });
     ScrollArea::vertical()
         .id_salt("distances")
@@ -101,7 +100,11 @@ fn row(
         .map_or("–".to_owned(), |metres| units.length(metres));
     let figures = format!("{outline} · {:.2e}", distance.paper);
     response.widget_info(|| {
-        let label = format!("Compare with {}: {figures}", distance.title);
+        let label = text!(
+            "compare-compare-with",
+            part = &distance.title,
+            figures = &figures
+        );
         WidgetInfo::selected(egui::Role::Button, true, is_against, label)
     });
     let painter = ui.painter_at(rect);
@@ -148,9 +151,11 @@ fn row(
         painter.rect_filled(Rect::from_min_size(track.min, filled), 2.0, colour);
     }
     focus_ring(ui, rect, &response, theme);
-    let hover = format!(
-        "Outlines apart {outline} (default) · ‖A − C‖₁ {:.4e} px² + rad² (paper) · score in the end {:.2}",
-        distance.paper, distance.score
+    let hover = text!(
+        "compare-distance-hint",
+        outline = outline,
+        paper = format!("{:.4e}", distance.paper),
+        score = format!("{:.2}", distance.score),
     );
     response.on_hover_text(hover).clicked()
 }

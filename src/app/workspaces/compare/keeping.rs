@@ -10,7 +10,10 @@ use super::{
     work::CaseChange,
 };
 use crate::{
-    app::shell::{context::ShellContext, notice::Notice},
+    app::{
+        language::text,
+        shell::{context::ShellContext, notice::Notice},
+    },
     cases::CaseDescription,
 };
 
@@ -20,20 +23,20 @@ impl CompareState {
         let study = self.study.as_ref().filter(|_| !self.is_study_old());
         let Some(study) = study else {
             return cx.notify(Notice::look(
-                "There is no case to keep yet",
-                "Capture or open a scene, and wait until it is inspected",
+                text!("compare-nothing-to-keep"),
+                text!("compare-nothing-to-keep-advice"),
             ));
         };
         if matches!(self.front, Front::Kept(_)) {
             return cx.notify(Notice::look(
-                "This case is kept already",
-                "Capture or open another scene",
+                text!("compare-kept-already"),
+                text!("compare-kept-already-advice"),
             ));
         }
         let Some(truth) = self.truth.clone() else {
             return cx.notify(Notice::look(
-                "A case without a truth teaches nothing",
-                "Choose first what it is",
+                text!("compare-no-truth"),
+                text!("compare-keep-case-first"),
             ));
         };
         let about = CaseDescription {
@@ -50,6 +53,6 @@ impl CompareState {
             scene: Arc::clone(&study.scene),
             about: Box::new(about),
         };
-        self.change_cases("Keeping the case", change);
+        self.change_cases(text!("compare-keeping-case"), change);
     }
 }

@@ -14,6 +14,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
@@ -44,16 +45,18 @@ pub(super) fn ui(
     let cases = compare.cases.as_ref().map(|cases| &*cases.list);
     let Some(cases) = cases.filter(|cases| !cases.is_empty()) else {
         let text = match (cases, compare.folder.as_deref()) {
-            (None, _) => "Looking for kept cases".to_owned(),
-            (Some(_), Some(folder)) => format!("No kept cases in {}", folder.display()),
-            (Some(_), None) => "No kept cases yet".into(),
+            (None, _) => text!("compare-looking"),
+            (Some(_), Some(folder)) => {
+                text!("compare-no-cases-in", folder = folder.display().to_string())
+            }
+            (Some(_), None) => text!("compare-no-cases"),
         };
         ui.label(
             RichText::new(text)
                 .font(font::verdict())
                 .color(theme.weak_text),
         );
-        let what = "Capture a scene, choose what it is and press Keep case; kept cases show what another recipe gains and what it breaks";
+        let what = text!("compare-no-cases-advice");
         ui.label(RichText::new(what).color(theme.weak_text));
         return;
     };
@@ -114,35 +117,40 @@ fn header(
 ) {
     ui.horizontal(|ui| {
         ui.label(
-            RichText::new("All kept cases")
+            RichText::new(text!("compare-all-cases"))
                 .font(font::body_strong())
                 .color(theme.text),
         );
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let folder = compare.cases.as_ref().map(|cases| cases.folder.path());
             let hover = folder.map_or_else(String::new, |path| path.display().to_string());
-            let button = labelled(ui, Button::new("Folder…"), "Folder of cases…");
+            let label = text!("compare-folder-of-cases");
+            let button = labelled(ui, Button::new(text!("compare-folder")), &label);
             if button.on_hover_text(hover).clicked() {
                 acts.push(CompareAction::Ask(CompareFile::Cases));
             }
             let is_matrix = compare.cell.is_none() && compare.changes.is_none();
-            if !is_matrix && labelled(ui, Button::new("Back to matrix"), "Back to matrix").clicked()
-            {
-                acts.push(CompareAction::ShowCell(None));
+            if !is_matrix {
+                let back = text!("compare-back");
+                if labelled(ui, Button::new(&back), &back).clicked() {
+                    acts.push(CompareAction::ShowCell(None));
+                }
             }
             if let Some(run) = &compare.run
                 && let Some(ended) = run.ended
                 && is_matrix
             {
-                let name = "Compare with an earlier run…";
-                let button = labelled(ui, Button::new("Earlier run…"), name);
-                let hover =
-                    "Compare with what partsight evaluate --json has written of an earlier run";
-                if button.on_hover_text(hover).clicked() {
+                let label = text!("compare-earlier-label");
+                let button = labelled(ui, Button::new(text!("compare-earlier")), &label);
+                if button
+                    .on_hover_text(text!("compare-earlier-hint"))
+                    .clicked()
+                {
                     acts.push(CompareAction::Ask(CompareFile::EarlierRun));
                 }
                 let at = ended.to_zoned(jiff::tz::TimeZone::system());
-                let at = format!("ran at {}", at.strftime("%H:%M"));
+                let time = at.strftime("%H:%M").to_string();
+                let at = text!("compare-ran-at", time = time);
                 ui.label(RichText::new(at).font(font::small()).color(theme.weak_text));
             }
         });
@@ -154,36 +162,34 @@ fn header(
     ui.horizontal_wrapped(|ui| {
         let tally = &run.matrix.tally;
         // The worst is said first.
-        let wrong = match tally.wrong_accepted {
-            0 => RichText::new("no false accepts").color(theme.accepted),
-            1 => RichText::new("1 false accept").color(theme.rejected),
-            num => RichText::new(format!("{num} false accepts")).color(theme.rejected),
+        let colour = match tally.wrong_accepted {
+            0 => theme.accepted,
+            _ => theme.rejected,
         };
+        let wrong = text!("compare-false-accepts", count = tally.wrong_accepted);
+        let wrong = RichText::new(wrong).color(colour);
         ui.label(wrong.font(font::body_strong()));
-        let refused = match tally.refused {
-            0 => "none".to_owned(),
-            num => num.to_string(),
-        };
-        let rest = format!(
-            "· {} of {} right · {refused} wrongly refused",
-            tally.right, tally.total
-        );
-        let mut rest = vec![rest];
+        let mut rest = vec![text!(
+            "compare-tally",
+            right = tally.right,
+            total = tally.total,
+            refused = tally.refused,
+        )];
         if !run.troubles.is_empty() {
-            rest.push(format!("{} damaged", run.troubles.len()));
+            rest.push(text!("compare-num-damaged", count = run.troubles.len()));
         }
-        let done = run.results.len() + run.troubles.len();
+        let (done, total) = (run.results.len() + run.troubles.len(), run.total);
         if run.ended.is_none() {
-            let verb = if compare.is_running_cases() {
-                "running"
+            rest.push(if compare.is_running_cases() {
+                text!("compare-run-running", done = done, total = total)
             } else {
-                "stopped"
-            };
-            rest.push(format!("{verb}, {done} of {} done", run.total));
+                text!("compare-run-stopped", done = done, total = total)
+            });
         }
-        ui.label(RichText::new(rest.join(" · ")).color(theme.text));
+        let rest = format!("· {}", rest.join(" · "));
+        ui.label(RichText::new(rest).color(theme.text));
         if *run.recipe != **compare.tried_recipe(session) {
-            let text = "· with another recipe";
+            let text = format!("· {}", text!("compare-other-recipe"));
             ui.label(RichText::new(text).color(theme.warning));
         }
     });
@@ -200,9 +206,9 @@ fn list(
     acts: &mut Vec<CompareAction>,
 ) {
     let hint = if compare.is_running_cases() {
-        "Running"
+        text!("compare-running")
     } else {
-        "Run all cases (Ctrl R) shows what each is taken for now"
+        text!("compare-run-hint")
     };
     ui.label(RichText::new(hint).color(theme.weak_text));
     let height = space::TARGET;
@@ -215,10 +221,8 @@ fn list(
                 let truth = session.library.as_ref();
                 let truth =
                     truth.map_or_else(String::new, |shown| truth_title(&about.truth, shown));
-                let what = format!(
-                    "it is: {truth}{}",
-                    difficulty_words(about.difficulty.as_deref())
-                );
+                let what = text!("compare-it-is", part = truth)
+                    + &difficulty_words(about.difficulty.as_deref());
                 case_row(ui, &case.name, &what, theme, acts);
             }
         });
@@ -239,8 +243,13 @@ fn of_cell(
     let (truth, answer) = &cell.cell;
     let (truth, num) = (truth_title(truth, shown), cell.results.len());
     let text = match answer {
-        CaseAnswer::Part(part) => format!("{truth} taken for {}: {num}", part_title(part, shown)),
-        CaseAnswer::NotAccepted => format!("{truth}, not accepted: {num}"),
+        CaseAnswer::Part(part) => text!(
+            "compare-cell-taken-for",
+            truth = truth,
+            part = part_title(part, shown),
+            count = num,
+        ),
+        CaseAnswer::NotAccepted => text!("compare-cell-not-accepted", truth = truth, count = num),
     };
     ui.label(RichText::new(text).color(theme.weak_text));
     for result in cell
@@ -278,11 +287,16 @@ pub(super) fn case_row(
         let text = RichText::new(shortened(name, 34)).font(font::body_strong());
         let size = vec2(190.0, space::TARGET);
         let open = ui.add(Button::new(text).min_size(size));
-        open.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, format!("Open {name}")));
-        if open.on_hover_text("Bring this case to the front").clicked() {
+        let label = text!("compare-open-case", name = name);
+        open.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
+        if open
+            .on_hover_text(text!("compare-open-case-hint"))
+            .clicked()
+        {
             acts.push(CompareAction::OpenCase(name.to_owned()));
         }
-        let remove = labelled(ui, Button::new("Remove"), &format!("Remove {name}"));
+        let label = text!("compare-remove-named", name = name);
+        let remove = labelled(ui, Button::new(text!("compare-remove")), &label);
         if remove.clicked() {
             acts.push(CompareAction::Remove(name.to_owned()));
         }
@@ -342,14 +356,24 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAct
         let (truth, answer) = (name(&matrix.rows, row), name(&matrix.columns, column));
         let num = cell.results.len();
         let (colour, word) = match cell.judgement {
-            CaseOutcome::Right => (theme.accepted, "right"),
-            CaseOutcome::WrongAccepted => (theme.rejected, "false accept"),
-            CaseOutcome::Refused => (theme.warning, "wrongly refused"),
+            CaseOutcome::Right => (theme.accepted, text!("compare-cell-right")),
+            CaseOutcome::WrongAccepted => (theme.rejected, text!("compare-cell-false-accept")),
+            CaseOutcome::Refused => (theme.warning, text!("compare-cell-refused")),
         };
         let label = match &cell.cell.1 {
-            CaseAnswer::Part(_) => format!("{truth} taken for {answer}: {num}, {word}"),
-            CaseAnswer::NotAccepted => format!("{truth}, not accepted: {num}, {word}"),
+            CaseAnswer::Part(_) => {
+                text!(
+                    "compare-cell-taken-for",
+                    truth = truth,
+                    part = answer,
+                    count = num
+                )
+            }
+            CaseAnswer::NotAccepted => {
+                text!("compare-cell-not-accepted", truth = truth, count = num)
+            }
         };
+        let label = format!("{label}, {word}");
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
         painter.rect_filled(rect, ROUNDING, colour.gamma_multiply(0.28));
         let stroke = Stroke::new(if response.hovered() { 2.0 } else { 1.0 }, colour);
@@ -373,7 +397,7 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAct
             acts.push(CompareAction::ShowCell(Some(cell.cell.clone())));
         }
     }
-    let text = "Rows: what it is · columns: what it was accepted as · a cell opens its cases";
+    let text = text!("compare-matrix-hint");
     ui.add_space(space::SMALL);
     ui.label(
         RichText::new(text)

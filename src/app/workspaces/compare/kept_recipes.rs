@@ -5,6 +5,7 @@ use std::{collections::VecDeque, path::PathBuf, sync::Arc};
 use crate::{
     app::{
         inspection::folder_watch::FolderWatch,
+        language::text,
         shell::context::ShellContext,
         task::{Task, TaskRunner},
         user_error::UserError,
@@ -172,9 +173,10 @@ impl KeptRecipes {
             && let Some(change) = self.waiting.pop_front()
         {
             let folder = folder.clone();
-            self.task.start("Changing recipes", move |_| {
-                carry_out(&folder, change).map_err(|error| UserError::of(&error).into())
-            });
+            self.task
+                .start(text!("compare-changing-recipes"), move |_| {
+                    carry_out(&folder, change).map_err(|error| UserError::of(&error).into())
+                });
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The confusion matrix as it is drawn: names for people, counts and judgements, prepared once.
 
 use crate::{
-    app::inspection::library_cache::LibraryView,
+    app::{inspection::library_cache::LibraryView, language::text},
     cases::{CaseAnswer, CaseOutcome, Cell, Confusion, Tally, Truth},
 };
 
@@ -71,8 +71,8 @@ impl Matrix {
 pub fn truth_title(truth: &Truth, shown: &LibraryView) -> String {
     match truth {
         Truth::Part(name) => part_title(name, shown),
-        Truth::NotEnrolled => "Not enrolled".into(),
-        Truth::Nothing => "Empty cell".into(),
+        Truth::NotEnrolled => text!("compare-not-enrolled"),
+        Truth::Nothing => text!("compare-empty-cell"),
     }
 }
 
@@ -80,7 +80,7 @@ pub fn truth_title(truth: &Truth, shown: &LibraryView) -> String {
 pub fn answer_title(answer: &CaseAnswer, shown: &LibraryView) -> String {
     match answer {
         CaseAnswer::Part(name) => part_title(name, shown),
-        CaseAnswer::NotAccepted => "Not accepted".into(),
+        CaseAnswer::NotAccepted => text!("compare-not-accepted"),
     }
 }
 

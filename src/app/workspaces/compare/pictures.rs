@@ -7,11 +7,12 @@ use egui_plot::FilledArea;
 
 use super::{
     CompareState,
-    comparison::{AxisQuantity, Correlation, OutlineComparison},
+    comparison::{AxisQuantity, Correlated, Correlation, OutlineComparison},
 };
 use crate::{
     app::{
         inspection::unit_system::UnitSystem,
+        language::text,
         shell::session::Session,
         ui::{
             plot::{Axes, Axis, RayCurves, curve, range_of},
@@ -47,14 +48,14 @@ pub(super) fn ui(
         };
         let units = session.units;
         let outlines = outline_captions(comparison, units);
-        let picture = Picture::new(ui, rects[0], theme, "Contours at the best lag", &outlines);
+        let picture = Picture::new(ui, rects[0], theme, &text!("compare-contours"), &outlines);
         picture.overlay(comparison, theme);
-        let name = "Signatures";
+        let name = text!("compare-signatures");
         let caption = match comparison.matcher {
-            Matcher::Default => "query and part, part shifted by the lag",
-            Matcher::Paper => "as the paper writes them: no lag, Θ folded",
+            Matcher::Default => text!("compare-signatures-default"),
+            Matcher::Paper => text!("compare-signatures-paper"),
         };
-        let picture = Picture::new(ui, rects[1], theme, name, caption);
+        let picture = Picture::new(ui, rects[1], theme, &name, &caption);
         for (trace, area) in comparison.traces.iter().zip(rows(picture.inner, 2)) {
             let unit = match trace.measure {
                 AxisQuantity::Length => units.length_axis(),
@@ -69,22 +70,20 @@ pub(super) fn ui(
             };
             curves.show(ui, area, theme);
         }
-        let name = "Auto- and cross-correlation";
+        let name = text!("compare-correlations");
+        let share = format!("{:.2}", comparison.relative_l1);
         let caption = match comparison.matcher {
-            Matcher::Default => {
-                let share = comparison.relative_l1;
-                format!("default: finds the lag · ‖A − C‖₁ {share:.2} of ‖A‖₁ · axis not from 0")
-            }
+            Matcher::Default => text!("compare-correlations-default", share = share),
             Matcher::Paper => {
-                let (l1, share) = (comparison.l1, comparison.relative_l1);
-                format!("paper: ‖A − C‖₁ {l1:.3e} px² + rad² · {share:.2} of ‖A‖₁")
+                let value = format!("{:.3e}", comparison.l1);
+                text!("compare-correlations-paper", value = value, share = share)
             }
         };
-        let picture = Picture::new(ui, rects[2], theme, name, &caption);
+        let picture = Picture::new(ui, rects[2], theme, &name, &caption);
         let all = &comparison.correlations;
         if all.is_empty() {
-            let at = picture.inner.center();
-            picture.text(at, Align2::CENTER_CENTER, "no lag found", theme.weak_text);
+            let (at, text) = (picture.inner.center(), text!("compare-no-lag"));
+            picture.text(at, Align2::CENTER_CENTER, &text, theme.weak_text);
         }
         for (one, area) in all.iter().zip(rows(picture.inner, all.len())) {
             correlation(ui, one, area, theme);
@@ -94,14 +93,14 @@ pub(super) fn ui(
 
 fn outline_captions(comparison: &OutlineComparison, units: UnitSystem) -> String {
     comparison.overlay.as_ref().map_or_else(
-        || "no lag found".into(),
+        || text!("compare-no-lag"),
         |overlay| {
-            format!(
-                "lag {} of {} · turned {} · {} apart",
-                overlay.lag,
-                overlay.num_rays,
-                angle(overlay.turn, units),
-                units.length(overlay.distance)
+            text!(
+                "compare-overlay",
+                lag = overlay.lag,
+                rays = overlay.num_rays,
+                angle = angle(overlay.turn, units),
+                distance = units.length(overlay.distance),
             )
         },
     )
@@ -118,12 +117,15 @@ fn angle(radians: f64, units: UnitSystem) -> String {
 fn empty(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState, theme: &Theme) {
     let text = match (&compare.study, compare.running()) {
         (Some(study), _) => {
-            let reason = study.found.reason.as_deref().unwrap_or("no outline");
-            format!("There is no outline to compare: {reason}\n{}", study.advice)
+            let reason = study.found.reason.clone();
+            let reason = reason.unwrap_or_else(|| text!("compare-no-outline-reason"));
+            let what = text!("compare-no-outline", reason = reason);
+            format!("{what}\n{}", study.advice)
         }
         (None, Some(running)) => format!("{}…", running.title),
         (None, None) => {
-            "Nothing to compare yet\nCapture a scene (Space), open one, or open a kept case".into()
+            let what = text!("compare-nothing-to-compare");
+            format!("{what}\n{}", text!("compare-nothing-to-compare-advice"))
         }
     };
     let rect = rects[0].union(rects[2]);
@@ -192,7 +194,7 @@ impl Picture {
     fn overlay(&self, comparison: &OutlineComparison, theme: &Theme) {
         let part = format!("- - {}", comparison.title);
         self.legend(&[
-            ("— query", theme.first_series),
+            (&text!("compare-legend-query"), theme.first_series),
             (&part, theme.reference_series),
         ]);
         let Some(overlay) = &comparison.overlay else {
@@ -242,22 +244,28 @@ fn correlation(ui: &mut Ui, correlation: &Correlation, area: Rect, theme: &Theme
     let first = correlation.first_lag as f64;
     let per_value = -2.0 * first / last;
     let lag_of = move |place: f64| (first + place * per_value).round();
+    let (name, middle) = match correlation.of {
+        Correlated::Rays => (text!("compare-rays"), text!("compare-lag-zero-rays")),
+        Correlated::Lengths => ("L, px²".to_owned(), text!("compare-lag-zero-pixels")),
+        Correlated::Angles => ("Θ, rad²".to_owned(), text!("compare-lag-zero-pixels")),
+    };
     let marks = vec![
         (0.0, first.to_string()),
-        (last / 2.0, format!("lag 0, in {}", correlation.steps)),
+        (last / 2.0, middle),
         (last, lag_of(last).to_string()),
     ];
     let read = move |x: f64| {
         let place = x.round().clamp(0.0, last);
         let value = |values: &[f32]| values.get(place as usize).copied().unwrap_or_default();
-        let (lag, a, c) = (lag_of(place), value(auto), value(cross));
-        format!("lag {lag}: A {a:.decimals$}, C {c:.decimals$}")
+        let [auto, cross] = [auto, cross].map(|values| format!("{:.decimals$}", value(values)));
+        let lag = lag_of(place).to_string();
+        text!("compare-lag-read", lag = lag, auto = auto, cross = cross)
     };
     let axes = Axes {
         title: vec![
-            (format!("{}:  ", correlation.name), theme.weak_text),
-            ("A: itself  ".into(), theme.reference_series),
-            ("C: query".into(), theme.first_series),
+            (format!("{name}:  "), theme.weak_text),
+            (text!("compare-auto") + "  ", theme.reference_series),
+            (text!("compare-cross"), theme.first_series),
         ],
         across: Axis::new([0.0, last], marks),
         up: Axis::new(range, range.map(|value| (value, text(value))).to_vec()),

@@ -1,6 +1,6 @@
 //! The name of the recipe on trial, what can be done with kept recipes, and what differs from the defaults.
 
-use egui::{Button, Key, RichText, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Button, Color32, Key, RichText, ScrollArea, TextEdit, TextStyle, Ui, WidgetInfo, vec2};
 
 use super::{
     CompareAction, CompareFile, CompareState,
@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -18,7 +19,7 @@ use crate::{
     error::Advice as _,
     library::PartName,
     pipeline::{
-        BUILT_IN, Recipe,
+        BUILT_IN, Recipe, RecipeLabel,
         parameters::{changed, num_changed},
     },
 };
@@ -36,7 +37,7 @@ pub(super) fn ui(
 ) {
     ui.horizontal(|ui| {
         ui.label(
-            RichText::new("Recipe")
+            RichText::new(text!("compare-recipe"))
                 .font(font::verdict())
                 .color(theme.text),
         );
@@ -60,21 +61,23 @@ fn menu(
     let name = shortened(&label.name, MAX_LETTERS);
     let mut text = RichText::new(format!("{name} ▼"));
     if label.is_changed {
-        text = RichText::new(format!("{name} (modified) ▼")).color(theme.accent);
+        let name = text!("compare-recipe-modified", name = name);
+        text = RichText::new(format!("{name} ▼")).color(theme.accent);
     }
-    let full = format!("Recipe {label}");
+    let full = text!("compare-recipe-named", recipe = title_of(label));
     let list = &compare.recipes.list;
     let response = ui
         .menu_button(text, |ui| {
-            let names = std::iter::once((BUILT_IN, "Every parameter at its default"));
+            let built_in = text!("compare-built-in-hint");
+            let names = std::iter::once((BUILT_IN, built_in.as_str()));
             let kept = list.recipes.iter();
             for (name, notes) in
                 names.chain(kept.map(|file| (file.name.as_str(), file.notes.as_str())))
             {
                 let default = if list.default == name {
-                    " · default"
+                    format!(" · {}", text!("compare-is-default"))
                 } else {
-                    ""
+                    String::new()
                 };
                 let text = format!("{}{default}", shortened(name, 32));
                 let entry = ui.selectable_label(label.name == name, text);
@@ -93,17 +96,29 @@ fn menu(
             let is_kept = compare.recipes.has(&label.name);
             let is_default = list.default == label.name;
             for (text, can, action) in [
-                ("Save", label.is_changed && !is_own, RecipeAction::Save),
-                ("Save as…", true, RecipeAction::Name(NamingPurpose::SaveAs)),
-                ("Duplicate", true, RecipeAction::Duplicate),
                 (
-                    "Rename…",
+                    text!("compare-save"),
+                    label.is_changed && !is_own,
+                    RecipeAction::Save,
+                ),
+                (
+                    text!("compare-save-as"),
+                    true,
+                    RecipeAction::Name(NamingPurpose::SaveAs),
+                ),
+                (text!("compare-duplicate"), true, RecipeAction::Duplicate),
+                (
+                    text!("compare-rename"),
                     is_kept && !is_own,
                     RecipeAction::Name(NamingPurpose::Rename),
                 ),
-                ("Delete", is_kept && !is_own, RecipeAction::Delete),
                 (
-                    "Set as default",
+                    text!("compare-delete"),
+                    is_kept && !is_own,
+                    RecipeAction::Delete,
+                ),
+                (
+                    text!("compare-set-default"),
                     is_kept && !is_default,
                     RecipeAction::MakeDefault,
                 ),
@@ -115,8 +130,8 @@ fn menu(
             }
             ui.separator();
             for (text, file) in [
-                ("Import…", CompareFile::ImportRecipe),
-                ("Export…", CompareFile::ExportRecipe),
+                (text!("compare-import"), CompareFile::ImportRecipe),
+                (text!("compare-export"), CompareFile::ExportRecipe),
             ] {
                 if ui.button(text).clicked() {
                     acts.push(CompareAction::Ask(file));
@@ -127,6 +142,24 @@ fn menu(
         .response;
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &full));
     response.on_hover_text(full);
+}
+
+/// The name of a recipe, and whether it differs from what is kept under it.
+pub(super) fn title_of(label: &RecipeLabel) -> String {
+    if label.is_changed {
+        text!("compare-recipe-modified", name = &label.name)
+    } else {
+        label.name.clone()
+    }
+}
+
+/// How wide a button with this text is.
+pub(super) fn button_width(ui: &Ui, text: &str) -> f32 {
+    let font = TextStyle::Button.resolve(ui.style());
+    let text = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+    text.size().x + 2.0 * ui.spacing().button_padding.x
 }
 
 /// The line in which a name is written.
@@ -147,20 +180,23 @@ fn name_ui(
     let is_same = text.trim() == current;
     let can_take = checked.is_ok() && !is_taken;
     ui.horizontal(|ui| {
-        let take = match naming.purpose {
-            NamingPurpose::SaveAs => "Save",
-            NamingPurpose::Rename => "Rename",
+        let (take, take_label) = match naming.purpose {
+            NamingPurpose::SaveAs => (text!("compare-save"), text!("compare-save-name")),
+            NamingPurpose::Rename => (text!("compare-take-rename"), text!("compare-rename-name")),
         };
-        let buttons = 2.0 * (64.0 + space::SMALL);
+        let cancel = text!("compare-cancel");
+        let widths = [&take, &cancel].map(|text| button_width(ui, text).max(64.0));
+        let buttons = widths[0] + widths[1] + 2.0 * space::SMALL;
         let edit = TextEdit::singleline(&mut text)
-            .hint_text("name")
+            .hint_text(text!("compare-name-hint"))
             .align(egui::Align2::LEFT_CENTER)
             .desired_width(ui.available_width() - buttons - space::MEDIUM)
             .min_size(vec2(0.0, space::TARGET));
         let response = ui.add(edit);
         response.widget_info(|| {
-            let mut info = WidgetInfo::text_edit(true, &naming.text, &text, "name");
-            info.label = Some("Name of the recipe".into());
+            let mut info =
+                WidgetInfo::text_edit(true, &naming.text, &text, text!("compare-name-hint"));
+            info.label = Some(text!("compare-name"));
             info
         });
         if naming.is_new {
@@ -168,21 +204,20 @@ fn name_ui(
             act(RecipeAction::Write(text.clone()));
         }
         let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        let button = Button::new(take).min_size(vec2(64.0, space::TARGET));
-        let label = format!("{take} under this name");
+        let button = Button::new(take).min_size(vec2(widths[0], space::TARGET));
         let pressed = ui.add_enabled(can_take, button);
-        pressed.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can_take, &label));
+        pressed.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can_take, &take_label));
         if can_take && (pressed.clicked() || is_entered) {
             act(RecipeAction::TakeName);
         }
-        let button = Button::new("Cancel").min_size(vec2(64.0, space::TARGET));
-        if labelled(ui, button, "Cancel the name").clicked() {
+        let button = Button::new(cancel).min_size(vec2(widths[1], space::TARGET));
+        if labelled(ui, button, &text!("compare-cancel-name")).clicked() {
             act(RecipeAction::CancelName);
         }
     });
     let complaint = match (&checked, is_taken) {
         (Err(error), _) if !text.trim().is_empty() => Some(error.advice()),
-        (Ok(name), true) if !is_same => Some(format!("There is a recipe named {name} already")),
+        (Ok(name), true) if !is_same => Some(text!("compare-name-taken", name = name.as_str())),
         _ => None,
     };
     if let Some(complaint) = complaint {
@@ -205,7 +240,7 @@ fn changes(
     acts: &mut Vec<CompareAction>,
 ) {
     let num = num_changed(recipe);
-    let text = format!("{num} changed from default");
+    let text = text!("compare-num-changed", count = num);
     if num == 0 {
         ui.label(RichText::new(text).color(theme.weak_text));
         return;
@@ -219,14 +254,15 @@ fn changes(
         let button = Button::new(shown).frame_when_inactive(false);
         let button = button.min_size(vec2(0.0, space::TARGET));
         if labelled(ui, button, &text)
-            .on_hover_text("List them")
+            .on_hover_text(text!("compare-list-changes"))
             .clicked()
         {
             acts.push(CompareAction::Recipe(RecipeAction::ListChanges));
         }
-        let reset = labelled(ui, Button::new("Reset all"), "Reset all");
+        let reset = text!("compare-reset-all");
+        let reset = labelled(ui, Button::new(&reset), &reset);
         if reset
-            .on_hover_text("Every parameter back to its default")
+            .on_hover_text(text!("compare-reset-all-hint"))
             .clicked()
         {
             acts.push(CompareAction::ResetAll);
@@ -242,11 +278,11 @@ fn changes(
         .show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
             for parameter in changed(recipe) {
-                let text = format!(
-                    "{}: {}, default {}",
-                    parameter.name,
-                    parameter.text(recipe),
-                    parameter.text(&default)
+                let text = text!(
+                    "compare-parameter-change",
+                    parameter = parameter.name,
+                    value = parameter.text(recipe),
+                    default = parameter.text(&default),
                 );
                 let text = RichText::new(text).font(font::small()).color(theme.text);
                 ui.add(egui::Label::new(text).wrap())

@@ -10,6 +10,7 @@ use egui::{
 use super::{CompareAction, CompareState, case_bar::judged, recipe_menu, scaling_plot};
 use crate::{
     app::{
+        language::{Language, text},
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -60,7 +61,7 @@ pub(super) fn ui(
                         group_ui(ui, group, recipe, &default, theme, acts);
                     }
                     ui.add_space(space::SMALL);
-                    CollapsingHeader::new("Scaling: one core against several")
+                    CollapsingHeader::new(text!("compare-scaling"))
                         .id_salt("scaling")
                         .show(ui, |ui| scaling_plot::ui(ui, compare, theme, acts));
                 });
@@ -95,11 +96,14 @@ fn group_ui(
     let num_changed = of(Place::Fold)
         .filter(|p| p.differs(recipe, default))
         .count();
+    let name = within_sentence(group.title());
     let title = match num_changed {
-        0 => format!("More of {} ({num})", group.title().to_lowercase()),
-        _ => format!(
-            "More of {} ({num}, {num_changed} changed)",
-            group.title().to_lowercase()
+        0 => text!("compare-more", group = name, count = num),
+        _ => text!(
+            "compare-more-changed",
+            group = name,
+            count = num,
+            changed = num_changed
         ),
     };
     CollapsingHeader::new(RichText::new(title).color(theme.weak_text))
@@ -111,9 +115,17 @@ fn group_ui(
         });
 }
 
+/// A title within a sentence: German nouns keep their capital letters.
+fn within_sentence(title: &str) -> String {
+    match Language::current() {
+        Language::German => title.to_owned(),
+        Language::English | Language::Spanish | Language::Chinese => title.to_lowercase(),
+    }
+}
+
 /// Width of the number beside a slider.
 const NUMBER: f32 = 92.0;
-/// Width of the button that resets a parameter.
+/// Least width of the button that resets a parameter.
 const RESET: f32 = 58.0;
 
 fn control(
@@ -126,7 +138,8 @@ fn control(
 ) {
     let is_changed = parameter.differs(recipe, default);
     let name = if is_changed {
-        RichText::new(format!("{} · changed", parameter.name)).color(theme.accent)
+        let name = text!("compare-parameter-changed", parameter = parameter.name);
+        RichText::new(name).color(theme.accent)
     } else {
         RichText::new(parameter.name).color(theme.text)
     };
@@ -137,12 +150,14 @@ fn control(
         ui.label(name).on_hover_text(&hover);
     });
     ui.horizontal(|ui| {
-        let reset = if is_changed {
-            RESET + space::SMALL
+        let reset = text!("compare-reset");
+        let reset_width = recipe_menu::button_width(ui, &reset).max(RESET);
+        let taken = if is_changed {
+            reset_width + space::SMALL
         } else {
             0.0
         };
-        let width = ui.available_width() - reset;
+        let width = ui.available_width() - taken;
         match &parameter.kind {
             Kind::Number(number) => number_ui(ui, parameter, number, recipe, width, &hover, acts),
             Kind::Choice(choice) => {
@@ -150,12 +165,11 @@ fn control(
             }
         }
         if is_changed {
-            let button = Button::new("Reset").min_size(vec2(RESET, space::TARGET));
-            let label = format!("Reset {}", parameter.name.to_lowercase());
-            if labelled(ui, button, &label)
-                .on_hover_text(format!("Back to {}", parameter.text(default)))
-                .clicked()
-            {
+            let button = Button::new(reset).min_size(vec2(reset_width, space::TARGET));
+            let name = within_sentence(parameter.name);
+            let label = text!("compare-reset-named", parameter = name);
+            let hover = text!("compare-back-to", value = parameter.text(default));
+            if labelled(ui, button, &label).on_hover_text(hover).clicked() {
                 acts.push(CompareAction::Reset(parameter.key));
             }
         }
@@ -165,10 +179,25 @@ fn control(
 fn hover_text(parameter: &Parameter, default: &Recipe) -> String {
     let default = parameter.text(default);
     let valid = match &parameter.kind {
-        Kind::Number(_) => format!("Valid from {}", parameter.range_text()),
-        Kind::Choice(_) => format!("One of {}", parameter.range_text()),
+        Kind::Number(number) => {
+            let [least, most] = number.range;
+            text!(
+                "compare-valid-range",
+                least = least.to_string(),
+                most = format!("{most}{}", number.unit.sign()),
+                default = default,
+            )
+        }
+        Kind::Choice(choice) => {
+            let options = choice.options.join(", ");
+            text!(
+                "compare-valid-options",
+                options = options,
+                default = default
+            )
+        }
     };
-    format!("{}\n{valid}; default {default}", parameter.help)
+    format!("{}\n{valid}", parameter.help)
 }
 
 /// A slider for the hand, and a number that can be dragged or written.
@@ -192,7 +221,7 @@ fn number_ui(
         .trailing_fill(true);
     let slider = ui.add(slider);
     slider.widget_info(|| {
-        let label = format!("{}, slider", parameter.name);
+        let label = text!("compare-slider", parameter = parameter.name);
         WidgetInfo::slider(true, before, label)
     });
     slider.on_hover_text(hover);
@@ -287,9 +316,9 @@ fn outcome(
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 0.0;
         let head = if compare.is_study_old() {
-            "With this recipe this case is…"
+            text!("compare-case-is-pending")
         } else {
-            "With this recipe this case is"
+            text!("compare-case-is")
         };
         ui.label(RichText::new(head).color(theme.weak_text));
         if compare.is_study_old() {
@@ -302,9 +331,14 @@ fn outcome(
                     format!("{} · {score:.2}", study.found_title)
                 }
                 (Some(_), Some(score)) => {
-                    format!("Not accepted · nearest {} {score:.2}", study.found_title)
+                    let score = format!("{score:.2}");
+                    text!(
+                        "compare-verdict-nearest",
+                        part = &study.found_title,
+                        score = score
+                    )
                 }
-                _ => "Not accepted · no part found".into(),
+                _ => text!("compare-verdict-nothing"),
             };
             let judgement = judged(compare);
             let (sign, colour) = match (judgement, found.accepted) {
@@ -318,12 +352,20 @@ fn outcome(
                 ui.add(egui::Label::new(text).wrap());
             });
             let (word, colour) = match (judgement, found.accepted) {
-                (Some(CaseOutcome::Right), true) => ("Right and accepted", theme.accepted),
-                (Some(CaseOutcome::Right), false) => ("Rightly refused", theme.accepted),
-                (Some(CaseOutcome::WrongAccepted), _) => ("False accept", theme.rejected),
-                (Some(CaseOutcome::Refused), _) => ("Wrongly refused", theme.warning),
-                (None, true) => ("Accepted", theme.text),
-                (None, false) => ("The actual part is not set", theme.text),
+                (Some(CaseOutcome::Right), true) => {
+                    (text!("compare-right-accepted"), theme.accepted)
+                }
+                (Some(CaseOutcome::Right), false) => {
+                    (text!("compare-rightly-refused"), theme.accepted)
+                }
+                (Some(CaseOutcome::WrongAccepted), _) => {
+                    (text!("compare-false-accept"), theme.rejected)
+                }
+                (Some(CaseOutcome::Refused), _) => {
+                    (text!("compare-wrongly-refused"), theme.warning)
+                }
+                (None, true) => (text!("compare-accepted"), theme.text),
+                (None, false) => (text!("compare-truth-not-set"), theme.text),
             };
             let word = format!("{word} · {:.0} ms", study.time_ms);
             ui.label(RichText::new(word).color(colour));
@@ -335,7 +377,8 @@ fn outcome(
     });
     ui.add_space(space::SMALL);
     let can_use = compare.tried.is_some();
-    let text = RichText::new("Use this recipe").font(font::body_strong());
+    let label = text!("compare-use");
+    let text = RichText::new(&label).font(font::body_strong());
     let width = ui.available_width();
     let button = if can_use {
         Button::new(text.color(theme.on_accent)).fill(theme.accent)
@@ -346,10 +389,10 @@ fn outcome(
     let response = ui
         .vertical_centered(|ui| ui.add_enabled(can_use, button))
         .inner;
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can_use, "Use this recipe"));
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can_use, &label));
     let response = response
-        .on_hover_text("Scenes are inspected with it from now on")
-        .on_disabled_hover_text("Scenes are inspected with this recipe already");
+        .on_hover_text(text!("compare-use-hint"))
+        .on_disabled_hover_text(text!("compare-in-use-hint"));
     if response.clicked() {
         acts.push(CompareAction::Use);
     }

@@ -11,6 +11,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::{context::ShellContext, message::Message, notice::Notice, session::UserRole},
         task::TaskEvent,
         user_error::UserError,
@@ -241,32 +242,45 @@ impl CompareState {
             let is_listed = matches!(done, RecipeDone::Listed);
             if is_listed && now.label.is_changed && cx.session.role == UserRole::Engineer {
                 cx.notify(Notice::look(
-                    format!("Recipe {} was changed by another program", now.label.name),
-                    "Open it in Compare to use it; until then its former parameters are used",
+                    text!("compare-recipe-changed-elsewhere", name = &now.label.name),
+                    text!("compare-recipe-changed-elsewhere-advice"),
                 ));
             }
             cx.send(Message::UseRecipe(Arc::new(now)));
         }
         match done {
             RecipeDone::Listed => {}
-            RecipeDone::Saved(name) => self.say(format!("Saved recipe {name}"), cx),
-            RecipeDone::Restored(name) => self.say(format!("Recipe {name} is back"), cx),
+            RecipeDone::Saved(name) => {
+                self.say(text!("compare-saved-recipe", name = name.as_str()), cx);
+            }
+            RecipeDone::Restored(name) => {
+                self.say(text!("compare-restored-recipe", name = name.as_str()), cx);
+            }
             RecipeDone::Renamed(from, to) => {
-                self.say(format!("Recipe {from} is named {to} now"), cx);
+                let [before, now] = [&from, &to].map(PartName::as_str);
+                self.say(
+                    text!("compare-renamed-recipe", before = before, now = now),
+                    cx,
+                );
             }
             RecipeDone::Removed { file, was_default } => {
-                self.say(format!("Removed recipe {}", file.name), cx);
+                self.say(
+                    text!("compare-removed-recipe", name = file.name.as_str()),
+                    cx,
+                );
                 self.undo = Some(Undo::Recipe { file, was_default });
             }
             RecipeDone::Default(name) => {
-                let text = format!("Commands without --recipe now use \"{name}\"");
-                self.say(text, cx);
+                self.say(text!("compare-default-recipe", name = name.as_str()), cx);
             }
             RecipeDone::Imported(name) => {
-                self.say(format!("Imported recipe {name}"), cx);
+                self.say(text!("compare-imported-recipe", name = name.as_str()), cx);
                 self.open_recipe(name.as_str(), cx);
             }
-            RecipeDone::Exported(path) => self.say(format!("Wrote {}", path.display()), cx),
+            RecipeDone::Exported(path) => {
+                let path = path.display().to_string();
+                self.say(text!("compare-exported-recipe", path = path), cx);
+            }
         }
     }
 

@@ -5,10 +5,13 @@ use egui_plot::{Line, LineStyle};
 
 use super::{CompareAction, CompareState};
 use crate::{
-    app::ui::{
-        plot::{Axes, Axis, legend, range_of},
-        theme::{ROUNDING, Theme, font},
-        widgets::labelled,
+    app::{
+        language::text,
+        ui::{
+            plot::{Axes, Axis, legend, range_of},
+            theme::{ROUNDING, Theme, font},
+            widgets::labelled,
+        },
     },
     bench::scaling::Scaling,
 };
@@ -35,9 +38,9 @@ pub(super) fn ui(
             .font(font::small())
             .color(theme.weak_text)
     };
-    let text = "Ranks one query over 8 to 2048 simulated references by 1, 2, 4 and 8 workers; takes some seconds";
-    ui.label(weak(text.into()));
-    if labelled(ui, Button::new("Measure"), "Measure scaling").clicked() {
+    ui.label(weak(text!("compare-scaling-says")));
+    let label = text!("compare-measure-label");
+    if labelled(ui, Button::new(text!("compare-measure")), &label).clicked() {
         acts.push(CompareAction::MeasureScaling);
     }
     let Some(scaling) = &compare.scaling else {
@@ -50,24 +53,24 @@ pub(super) fn ui(
 /// The crossover in a sentence.
 fn words(scaling: &Scaling) -> String {
     let num_cores = scaling.num_cores;
-    let shared = match scaling.workers.iter().filter(|w| **w > num_cores).min() {
-        Some(least) => format!("; {least} workers and more share them"),
-        None => String::new(),
+    let cores = match scaling.workers.iter().filter(|w| **w > num_cores).min() {
+        Some(least) => text!(
+            "compare-scaling-cores-shared",
+            cores = num_cores,
+            workers = *least
+        ),
+        None => text!("compare-scaling-cores", cores = num_cores),
     };
-    let from = match scaling.crossover() {
-        Some(from) => format!("several pay from {from} references on"),
-        None => "several never paid".into(),
-    };
-    format!("{num_cores} cores{shared}: {from}")
+    match scaling.crossover() {
+        Some(from) => text!("compare-scaling-from", cores = cores, count = from),
+        None => text!("compare-scaling-never", cores = cores),
+    }
 }
 
 fn plot(ui: &mut Ui, scaling: &Scaling, theme: &Theme) {
     let (all, response) =
         ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
-    let name = format!(
-        "Time of a ranking over the number of references; {}",
-        words(scaling)
-    );
+    let name = text!("compare-scaling-plot", words = words(scaling));
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &name));
     ui.painter().rect_filled(all, ROUNDING, theme.canvas);
     let log = |value: f64| value.max(1e-9).log10() as f32;
@@ -105,7 +108,7 @@ fn plot(ui: &mut Ui, scaling: &Scaling, theme: &Theme) {
     });
     // A list, since the ends lie over each other where there are fewer cores than workers.
     let names = scaling.workers.map(|workers| match workers {
-        1 => "1 worker".to_owned(),
+        1 => text!("compare-one-worker"),
         workers => workers.to_string(),
     });
     let names = names.iter().map(String::as_str);

@@ -9,10 +9,13 @@ use super::{
     work::{self, CaseChange, CaseRun, CompareResult},
 };
 use crate::{
-    app::shell::{
-        context::ShellContext,
-        notice::Notice,
-        session::{Session, Shown, WorkspaceKind},
+    app::{
+        language::text,
+        shell::{
+            context::ShellContext,
+            notice::Notice,
+            session::{Session, Shown, WorkspaceKind},
+        },
     },
     cases::CaseFolder,
     pipeline::NamedRecipe,
@@ -124,11 +127,11 @@ impl CompareState {
         number(&session.shown) != number(&self.followed)
     }
 
-    pub(super) fn ask(&mut self, title: &str, job: Job) {
-        self.queue.push_back((title.to_owned(), job));
+    pub(super) fn ask(&mut self, title: String, job: Job) {
+        self.queue.push_back((title, job));
     }
 
-    pub(super) fn change_cases(&mut self, title: &str, change: CaseChange) {
+    pub(super) fn change_cases(&mut self, title: String, change: CaseChange) {
         let folder = self.folder.clone();
         self.ask(title, Job::Cases { folder, change });
     }
@@ -163,7 +166,7 @@ impl CompareState {
         if let Some(request) = self.study_request(cx.session) {
             self.is_current = false;
             self.job = Some(JobKind::Study);
-            self.task.start("Comparing", move |context| {
+            self.task.start(text!("compare-comparing"), move |context| {
                 let study = study(&request, &library_cache, context)?;
                 Ok(CompareResult::Studied(Arc::new(study)))
             });
@@ -201,8 +204,8 @@ impl CompareState {
         let cases = self.cases.as_ref().filter(|cases| !cases.list.is_empty());
         let Some(cases) = cases else {
             return cx.notify(Notice::look(
-                "There are no kept cases to run",
-                "Keep a case first, or choose a folder of cases",
+                text!("compare-no-cases-to-run"),
+                text!("compare-no-cases-to-run-advice"),
             ));
         };
         let job = Job::Run {
@@ -212,17 +215,20 @@ impl CompareState {
         self.cell = None;
         self.changes = None;
         self.run = None;
-        self.ask("Running the kept cases", job);
+        self.ask(text!("compare-running-cases"), job);
     }
 
     pub(super) fn compare_with_earlier(&mut self, path: PathBuf, cx: &mut ShellContext<'_>) {
         let run = self.run.clone().filter(|run| run.ended.is_some());
         let Some(run) = run else {
             return cx.notify(Notice::look(
-                "There is no run to compare with an earlier one",
-                "Run all cases first",
+                text!("compare-no-run"),
+                text!("compare-no-run-advice"),
             ));
         };
-        self.ask("Comparing with an earlier run", Job::Earlier { path, run });
+        self.ask(
+            text!("compare-comparing-earlier"),
+            Job::Earlier { path, run },
+        );
     }
 }

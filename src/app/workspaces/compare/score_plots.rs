@@ -4,9 +4,12 @@ use egui::{Align2, Sense, Ui, WidgetInfo, pos2, vec2};
 use egui_plot::{Line, LineStyle, PlotTransform, PlotUi, Points, VLine};
 
 use crate::{
-    app::ui::{
-        plot::{Axes, Axis, legend},
-        theme::{ROUNDING, Theme, font, space},
+    app::{
+        language::text,
+        ui::{
+            plot::{Axes, Axis, legend},
+            theme::{ROUNDING, Theme, font, space},
+        },
     },
     cases::{Calibration, ThresholdCounts, TradeOff},
 };
@@ -21,7 +24,7 @@ const REFUSED: LineStyle = LineStyle::Dashed { length: 6.0 };
 /// A plot of shares from 0 to 1 both ways, with its caption.
 fn square<'a>(
     ui: &mut Ui,
-    said: PlotText<'_>,
+    said: PlotText,
     theme: &Theme,
     draw: impl FnOnce(&mut PlotUi<'a>) + 'a,
 ) -> PlotTransform {
@@ -39,7 +42,7 @@ fn square<'a>(
         Axis::new([0.0, 1.0], marks.to_vec())
     };
     let axes = Axes {
-        title: vec![(said.title.to_owned(), theme.text)],
+        title: vec![(said.title, theme.text)],
         across: axis(),
         up: axis(),
         font: font::small(),
@@ -51,24 +54,27 @@ fn square<'a>(
 }
 
 /// What a plot says in words.
-struct PlotText<'a> {
-    title: &'a str,
+struct PlotText {
+    title: String,
     caption: String,
     /// All of it, for those who do not see it.
     words: String,
-    help: &'a str,
+    help: String,
 }
 
 /// Draws the share of right guesses over their score; on the diagonal a score says how often it is right.
 pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration, theme: &Theme) {
     let said = PlotText {
-        title: "Calibration",
+        title: text!("compare-calibration"),
         caption: match calibration.expected_error {
-            Some(error) => format!("right over score · error {error:.2}"),
-            None => "right over score".into(),
+            Some(error) => {
+                let error = format!("{error:.2}");
+                text!("compare-calibration-caption", error = error)
+            }
+            None => text!("compare-calibration-caption-none"),
         },
         words: words(calibration),
-        help: "The best guesses of all cases, by score: on the line a score of 0.9 is right nine times in ten. Numbers are guesses",
+        help: text!("compare-calibration-hint"),
     };
     let bins = calibration.bins.iter();
     let bins = bins.filter_map(|bin| Some((bin.num, [bin.mean_score, bin.share_right()?])));
@@ -101,17 +107,20 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme
         .iter()
         .rfind(|step| step.threshold <= threshold)
         .map_or_else(String::new, |step| {
-            format!(
-                "Threshold: at {threshold:.2} the score alone accepts {} of {num_cases} cases wrongly and refuses {} of {num_enrolled} parts",
-                step.num_wrong_accepted, step.num_refused
+            text!(
+                "compare-threshold-words",
+                threshold = format!("{threshold:.2}"),
+                wrong = step.num_wrong_accepted,
+                cases = *num_cases,
+                refused = step.num_refused,
+                enrolled = *num_enrolled,
             )
         });
     let said = PlotText {
-        title: "Threshold",
-        caption: "share over least score".into(),
+        title: text!("compare-threshold"),
+        caption: text!("compare-threshold-caption"),
         words,
-        help: "What every least score would accept wrongly, of all cases, and what it would refuse, of the enrolled parts, \
-               by the score alone. The upright line is the recipe's",
+        help: text!("compare-threshold-hint"),
     };
     let share = |num: usize, of: usize| num as f64 / of.max(1) as f64;
     let curve = |height: &dyn Fn(&ThresholdCounts) -> f64| {
@@ -125,28 +134,34 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme
         plot.line(wrong.color(theme.rejected));
         plot.vline(VLine::new("", threshold).color(theme.text));
     });
+    let wrong_name = text!("compare-plot-false-accepts");
+    let refused_name = text!("compare-plot-refused");
     let curves = [
-        ("false accepts", theme.rejected, LineStyle::Solid),
-        ("parts refused", theme.first_series, REFUSED),
+        (&*wrong_name, theme.rejected, LineStyle::Solid),
+        (&*refused_name, theme.first_series, REFUSED),
     ];
     legend(ui.painter(), &shown, curves);
 }
 
 fn words(calibration: &Calibration) -> String {
     let Some(error) = calibration.expected_error else {
-        return "Calibration: nothing was taken for a part".into();
+        return text!("compare-calibration-none");
     };
     let bins = calibration.bins.iter().filter(|bin| bin.num > 0);
     let bins = bins.map(|bin| {
         let (from, to) = (bin.from, bin.to);
-        format!(
-            "{from:.1} to {to:.1}, {} of {} right",
-            bin.num_right, bin.num
+        text!(
+            "compare-calibration-bin",
+            from = format!("{from:.1}"),
+            to = format!("{to:.1}"),
+            right = bin.num_right,
+            count = bin.num,
         )
     });
     let bins: Vec<String> = bins.collect();
-    format!(
-        "Calibration: expected error {error:.2}; {}",
-        bins.join("; ")
+    text!(
+        "compare-calibration-words",
+        error = format!("{error:.2}"),
+        bins = bins.join("; "),
     )
 }

@@ -11,6 +11,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::{
             context::ShellContext, file_dialog::FileDialog, message::Message, notice::Notice,
             session::Shown,
@@ -114,12 +115,12 @@ pub enum Undo {
 
 impl Undo {
     /// What the button says.
-    pub fn title(&self) -> &'static str {
+    pub fn title(&self) -> String {
         match self {
-            Self::Removal { .. } => "Put case back",
-            Self::Recipe { .. } => "Put recipe back",
-            Self::Use(_) => "Undo use",
-            Self::Trial(_) => "Undo open",
+            Self::Removal { .. } => text!("compare-undo-removal"),
+            Self::Recipe { .. } => text!("compare-undo-recipe"),
+            Self::Use(_) => text!("compare-undo-use"),
+            Self::Trial(_) => text!("compare-undo-open"),
         }
     }
 }
@@ -193,10 +194,12 @@ impl CompareState {
                 self.cell = cell;
                 self.changes = None;
             }
-            CompareAction::MeasureScaling => self.ask("Measuring the ranking", Job::Scaling),
+            CompareAction::MeasureScaling => {
+                self.ask(text!("compare-measuring"), Job::Scaling);
+            }
             CompareAction::Earlier(path) => self.compare_with_earlier(path, cx),
             CompareAction::Remove(name) => {
-                self.change_cases("Removing a case", CaseChange::Remove(name));
+                self.change_cases(text!("compare-removing-case"), CaseChange::Remove(name));
             }
             CompareAction::Set(key, value) => {
                 let set = |recipe: &mut Recipe| match Parameter::of_key(key) {
@@ -296,11 +299,11 @@ impl CompareState {
         match done {
             CaseDone::Listed => {}
             CaseDone::Kept(case) => {
-                self.say(format!("Kept as {}", case.name), cx);
+                self.say(text!("compare-kept-as", name = &case.name), cx);
                 self.remark.clear();
             }
             CaseDone::Removed { name, trash } => {
-                self.say(format!("Removed {name}"), cx);
+                self.say(text!("compare-removed-case", name = &name), cx);
                 if matches!(&self.front, Front::Kept(case) if case.name == name) {
                     self.front_scene();
                     self.due = StudyNeed::WhenFree;
@@ -308,7 +311,7 @@ impl CompareState {
                 self.undo = Some(Undo::Removal { name, trash });
             }
             CaseDone::Restored(name) => {
-                self.say(format!("{name} is back"), cx);
+                self.say(text!("compare-restored-case", name = name), cx);
                 self.undo = None;
             }
         }
@@ -339,7 +342,7 @@ impl CompareState {
     fn follow(&mut self, cx: &ShellContext<'_>) {
         if !self.is_listed {
             self.is_listed = true;
-            self.change_cases("Listing the kept cases", CaseChange::List);
+            self.change_cases(text!("compare-listing-cases"), CaseChange::List);
         }
         if self.has_new_scene(cx.session) {
             let scene_of = |shown: &Option<Shown>| {
@@ -370,7 +373,7 @@ impl CompareState {
             self.front_scene();
             self.due = StudyNeed::WhenFree;
         }
-        self.change_cases("Listing the kept cases", CaseChange::List);
+        self.change_cases(text!("compare-listing-cases"), CaseChange::List);
     }
 
     fn open_case(&mut self, name: &str, cx: &mut ShellContext<'_>) {
@@ -378,8 +381,8 @@ impl CompareState {
         let case = cases.and_then(|cases| cases.list.iter().find(|case| case.name == name));
         let Some(case) = case.cloned() else {
             return cx.notify(Notice::look(
-                format!("There is no kept case named {name} any more"),
-                "Run all cases again",
+                text!("compare-case-gone", name = name),
+                text!("compare-case-gone-advice"),
             ));
         };
         self.forget();

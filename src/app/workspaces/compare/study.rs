@@ -6,6 +6,7 @@ use super::comparison::OutlineComparison;
 use crate::{
     app::{
         inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
+        language::text,
         task::TaskError,
         user_error::UserError,
     },
@@ -117,11 +118,12 @@ impl CaseStudy {
         let mut nearest = nearest.filter(|d| self.found.part.as_ref() == Some(&d.part));
         let apart = nearest.find_map(|d| d.outline);
         Some(match apart {
-            Some(metres) => format!(
-                "Refused: {refused}; the outlines lie {} apart",
-                units.length(metres)
+            Some(metres) => text!(
+                "compare-refused-apart",
+                reason = refused,
+                distance = units.length(metres),
             ),
-            None => format!("Refused: {refused}"),
+            None => text!("compare-refused", reason = refused),
         })
     }
 }
@@ -219,59 +221,81 @@ fn against(request: &StudyRequest, found: &FoundVerdict, library: &Library) -> O
     part.map(str::to_owned)
 }
 
+/// A share or probability, to a hundredth.
+fn fixed(value: f64) -> String {
+    format!("{value:.2}")
+}
+
 /// The figure that decided.
 fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<String> {
     Some(match verdict {
         Verdict::Part { rejected, .. } => match rejected.as_ref()? {
             Rejection::LowScore {
                 score, threshold, ..
-            } => format!("score {score:.2} is below {threshold:.2}"),
+            } => text!(
+                "compare-low-score",
+                score = fixed(*score),
+                threshold = fixed(*threshold),
+            ),
             Rejection::SmallMargin {
                 other,
                 margin,
                 threshold,
                 ..
-            } => format!(
-                "its lead over {} is {margin:.2}, below {threshold:.2}",
-                title_of(other)
+            } => text!(
+                "compare-small-margin",
+                part = title_of(other),
+                margin = fixed(*margin),
+                threshold = fixed(*threshold),
             ),
-            Rejection::Unconfirmed { .. } => {
-                "the paper's matcher alone cannot tell it from an unknown part".into()
-            }
+            Rejection::Unconfirmed { .. } => text!("compare-unconfirmed"),
             Rejection::Piece {
                 score, threshold, ..
-            } => format!("score {score:.2} is below {threshold:.2}: only a piece is in sight"),
+            } => text!(
+                "compare-piece",
+                score = fixed(*score),
+                threshold = fixed(*threshold),
+            ),
             Rejection::AnotherModel {
                 relief,
                 outline,
                 missing,
                 ..
-            } => format!(
-                "its surface is off by {relief}, its outline by {outline}, {:.1} % of it is missing: another model",
-                missing * 100.0
+            } => text!(
+                "compare-another-model",
+                relief = relief.to_string(),
+                outline = outline.to_string(),
+                missing = format!("{:.1}", missing * 100.0),
             ),
             Rejection::AnotherMake { likeness, .. } => {
-                format!("of the same type with a probability of {likeness:.2}: another make")
+                text!("compare-another-make", likeness = fixed(*likeness))
             }
             Rejection::AmbiguousPose {
                 margin, threshold, ..
-            } => format!("its lead over another pose is {margin:.2}, below {threshold:.2}"),
-            Rejection::HardlySeen { score, .. } => {
-                format!("score {score:.2}: hardly in sight")
-            }
-            Rejection::Unknown { score, .. } => format!("score {score:.2}: unknown"),
-            Rejection::Mirrored { part, .. } => {
-                format!("it looks like the mirror image of {}", title_of(part))
-            }
-            Rejection::MirroredImage { part, .. } => format!(
-                "it fits {} only as its mirror image: the image is probably mirrored",
-                title_of(part)
+            } => text!(
+                "compare-ambiguous-pose",
+                margin = fixed(*margin),
+                threshold = fixed(*threshold),
             ),
+            Rejection::HardlySeen { score, .. } => {
+                text!("compare-hardly-seen", score = fixed(*score))
+            }
+            Rejection::Unknown { score, .. } => text!("compare-unknown", score = fixed(*score)),
+            Rejection::Mirrored { part, .. } => {
+                text!("compare-mirrored", part = title_of(part))
+            }
+            Rejection::MirroredImage { part, .. } => {
+                text!("compare-mirrored-image", part = title_of(part))
+            }
             Rejection::Unconstrained { freedom, .. } => {
-                format!("the pose is unconstrained: {freedom}")
+                text!("compare-unconstrained", freedom = freedom.to_string())
             }
             Rejection::Uncertain { shift, limit, .. } => {
-                format!("the pose is uncertain by {shift}, and {limit} is allowed")
+                text!(
+                    "compare-uncertain",
+                    shift = shift.to_string(),
+                    limit = limit.to_string()
+                )
             }
             other @ (Rejection::NoPose(_)
             | Rejection::OutOfRange { .. }

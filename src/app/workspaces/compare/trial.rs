@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use super::{
+    recipe_menu::title_of,
     schedule::StudyNeed,
     state::{CompareState, Undo},
     work::CaseChange,
 };
 use crate::{
     app::{
+        language::text,
         shell::{context::ShellContext, message::Message},
         user_error::UserError,
     },
@@ -40,9 +42,8 @@ impl CompareState {
             return;
         };
         let num = num_changed(&tried);
-        let label = &tried.label;
-        let text =
-            format!("Scenes are inspected with recipe {label} now: {num} changed from default");
+        let recipe = title_of(&tried.label);
+        let text = text!("compare-recipe-used", recipe = recipe, count = num);
         self.say(text, cx);
         self.undo = Some(Undo::Use(Arc::clone(&cx.session.recipe)));
         inspect_with(tried, cx);
@@ -53,7 +54,7 @@ impl CompareState {
             None => {}
             Some(Undo::Removal { name, trash }) => {
                 let change = CaseChange::Restore { name, from: trash };
-                self.change_cases("Putting the case back", change);
+                self.change_cases(text!("compare-restoring-case"), change);
                 self.start_next(cx);
             }
             Some(Undo::Recipe { file, was_default }) => {
@@ -68,8 +69,7 @@ impl CompareState {
                 // What was in use stays on trial.
                 self.tried
                     .get_or_insert_with(|| Arc::clone(&cx.session.recipe));
-                let what = "Scenes are inspected with the recipe before again";
-                self.say(what.into(), cx);
+                self.say(text!("compare-recipe-used-before"), cx);
                 inspect_with(before, cx);
             }
         }
