@@ -56,8 +56,8 @@ enrol-save = 保存
 
 ## The card of an enrolled part
 enrol-rename = 重命名
-enrol-spray-path = 喷涂路径…
-enrol-remove-path = 移除喷涂路径
+enrol-spray-path = 喷涂轨迹…
+enrol-remove-path = 移除喷涂轨迹
 enrol-anew = 重新注册
 enrol-remove = 移除
 enrol-close = 关闭
@@ -65,7 +65,7 @@ enrol-origin = { $time } 注册，来源 { $source }，{ $method }
 enrol-origin-points = { $points } 个点
 enrol-origin-simulated = 仿真数据，并非来自相机
 enrol-origin-seen = 由相机采集
-enrol-origin-path = 喷涂路径含 { $count } 个点
+enrol-origin-path = 喷涂轨迹含 { $count } 个点
 enrol-method-segmented = 在采集的场景中找到的零件
 enrol-method-whole = 整个点云
 enrol-method-mesh = 网格
@@ -85,7 +85,7 @@ enrol-enrolled = 已注册：{ $part }
 enrol-just-renamed = 刚刚重命名
 enrol-just-brought-back = 刚刚恢复
 enrol-just-saved = 刚刚保存
-enrol-path-changed = 路径已更改
+enrol-path-changed = 轨迹已更改
 
 ## What corrects the draft
 enrol-in-front = 背景前方
@@ -137,7 +137,7 @@ enrol-key-undo = 撤销上一次修正或零件库更改
 enrol-key-save = 保存零件
 
 ## Work and notices
-enrol-path-file-title = 喷嘴在该零件上的路径
+enrol-path-file-title = 喷嘴在该零件上的轨迹
 enrol-path-files = 表格
 enrol-examining-part = 正在分析零件
 enrol-taking-scan = 正在使用当前显示的扫描
@@ -151,13 +151,13 @@ enrol-other-program = 打开此零件库之后，另一程序保存了名为 { $
 enrol-other-program-advice = 再次保存以替换它，或为此零件另取名称
 enrol-saved = 已保存 { $part }
 enrol-saved-over = 已保存 { $part }；之前的版本保留在零件库的回收站中
-enrol-saved-over-path = 已保存 { $part }；之前的版本及其喷涂路径保留在零件库的回收站中：请为新坐标系保存喷涂路径
+enrol-saved-over-path = 已保存 { $part }；之前的版本及其喷涂轨迹保留在零件库的回收站中：请为新坐标系保存喷涂轨迹
 enrol-title-changed = 已更改 { $part } 的标题
 enrol-renamed = 已将 { $before } 重命名为 { $now }
 enrol-removed = 已移除 { $part }
 enrol-brought-back = 已恢复 { $part }
-enrol-stored-path = 已为 { $part } 保存含 { $count } 个点的喷涂路径
-enrol-removed-path = 已移除 { $part } 的喷涂路径
+enrol-stored-path = 已为 { $part } 保存含 { $count } 个点的喷涂轨迹
+enrol-removed-path = 已移除 { $part } 的喷涂轨迹
 enrol-undone = 已撤销：“{ $what }”
 enrol-inside-program = 该零件库位于程序内部，无法更改
 enrol-inside-program-advice = 请使用 --library 和自己的文件夹启动 Partsight

@@ -1,7 +1,10 @@
 //! The parameters of the recipe. Their English texts are those of [`PARAMETERS`](crate::pipeline::parameters::PARAMETERS),
 //! which the command line shows.
 
-use crate::pipeline::parameters::{Group, Kind, Parameter};
+use crate::pipeline::{
+    Recipe,
+    parameters::{Group, Kind, Parameter},
+};
 
 /// What a group is called.
 pub(in crate::app) fn group(group: Group) -> String {
@@ -185,6 +188,13 @@ pub(in crate::app) fn options(parameter: &Parameter) -> Vec<String> {
         number_or_method => number_or_method.to_owned(),
     };
     choice.options.iter().map(option).collect()
+}
+
+/// A parameter's value in words.
+pub(in crate::app) fn value(parameter: &Parameter, recipe: &Recipe) -> String {
+    let mut option = options(parameter).into_iter();
+    let option = option.nth(parameter.value(recipe) as usize);
+    option.unwrap_or_else(|| parameter.text(recipe))
 }
 
 #[cfg(test)]

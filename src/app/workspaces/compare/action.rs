@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use super::kept_recipes::NamingPurpose;
 use crate::{
-    app::shell::file_dialog::{FileChoice, FileFilter, FileRequest},
+    app::{
+        language::text,
+        shell::file_dialog::{FileChoice, FileFilter, FileRequest},
+    },
     cases::{Cell, Truth},
 };
 
@@ -96,29 +99,29 @@ pub enum CompareFile {
 }
 
 fn recipes() -> FileFilter {
-    ("Recipes".into(), &["toml"])
+    (text!("compare-recipe-files"), &["toml"])
 }
 
 impl CompareFile {
     pub(super) fn request(self) -> FileRequest {
         match self {
             Self::Cases => FileRequest {
-                title: "Folder of kept cases".into(),
+                title: text!("compare-cases-title"),
                 filters: Vec::new(),
                 choice: FileChoice::Folder,
             },
             Self::EarlierRun => FileRequest {
-                title: "What partsight evaluate --json has written".into(),
-                filters: vec![("Evaluations".into(), &["json"])],
+                title: text!("compare-earlier-title"),
+                filters: vec![(text!("compare-evaluation-files"), &["json"])],
                 choice: FileChoice::File,
             },
             Self::ImportRecipe => FileRequest {
-                title: "Recipe to import".into(),
+                title: text!("compare-import-title"),
                 filters: vec![recipes()],
                 choice: FileChoice::File,
             },
             Self::ExportRecipe => FileRequest {
-                title: "Export the recipe".into(),
+                title: text!("compare-export-title"),
                 filters: vec![recipes()],
                 choice: FileChoice::NewFile("recipe.toml"),
             },

@@ -63,13 +63,13 @@ fn case_menu(
     let is_scene = matches!(compare.front, Front::Scene);
     let title = match (&compare.front, &session.shown) {
         (Front::Kept(case), _) => case.name.clone(),
-        (Front::Scene, Some(shown)) => shown.inspected.origin.title(),
+        (Front::Scene, Some(shown)) => shown.inspected.origin.shown_title(),
         (Front::Scene, None) => text!("compare-no-case"),
     };
     let title = format!("{} · {} ▼", text!("compare-case"), shortened(&title, 24));
     menu(ui, &title, text!("compare-case-hint"), &mut |ui| {
         if let Some(shown) = &session.shown {
-            let title = text!("compare-in-front", scene = shown.inspected.origin.title());
+            let title = text!("compare-in-front", scene = shown.inspected.origin.shown_title());
             if ui.selectable_label(is_scene, title).clicked() {
                 acts.push(CompareAction::FrontScene);
                 ui.close();

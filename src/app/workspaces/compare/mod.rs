@@ -35,6 +35,7 @@ pub use self::{
     work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
 };
 use crate::app::{
+    language::text,
     shell::{
         context::ShellContext,
         key_binding::{KeyBinding, Shortcut},
@@ -51,21 +52,21 @@ const SHORTCUTS: [Shortcut<CompareAction>; 3] = [
         modifiers: Modifiers::NONE,
         key: Key::K,
         keys: "K",
-        does: || "Keep the case in front".into(),
+        does: || text!("compare-key-keep"),
         action: || CompareAction::Keep,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::R,
         keys: "Ctrl R",
-        does: || "Run all kept cases".into(),
+        does: || text!("compare-key-run"),
         action: || CompareAction::RunAll,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::Z,
         keys: "Ctrl Z",
-        does: || "Take back the removal of a case or recipe, or the use of a recipe".into(),
+        does: || text!("compare-key-undo"),
         action: || CompareAction::Undo,
     },
 ];

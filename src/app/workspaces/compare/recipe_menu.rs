@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     app::{
-        language::text,
+        language::{parameters, text},
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -280,9 +280,9 @@ fn changes(
             for parameter in changed(recipe) {
                 let text = text!(
                     "compare-parameter-change",
-                    parameter = parameter.name,
-                    value = parameter.text(recipe),
-                    default = parameter.text(&default),
+                    parameter = parameters::name(parameter),
+                    value = parameters::value(parameter, recipe),
+                    default = parameters::value(parameter, &default),
                 );
                 let text = RichText::new(text).font(font::small()).color(theme.text);
                 ui.add(egui::Label::new(text).wrap())

@@ -10,7 +10,7 @@ use egui::{
 use super::{CompareAction, CompareState, case_bar::judged, recipe_menu, scaling_plot};
 use crate::{
     app::{
-        language::{Language, text},
+        language::{Language, parameters, text},
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -20,7 +20,7 @@ use crate::{
     cases::CaseOutcome,
     pipeline::{
         Recipe,
-        parameters::{Choice, Group, Kind, Number, PARAMETERS, Parameter, Place},
+        parameters::{Group, Kind, Number, PARAMETERS, Parameter, Place},
     },
 };
 
@@ -82,7 +82,7 @@ fn group_ui(
     };
     ui.add_space(space::SMALL);
     ui.label(
-        RichText::new(group.title())
+        RichText::new(parameters::group(group))
             .font(font::heading())
             .color(theme.weak_text),
     );
@@ -96,7 +96,7 @@ fn group_ui(
     let num_changed = of(Place::Fold)
         .filter(|p| p.differs(recipe, default))
         .count();
-    let name = within_sentence(group.title());
+    let name = within_sentence(&parameters::group(group));
     let title = match num_changed {
         0 => text!("compare-more", group = name, count = num),
         _ => text!(
@@ -137,11 +137,12 @@ fn control(
     acts: &mut Vec<CompareAction>,
 ) {
     let is_changed = parameter.differs(recipe, default);
+    let title = parameters::name(parameter);
     let name = if is_changed {
-        let name = text!("compare-parameter-changed", parameter = parameter.name);
+        let name = text!("compare-parameter-changed", parameter = &title);
         RichText::new(name).color(theme.accent)
     } else {
-        RichText::new(parameter.name).color(theme.text)
+        RichText::new(&title).color(theme.text)
     };
     let hover = hover_text(parameter, default);
     ui.scope(|ui| {
@@ -160,15 +161,16 @@ fn control(
         let width = ui.available_width() - taken;
         match &parameter.kind {
             Kind::Number(number) => number_ui(ui, parameter, number, recipe, width, &hover, acts),
-            Kind::Choice(choice) => {
-                choice_ui(ui, parameter, choice, recipe, width, acts);
-            }
+            Kind::Choice(_) => choice_ui(ui, parameter, recipe, width, acts),
         }
         if is_changed {
             let button = Button::new(reset).min_size(vec2(reset_width, space::TARGET));
-            let name = within_sentence(parameter.name);
+            let name = within_sentence(&title);
             let label = text!("compare-reset-named", parameter = name);
-            let hover = text!("compare-back-to", value = parameter.text(default));
+            let hover = text!(
+                "compare-back-to",
+                value = parameters::value(parameter, default)
+            );
             if labelled(ui, button, &label).on_hover_text(hover).clicked() {
                 acts.push(CompareAction::Reset(parameter.key));
             }
@@ -177,7 +179,7 @@ fn control(
 }
 
 fn hover_text(parameter: &Parameter, default: &Recipe) -> String {
-    let default = parameter.text(default);
+    let default = parameters::value(parameter, default);
     let valid = match &parameter.kind {
         Kind::Number(number) => {
             let [least, most] = number.range;
@@ -188,8 +190,8 @@ fn hover_text(parameter: &Parameter, default: &Recipe) -> String {
                 default = default,
             )
         }
-        Kind::Choice(choice) => {
-            let options = choice.options.join(", ");
+        Kind::Choice(_) => {
+            let options = parameters::options(parameter).join(", ");
             text!(
                 "compare-valid-options",
                 options = options,
@@ -197,7 +199,7 @@ fn hover_text(parameter: &Parameter, default: &Recipe) -> String {
             )
         }
     };
-    format!("{}\n{valid}", parameter.help)
+    format!("{}\n{valid}", parameters::help(parameter))
 }
 
 /// A slider for the hand, and a number that can be dragged or written.
@@ -221,7 +223,7 @@ fn number_ui(
         .trailing_fill(true);
     let slider = ui.add(slider);
     slider.widget_info(|| {
-        let label = text!("compare-slider", parameter = parameter.name);
+        let label = text!("compare-slider", parameter = parameters::name(parameter));
         WidgetInfo::slider(true, before, label)
     });
     slider.on_hover_text(hover);
@@ -246,7 +248,7 @@ fn number_ui(
     let response = ui.add_sized(vec2(NUMBER, space::TARGET), drag);
     response.widget_info(|| {
         let mut info = WidgetInfo::drag_value(true, before);
-        info.label = Some(parameter.name.into());
+        info.label = Some(parameters::name(parameter));
         info
     });
     response.on_hover_text(hover);
@@ -268,18 +270,18 @@ fn number_ui(
 fn choice_ui(
     ui: &mut Ui,
     parameter: &Parameter,
-    choice: &Choice,
     recipe: &Recipe,
     width: f32,
     acts: &mut Vec<CompareAction>,
 ) {
     let chosen = parameter.value(recipe) as usize;
-    let each = width / choice.options.len() as f32 - space::SMALL;
+    let (name, options) = (parameters::name(parameter), parameters::options(parameter));
+    let each = width / options.len() as f32 - space::SMALL;
     if each < 64.0 {
-        let now = choice.options.get(chosen).copied().unwrap_or_default();
+        let now = options.get(chosen).cloned().unwrap_or_default();
         ui.menu_button(format!("{now} ▼"), |ui| {
-            for (place, option) in choice.options.iter().enumerate() {
-                if ui.selectable_label(place == chosen, *option).clicked() {
+            for (place, option) in options.iter().enumerate() {
+                if ui.selectable_label(place == chosen, option).clicked() {
                     acts.push(CompareAction::Set(parameter.key, place as f64));
                     ui.close();
                 }
@@ -287,16 +289,16 @@ fn choice_ui(
         })
         .response
         .widget_info(|| {
-            let label = format!("{}: {now}", parameter.name);
+            let label = format!("{name}: {now}");
             WidgetInfo::labeled(egui::Role::Button, true, label)
         });
         return;
     }
-    for (place, option) in choice.options.iter().enumerate() {
-        let button = Button::selectable(place == chosen, *option);
+    for (place, option) in options.iter().enumerate() {
+        let button = Button::selectable(place == chosen, option);
         let response = ui.add(button.min_size(vec2(each, space::TARGET)));
         response.widget_info(|| {
-            let label = format!("{}: {option}", parameter.name);
+            let label = format!("{name}: {option}");
             WidgetInfo::selected(egui::Role::Button, true, place == chosen, label)
         });
         if response.clicked() && place != chosen {

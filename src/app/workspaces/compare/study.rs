@@ -6,12 +6,11 @@ use super::comparison::OutlineComparison;
 use crate::{
     app::{
         inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
-        language::text,
+        language::{results, text},
         task::TaskError,
         user_error::UserError,
     },
     cases::{CaseFolder, FoundVerdict, KeptCase, Truth},
-    error::Advice,
     library::Library,
     pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Rejection, Verdict},
     stages::{
@@ -288,7 +287,10 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
                 text!("compare-mirrored-image", part = title_of(part))
             }
             Rejection::Unconstrained { freedom, .. } => {
-                text!("compare-unconstrained", freedom = freedom.to_string())
+                text!(
+                    "compare-unconstrained",
+                    freedom = results::free_motion(*freedom)
+                )
             }
             Rejection::Uncertain { shift, limit, .. } => {
                 text!(
@@ -304,16 +306,16 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
             | Rejection::NotSteady { .. }
             | Rejection::FewFrames { .. }
             | Rejection::Undecided { .. }
-            | Rejection::PosesApart { .. }) => other.to_string(),
+            | Rejection::PosesApart { .. }) => results::rejection(other),
         },
-        Verdict::NoPart(reason) => reason.to_string(),
+        Verdict::NoPart(reason) => results::unrecognisable(reason),
     })
 }
 
 fn advice(verdict: &Verdict) -> String {
     match verdict {
-        Verdict::Part { rejected, .. } => rejected.as_ref().map(Advice::advice),
-        Verdict::NoPart(reason) => Some(reason.advice()),
+        Verdict::Part { rejected, .. } => rejected.as_ref().map(results::rejection_advice),
+        Verdict::NoPart(reason) => Some(results::unrecognisable_advice(reason)),
     }
     .unwrap_or_default()
 }

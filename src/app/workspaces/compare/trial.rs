@@ -80,6 +80,6 @@ impl CompareState {
 fn inspect_with(recipe: Arc<NamedRecipe>, cx: &mut ShellContext<'_>) {
     cx.send(Message::UseRecipe(recipe));
     cx.send(Message::InspectShown {
-        title: "Inspecting with another recipe".into(),
+        title: text!("compare-inspecting"),
     });
 }

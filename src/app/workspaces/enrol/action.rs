@@ -82,8 +82,8 @@ impl EnrolFile {
     pub(super) fn request(self) -> FileRequest {
         match self {
             Self::SprayPath => FileRequest {
-                title: "The nozzle's path over this part".into(),
-                filters: vec![("Tables".into(), &["csv", "txt"]), all_files()],
+                title: text!("enrol-path-file-title"),
+                filters: vec![(text!("enrol-path-files"), &["csv", "txt"]), all_files()],
                 choice: FileChoice::File,
             },
             Self::Scan(file) => file.request(),

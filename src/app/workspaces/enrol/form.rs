@@ -147,7 +147,7 @@ fn stored(
                 .color(theme.weak_text);
             ui.add(egui::Label::new(text).wrap());
         };
-        small(ui, shortened(&draft.subject.origin.title(), 40));
+        small(ui, shortened(&draft.subject.origin.shown_title(), 40));
         if draft.subject.origin.is_simulated() {
             small(ui, text!("enrol-draft-simulated"));
         }

@@ -68,21 +68,21 @@ const SHORTCUTS: [Shortcut<EnrolAction>; 3] = [
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::Z,
         keys: "Ctrl Shift Z",
-        does: || "Redo the last undone change".into(),
+        does: || text!("enrol-key-redo"),
         action: || EnrolAction::Redo,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::Z,
         keys: "Ctrl Z",
-        does: || "Undo the last correction or change of the library".into(),
+        does: || text!("enrol-key-undo"),
         action: || EnrolAction::Undo,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::S,
         keys: "Ctrl S",
-        does: || "Save the part".into(),
+        does: || text!("enrol-key-save"),
         action: || EnrolAction::Save,
     },
 ];
@@ -353,7 +353,7 @@ fn empty(
         });
         ui.add_space(space::LARGE);
         if let Some(shown) = &session.shown {
-            let origin = shown.inspected.origin.title();
+            let origin = shown.inspected.origin.shown_title();
             let text = text!("enrol-take-shown", scene = origin);
             let label = text!("enrol-use-shown");
             let button = Button::new(RichText::new(text).color(theme.on_accent));

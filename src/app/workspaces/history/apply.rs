@@ -77,12 +77,12 @@ impl HistoryFile {
     fn request(self) -> FileRequest {
         match self {
             Self::Csv => FileRequest {
-                title: "Export the listed inspections".into(),
-                filters: vec![("Comma-separated values".into(), &["csv"])],
+                title: text!("history-export-csv-title"),
+                filters: vec![(text!("history-csv-files"), &["csv"])],
                 choice: FileChoice::NewFile("inspections.csv"),
             },
             Self::Cases => FileRequest {
-                title: "Folder for the cases of the listed inspections".into(),
+                title: text!("history-export-cases-title"),
                 filters: Vec::new(),
                 choice: FileChoice::FolderToWrite,
             },

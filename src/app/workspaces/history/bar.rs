@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     app::{
-        language::text,
+        language::{results::stored_verdict, text},
         shell::session::Session,
         ui::{
             theme::{Theme, space},
@@ -144,7 +144,7 @@ fn days(ui: &mut Ui, filter: &mut ListFilter) {
 
 fn verdicts(ui: &mut Ui, filter: &mut ListFilter) {
     let all = std::iter::once((None, text!("history-filter-all-verdicts")));
-    let each = StoredVerdict::ALL.map(|verdict| (Some(verdict), verdict.title().to_owned()));
+    let each = StoredVerdict::ALL.map(|verdict| (Some(verdict), stored_verdict(verdict)));
     let label = text!("history-filter-verdict");
     menu(ui, &label, &mut filter.verdict, all.chain(each));
 }

@@ -11,7 +11,10 @@ use super::{
 use crate::{
     app::{
         inspection::unit_system::UnitSystem,
-        language::text,
+        language::{
+            results::{stored_title, stored_verdict},
+            text,
+        },
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -120,7 +123,7 @@ impl Details {
 
 fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
     let summary = &record.summary;
-    let title = RichText::new(&summary.title).font(font::title());
+    let title = RichText::new(stored_title(summary)).font(font::title());
     ui.label(title.color(theme.text));
     let (sign, colour) = match summary.verdict {
         StoredVerdict::Accepted => (Mark::Good, theme.accepted),
@@ -135,7 +138,7 @@ fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
             StoredVerdict::Accepted => StoredVerdict::Accepted,
             _ => StoredVerdict::NotAccepted,
         };
-        let word = RichText::new(word.title()).font(font::verdict());
+        let word = RichText::new(stored_verdict(word)).font(font::verdict());
         ui.label(word.color(colour));
     });
     if summary.is_simulated {
@@ -165,7 +168,7 @@ fn part(
     let number = past.record.summary.number;
     for record in &past.part {
         let row = &record.summary;
-        let word = row.verdict.title();
+        let word = stored_verdict(row.verdict);
         let counts = if row.number == head.summary.number {
             format!(" · {}", text!("history-counts"))
         } else {
@@ -240,7 +243,7 @@ fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
         program,
         ..
     } = detail;
-    row(text!("history-figure-recipe"), &detail.recipe_text());
+    row(text!("history-figure-recipe"), &recipe_text(detail));
     row(text!("history-figure-library"), library_identity);
     row(text!("history-figure-program"), program);
     let frame = frame_bytes.map_or_else(
@@ -276,7 +279,32 @@ fn times(ui: &mut Ui, record: &Record, theme: &Theme) {
     }
     heading(ui, theme, &text!("history-times"));
     for (stage, ms) in times {
-        row(ui, theme, &stage, &format!("{ms:.1} ms"));
+        row(ui, theme, &stage_title(stage), &format!("{ms:.1} ms"));
+    }
+}
+
+/// What a stage of the report is called.
+fn stage_title(stage: String) -> String {
+    match stage.as_str() {
+        "segment" => text!("history-stage-segment"),
+        "project" => text!("history-stage-project"),
+        "contour" => text!("history-stage-contour"),
+        "signature" => text!("history-stage-signature"),
+        "rank" => text!("history-stage-rank"),
+        "pose" => text!("history-stage-pose"),
+        "total" => text!("history-stage-total"),
+        _ => stage,
+    }
+}
+
+/// The recipe's name, where it is known, and its identity.
+fn recipe_text(detail: &InspectionDetail) -> String {
+    match &detail.recipe_label {
+        Some(label) if label.is_changed => {
+            let name = text!("history-recipe-modified", name = &label.name);
+            format!("{name}, {}", detail.recipe_identity)
+        }
+        _ => detail.recipe_text(),
     }
 }
 

@@ -5,13 +5,14 @@ use egui::{Grid, RichText, Ui, vec2};
 use crate::{
     app::{
         inspection::unit_system::UnitSystem,
-        language::text,
+        language::{parameters, results::stored_verdict, text},
         ui::{
             theme::{Theme, font},
             widgets::{heading, shortened},
         },
     },
     history::{Differences, InspectionSummary},
+    pipeline::parameters::Parameter,
 };
 
 /// What a row tells of a finding.
@@ -49,7 +50,7 @@ pub(super) fn table(
     let none = || "-".to_owned();
     let rows: [(String, FindingText<'_>); 5] = [
         (text!("history-figure-verdict"), &|of| {
-            of.verdict.title().to_owned()
+            stored_verdict(of.verdict)
         }),
         (text!("history-figure-nearest"), &|of| {
             of.nearest.clone().unwrap_or_else(none)
@@ -74,8 +75,11 @@ pub(super) fn table(
             let both =
                 |(what, of): (String, FindingText<'_>)| (shortened(&what, 14), of(before), of(now));
             let changed = found.changed_parameters().into_iter();
-            let parameters =
-                changed.map(|change| (shortened(change.name, 14), change.before, change.now));
+            let parameters = changed.map(|change| {
+                let name = Parameter::of_key(change.key).map(parameters::name);
+                let name = name.unwrap_or_else(|| change.name.to_owned());
+                (shortened(&name, 14), change.before, change.now)
+            });
             for (what, then, today) in rows.into_iter().map(both).chain(parameters) {
                 // Not by colour alone: what changed is set in bold.
                 let text = RichText::new(&today).color(theme.text);

@@ -5,7 +5,7 @@ use egui::{Button, Context, DragValue, Grid, RichText, Ui, WidgetInfo, vec2};
 use super::{HistoryAction, HistoryState};
 use crate::{
     app::{
-        language::text,
+        language::{results::keep_frames, text},
         ui::{
             theme::{Theme, font, space},
             widgets::{self, labelled},
@@ -67,7 +67,7 @@ fn rows(ui: &mut Ui, rule: &mut Retention) {
     ui.label(text!("history-keep-which"));
     ui.horizontal(|ui| {
         for keep in KeepFrames::ALL {
-            let title = title_of(keep);
+            let title = keep_frames(keep);
             let button = Button::selectable(rule.keep == keep, &title);
             let button = button.frame_when_inactive(true);
             if labelled(ui, button, &title).clicked() {
@@ -88,15 +88,6 @@ fn rows(ui: &mut Ui, rule: &mut Retention) {
         .speed(0.1);
     number(ui, gigabytes, &label);
     ui.end_row();
-}
-
-/// What a person calls it.
-fn title_of(keep: KeepFrames) -> String {
-    match keep {
-        KeepFrames::All => text!("history-keep-all"),
-        KeepFrames::NotAccepted => text!("history-keep-not-accepted"),
-        KeepFrames::None => text!("history-keep-none"),
-    }
 }
 
 fn number(ui: &mut Ui, value: DragValue<'_>, label: &str) {

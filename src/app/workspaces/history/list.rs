@@ -6,7 +6,10 @@ use jiff::{Timestamp, tz::TimeZone};
 use super::{HistoryAction, HistoryState, bar};
 use crate::{
     app::{
-        language::text,
+        language::{
+            results::{stored_title, stored_verdict},
+            text,
+        },
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
@@ -144,8 +147,8 @@ const COLUMNS: [Column; 5] = [
         name: || text!("history-column-part"),
         width: Width::Share(0.58),
         text: |past, _| match past.num_below {
-            0 => past.title.clone(),
-            num => text!("history-part-again", part = &past.title, count = num),
+            0 => stored_title(past),
+            num => text!("history-part-again", part = stored_title(past), count = num),
         },
         look: |theme| (font::body_strong(), theme.text),
     },
@@ -265,12 +268,12 @@ fn row(
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let is_selected = selected == Some(past.number);
     response.widget_info(|| {
-        let verdict = past.verdict.title();
+        let verdict = stored_verdict(past.verdict);
         let label = text!(
             "history-row",
             count = past.num_below,
             number = past.number.abs(),
-            part = &past.title,
+            part = stored_title(past),
             verdict = verdict,
         );
         egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, label)

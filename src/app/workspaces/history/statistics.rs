@@ -10,7 +10,7 @@ use jiff::{Zoned, tz::TimeZone};
 
 use crate::{
     app::{
-        language::text,
+        language::{results::stored_verdict, text},
         shell::shift::ShiftStarts,
         ui::{
             plot::{Axes, Axis, legend},
@@ -113,7 +113,7 @@ pub(super) fn count(
         }
         let name = outcome.nearest.as_deref().unwrap_or_default();
         let title = match outcome.verdict {
-            StoredVerdict::Unknown => "Unknown".to_owned(),
+            StoredVerdict::Unknown => stored_verdict(outcome.verdict),
             _ => title_of(name),
         };
         if let Some(reason) = &outcome.reason {
