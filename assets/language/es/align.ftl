@@ -1,1 +1,129 @@
-# align
+## What is aligned
+align-moved-copy = Copia movida
+align-scene = Escena
+align-files = Dos archivos
+align-run = Ejecutar
+align-run-hint = Alinear con todos los métodos (R)
+align-view-menu = Vista
+align-view-menu-hint = De todas las vistas 3D
+align-view-fit = Ajustar
+align-view-front = Frente
+align-view-top = Arriba
+align-view-side = Lado
+align-library-loading = La biblioteca se está cargando
+align-library-failed = No se pudo cargar la biblioteca
+align-part = Pieza
+align-no-part = ninguna
+align-part-hint = La pieza registrada que sirve de referencia
+align-start = Inicio
+align-custom = Propio…
+align-random = Aleatorio
+align-random-hint = El siguiente inicio aleatorio
+align-random-prefix = N.º
+align-random-number = Inicio aleatorio número { $number }
+align-numbers = rx { $rx }°, ry { $ry }°, rz { $rz }°, después x { $x } mm, y { $y } mm, z { $z } mm
+align-custom-hint = rx ry rz x y z, por ejemplo 0 0 30deg 100mm 0 0
+align-custom-label = Inicio propio, seis números
+align-use-start = Usar este inicio
+align-custom-units = Radianes y metros, o con unidad: deg, mm, cm, m; R = Rz·Ry·Rx
+align-scene-part = { $scene }: la pieza hallada, { $count } puntos, desde donde está
+align-source = Origen
+align-target = Destino
+align-source-hint = La nube o malla que se mueve
+align-target-hint = La nube o malla que permanece fija
+align-custom-start = inicio propio
+align-random-start = inicio aleatorio { $seed }
+align-onto = { $source } sobre { $target }
+align-from = { $part } desde { $start }
+align-library-has-no-part = La biblioteca no tiene piezas: registrar una en Registro
+align-nothing-inspected = Todavía no se ha inspeccionado nada: pulsar Capturar
+align-no-part-in-scene = No se encontró ninguna pieza en la escena: capturar otra
+align-choose-source = Elegir el archivo que se mueve: Origen…
+align-choose-target = Elegir el archivo que permanece fijo: Destino…
+align-part-gone = la biblioteca no tiene la pieza { $name }
+align-part-gone-advice = Elegir otra pieza
+align-mesh-no-area = { $path }: la malla no tiene área
+align-mesh-no-area-advice = Exportar de nuevo la malla con sus caras
+
+## The views
+align-view-of = Vista 3D, { $method }
+align-global = Global
+align-previous-result = Resultado anterior: hay una nueva alineación en curso
+align-at-work = En curso…
+align-not-run = Sin ejecutar
+align-figures = E { $e } m² · rms { $rms } en el { $overlap } % · { $time } ms
+align-no-pose-figures = Sin pose · { $time } ms
+align-end = Final, tras { $count } iteraciones
+align-iteration-e = Iteración { $place } de { $last } · E { $e } m²
+align-aligning-now = Alineando…
+align-nothing-aligned = Todavía no se ha alineado nada
+align-nothing-aligned-advice = Elegir arriba una pieza y un inicio, y pulsar Ejecutar
+align-ended-below-target = Aceptado: E por debajo de 1e-6 m² tras { $count } iteraciones
+align-ended-elsewhere = Atascado: convergió en otro lugar tras { $count } iteraciones
+align-ended-settled = Convergió tras { $count } iteraciones
+align-ended-gave-up = Abandonado: nada mejor en { $count } iteraciones
+align-ended-moving = Aún en movimiento tras { $count } iteraciones
+align-nearer-or-same-part = Elegir un inicio más cercano o comprobar que ambas nubes muestran la misma pieza en metros
+align-which-way-round = Comprobar en qué sentido está la pieza
+align-look-for-edge = Buscar un borde o un doblez que solo tenga un lugar de la pieza
+align-other-method = Probar otro método o un inicio más cercano
+align-nearer-start = Elegir un inicio más cercano
+
+## The plot
+align-genetic-search = búsqueda genética
+align-goal = aceptado por debajo de 1e-6 (algoritmo 3)
+align-play = Reproducir
+align-pause = Pausa
+align-iteration = iteración { $place } de { $last }
+align-iteration-hint = iteración { $place } de { $last } · arrastrar para recorrer, P para reproducir
+align-scrubber = Iteración mostrada
+align-scrubber-keys = E por iteración. Izquierda y derecha avanzan una iteración, Re Pág y Av Pág diez, Inicio y Fin a los extremos, P reproduce
+align-no-way = Ningún método halló una pose: no hay recorrido que mostrar
+align-way = Ejecutar muestra aquí cómo disminuye la distancia cuadrática media E, iteración a iteración
+
+## Table I
+align-table = Tabla I
+align-table-says = Cada pieza registrada, movida de T1 a T5 (ec. 15) y devuelta con cada método: E en m², con el mejor de cada fila marcado
+align-cancel = Cancelar
+align-cancel-table = Cancelar la tabla I
+align-run-table = Calcular tabla I
+align-go-on = Continuar
+align-go-on-table = Continuar la tabla I
+align-again = Repetir
+align-table-again = Volver a calcular la tabla I
+align-rows-done-left = { $done } de { $total } · quedan unos { $time }
+align-rows-done = { $done } de { $total } hechas
+align-rows = { $total } filas
+align-rows-stopped = Detenida en { $done } de { $total }
+align-rows-all = Las { $total } hechas
+align-column-part = pieza, inicio
+align-none = sin pose
+align-best = el mejor
+align-no-pose = sin pose
+align-true-error = Error real con este inicio
+align-uncertainty = Incertidumbre (95 %)
+align-method = método
+align-rotation = rotación
+align-shift = desplazam.
+align-unconstrained = indeterminada
+align-export-csv = Exportar CSV…
+align-copy = Copiar
+align-copy-hint = La tabla I como texto, con celdas separadas por tabuladores
+
+## Keys
+align-key-run = Ejecutar todos los métodos
+align-key-play = Reproducir o pausar las iteraciones
+align-key-back = Una iteración atrás
+align-key-on = Una iteración adelante
+align-keys-play = P, o Espacio en el gráfico
+align-keys-back = , o ← en el gráfico
+align-keys-on = . o → en el gráfico
+
+## Work and notices
+align-open-title = Abrir una nube o una malla
+align-export-title = Exportar la tabla I
+align-csv-files = Valores separados por comas
+align-aligning = Alineando
+align-copied = Tabla I copiada
+align-writing = Escribiendo { $file }
+align-wrote = Se ha escrito { $path }

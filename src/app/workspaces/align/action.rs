@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 
 use super::{start::Start, state::Pairing};
-use crate::app::shell::file_dialog::{FileChoice, FileRequest, all_files, points};
+use crate::app::{
+    language::text,
+    shell::file_dialog::{FileChoice, FileRequest, all_files, points},
+};
 
 /// Something that happened in the workspace.
 #[derive(Debug)]
@@ -63,13 +66,13 @@ impl AlignFile {
     pub(super) fn request(self) -> FileRequest {
         match self {
             Self::Source | Self::Target => FileRequest {
-                title: "Open a cloud or a mesh".into(),
+                title: text!("align-open-title"),
                 filters: vec![points(), all_files()],
                 choice: FileChoice::File,
             },
             Self::TableFile => FileRequest {
-                title: "Export Table I".into(),
-                filters: vec![("Comma-separated values".into(), &["csv"])],
+                title: text!("align-export-title"),
+                filters: vec![(text!("align-csv-files"), &["csv"])],
                 choice: FileChoice::NewFile("table1.csv"),
             },
         }

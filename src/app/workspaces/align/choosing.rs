@@ -13,6 +13,7 @@ use super::{
 };
 use crate::app::{
     inspection::source::file_name,
+    language::text,
     shell::session::Session,
     ui::{
         theme::{Theme, font, space},
@@ -52,7 +53,7 @@ pub(super) fn ui(
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 for pairing in Pairing::ALL {
                     let is_chosen = align.pairing == pairing;
-                    if choice(ui, is_chosen, pairing.title()).clicked() {
+                    if choice(ui, is_chosen, &pairing.title()).clicked() {
                         actions.push(AlignAction::Choose(pairing));
                     }
                 }
@@ -84,22 +85,31 @@ pub(super) fn ui(
 
 /// From where the views look, for all of them at once.
 fn look_menu(ui: &mut Ui) -> Option<ViewDirection> {
-    let menu = ui.menu_button("View ▼", |ui| {
+    let menu = ui.menu_button(format!("{} ▼", text!("align-view-menu")), |ui| {
         let looks = [
-            ("Fit", ViewDirection::Fit),
-            ("Front", ViewDirection::From(StandardView::Front)),
-            ("Top", ViewDirection::From(StandardView::Top)),
-            ("Side", ViewDirection::From(StandardView::Side)),
+            (text!("align-view-fit"), ViewDirection::Fit),
+            (
+                text!("align-view-front"),
+                ViewDirection::From(StandardView::Front),
+            ),
+            (
+                text!("align-view-top"),
+                ViewDirection::From(StandardView::Top),
+            ),
+            (
+                text!("align-view-side"),
+                ViewDirection::From(StandardView::Side),
+            ),
         ];
         let chosen = looks
             .into_iter()
-            .find(|(text, _)| ui.button(*text).clicked());
+            .find(|(text, _)| ui.button(text).clicked());
         if chosen.is_some() {
             ui.close();
         }
         chosen.map(|(_, look)| look)
     });
-    menu.response.on_hover_text("Of all 3-D views");
+    menu.response.on_hover_text(text!("align-view-menu-hint"));
     menu.inner.flatten()
 }
 
@@ -116,17 +126,18 @@ fn run(
     actions: &mut Vec<AlignAction>,
 ) {
     let missing = align.choice(session).err();
-    let text = RichText::new("Run").font(font::body_strong());
+    let label = text!("align-run");
+    let text = RichText::new(&label).font(font::body_strong());
     let key = RichText::new("R").font(font::small());
     let button = Button::new(text.color(theme.on_accent))
         .shortcut_text(key.color(theme.on_accent))
         .fill(theme.accent);
     let clicked = ui
-        .add_enabled_ui(missing.is_none(), |ui| labelled(ui, button, "Run"))
+        .add_enabled_ui(missing.is_none(), |ui| labelled(ui, button, &label))
         .inner;
     let clicked = match missing {
         Some(missing) => clicked.on_disabled_hover_text(missing),
-        None => clicked.on_hover_text("Align by every method (R)"),
+        None => clicked.on_hover_text(text!("align-run-hint")),
     };
     if clicked.clicked() {
         actions.push(AlignAction::Run);
@@ -135,18 +146,22 @@ fn run(
 
 fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<AlignAction>) {
     let Some(library) = &session.library else {
-        ui.label("The library is being loaded");
+        ui.label(text!("align-library-loading"));
         return;
     };
     if let Some(trouble) = &library.unloaded {
-        ui.label("The library could not be loaded")
+        ui.label(text!("align-library-failed"))
             .on_hover_text(format!("{}. {}", trouble.what, trouble.advice));
         return;
     }
     let chosen = align.chosen_part(session);
     let place = chosen.and_then(|name| library.place_of(name));
-    let title = place.map_or("none", |place| library.title(place));
-    let menu = ui.menu_button(format!("Part · {} ▼", shortened(title, 24)), |ui| {
+    let title = place.map_or_else(
+        || text!("align-no-part"),
+        |place| library.title(place).to_owned(),
+    );
+    let title = format!("{} · {} ▼", text!("align-part"), shortened(&title, 24));
+    let menu = ui.menu_button(title, |ui| {
         ui.set_min_width(200.0);
         for part in &library.parts {
             let name = part.name.as_str();
@@ -159,14 +174,13 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
             }
         }
     });
-    menu.response
-        .on_hover_text("The enrolled part that is the reference");
+    menu.response.on_hover_text(text!("align-part-hint"));
 }
 
 /// Starts of a moved copy.
 fn starts(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
     let start = align.start;
-    ui.label(RichText::new("Start").color(theme.weak_text));
+    ui.label(RichText::new(text!("align-start")).color(theme.weak_text));
     for place in 0..Start::NUM_PAPER {
         let paper = Start::Paper(place);
         let button = choice(ui, start == paper, &paper.title());
@@ -175,7 +189,7 @@ fn starts(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
         }
     }
     let is_custom = matches!(start, Start::Custom(_));
-    let button = choice(ui, is_custom, "Custom…");
+    let button = choice(ui, is_custom, &text!("align-custom"));
     let button = match start {
         Start::Custom(_) => button.on_hover_text(numbers(start)),
         Start::Paper(_) | Start::Random(_) => button,
@@ -184,15 +198,17 @@ fn starts(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
         actions.push(AlignAction::ToggleCustom);
     }
     let is_random = matches!(start, Start::Random(_));
-    let button = choice(ui, is_random, "Random").on_hover_text("The next random start");
+    let button = choice(ui, is_random, &text!("align-random"));
+    let button = button.on_hover_text(text!("align-random-hint"));
     if button.clicked() {
         actions.push(AlignAction::DrawStart);
     }
     if let Start::Random(seed) = start {
         let mut number = seed;
-        let field = DragValue::new(&mut number).prefix("No. ").speed(0.05);
+        let prefix = text!("align-random-prefix") + " ";
+        let field = DragValue::new(&mut number).prefix(prefix).speed(0.05);
         let field = ui.add_sized(vec2(76.0, space::TARGET), field);
-        let label = format!("Random start number {seed}");
+        let label = text!("align-random-number", number = seed);
         ui.accesskit_node_builder(field.id, |node| node.set_label(label));
         if field.on_hover_text(numbers(start)).changed() {
             let start = Start::Random(number);
@@ -205,15 +221,19 @@ fn starts(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
 fn numbers(start: Start) -> String {
     let transform = start.transform();
     let (rx, ry, rz) = transform.rotation.euler_angles();
-    let [rx, ry, rz] = [rx, ry, rz].map(f64::to_degrees);
-    let [x, y, z] = transform
-        .translation
-        .vector
-        .map(|metres| metres * 1000.0)
-        .into();
-    format!(
-        "rx {rx:.1}°, ry {ry:.1}°, rz {rz:.1}°, then x {x:.0} mm, y {y:.0} mm, z {z:.0} mm\nR = Rz·Ry·Rx"
-    )
+    let [rx, ry, rz] = [rx, ry, rz].map(|radians| format!("{:.1}", radians.to_degrees()));
+    let shift: [f64; 3] = transform.translation.vector.into();
+    let [x, y, z] = shift.map(|metres| format!("{:.0}", metres * 1000.0));
+    let numbers = text!(
+        "align-numbers",
+        rx = rx,
+        ry = ry,
+        rz = rz,
+        x = x,
+        y = y,
+        z = z
+    );
+    format!("{numbers}\nR = Rz·Ry·Rx")
 }
 
 /// A start being written.
@@ -222,11 +242,11 @@ fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
     ui.horizontal(|ui| {
         let mut text = custom.text.clone();
         let field = TextEdit::singleline(&mut text)
-            .hint_text("rx ry rz x y z, for example 0 0 30deg 100mm 0 0")
+            .hint_text(text!("align-custom-hint"))
             .align(Align2::LEFT_CENTER);
         let width = (ui.available_width() - 150.0).min(420.0);
         let field = ui.add_sized(vec2(width, space::TARGET), field);
-        let label = "Custom start, six numbers";
+        let label = text!("align-custom-label");
         ui.accesskit_node_builder(field.id, |node| node.set_label(label));
         let is_entered =
             field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
@@ -235,14 +255,15 @@ fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
         }
         let use_it = ui
             .add_enabled_ui(custom.is_start(), |ui| {
-                labelled(ui, Button::new("Use this start"), "Use this start")
+                let label = text!("align-use-start");
+                labelled(ui, Button::new(&label), &label)
             })
             .inner;
         if use_it.clicked() || is_entered {
             actions.push(AlignAction::UseCustom);
         }
     });
-    let plain = "Radians and metres, or with a unit: deg, mm, cm, m; R = Rz·Ry·Rx";
+    let plain = text!("align-custom-units");
     ui.spacing_mut().interact_size.y = REMARK;
     let mut line = |text: &str, colour| {
         ui.horizontal(|ui| {
@@ -251,7 +272,7 @@ fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
         });
     };
     if custom.remarks.is_empty() {
-        line(plain, theme.weak_text);
+        line(&plain, theme.weak_text);
     }
     for remark in &custom.remarks {
         line(remark, theme.warning);
@@ -265,10 +286,8 @@ fn scene(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
         (Some(shown), Ok(_)) => {
             let inspected = &shown.inspected;
             let num = inspected.figures.num_part;
-            format!(
-                "{}: the part found, {num} points, from where it lies",
-                inspected.origin.title()
-            )
+            let scene = inspected.origin.shown_title();
+            text!("align-scene-part", scene = scene, count = num)
         }
         (_, Err(missing)) => missing,
         (None, Ok(_)) => String::new(),
@@ -279,16 +298,16 @@ fn scene(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
 /// Which files are aligned.
 fn files(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
     for (role, path, file) in [
-        ("Source", &align.source, AlignFile::Source),
-        ("Target", &align.target, AlignFile::Target),
+        (text!("align-source"), &align.source, AlignFile::Source),
+        (text!("align-target"), &align.target, AlignFile::Target),
     ] {
         let text = match path {
             Some(path) => format!("{role} · {}", shortened(&file_name(path), NAME)),
             None => format!("{role}…"),
         };
         let hover = match file {
-            AlignFile::Source => "The cloud or mesh that is moved",
-            AlignFile::Target | AlignFile::TableFile => "The cloud or mesh that stays",
+            AlignFile::Source => text!("align-source-hint"),
+            AlignFile::Target | AlignFile::TableFile => text!("align-target-hint"),
         };
         let button = labelled(ui, Button::new(&text), &format!("{role}…"));
         if button.on_hover_text(hover).clicked() {

@@ -37,6 +37,7 @@ pub use self::{
 };
 use self::{side::SidePanel, views::LinkedViews};
 use crate::app::{
+    language::text,
     shell::{
         context::ShellContext,
         key_binding::{KeyBinding, Shortcut},
@@ -58,28 +59,28 @@ const SHORTCUTS: [Shortcut<AlignAction>; 4] = [
         modifiers: Modifiers::NONE,
         key: Key::R,
         keys: "R",
-        does: || "Run every method".into(),
+        does: || text!("align-key-run"),
         action: || AlignAction::Run,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::P,
         keys: "P, or Space on the plot",
-        does: || "Play or pause the iterations".into(),
+        does: || text!("align-key-play"),
         action: || AlignAction::TogglePlay,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Comma,
         keys: ", or \u{2190} on the plot",
-        does: || "One iteration back".into(),
+        does: || text!("align-key-back"),
         action: || AlignAction::Step(-1.0),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Period,
         keys: ". or \u{2192} on the plot",
-        does: || "One iteration on".into(),
+        does: || text!("align-key-on"),
         action: || AlignAction::Step(1.0),
     },
 ];

@@ -15,6 +15,7 @@ use crate::{
             library_cache::{LibraryCache, LoadedLibrary},
             source::file_name,
         },
+        language::text,
         ui::viewport::{PointSet, Role},
         user_error::UserError,
     },
@@ -101,7 +102,8 @@ impl Pair {
                 let (reference, title) = find(&shelved, part)?;
                 let found = inspected.inspection.segmentation.part.as_ref();
                 let found = found.map_err(UserError::of)?;
-                let title = format!("{} onto {title}", inspected.origin.title());
+                let scene = inspected.origin.shown_title();
+                let title = text!("align-onto", source = scene, target = title);
                 let target = PointCloud::from_points(reference.cloud.points.iter().copied());
                 let prepared = reference.whole().cloned();
                 Ok(Self::new(
@@ -113,7 +115,8 @@ impl Pair {
                 ))
             }
             PairSource::Files { source, target } => {
-                let title = format!("{} onto {}", file_name(source), file_name(target));
+                let [from, to] = [source, target].map(|path| file_name(path));
+                let title = text!("align-onto", source = from, target = to);
                 let mut warnings = Vec::new();
                 let mut source = open(source, &mut warnings)?;
                 let mut target = open(target, &mut warnings)?;
@@ -140,7 +143,7 @@ impl Pair {
         let source = points.iter().map(|p| (moved * p.cast::<f64>()).cast());
         let source = PointCloud::from_points(source);
         let target = PointCloud::from_points(points.iter().copied());
-        let title = format!("{title} from {}", start.title());
+        let title = text!("align-from", part = title, start = start.title());
         let prepared = reference.whole().cloned();
         Self::new(title, source, target, prepared, Some(moved.inverse()))
     }
@@ -214,8 +217,8 @@ fn find<'a>(shelved: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'
     let place = shelved.shown.place_of(part);
     let reference = place.and_then(|place| shelved.library.references.get(place));
     let reference = reference.ok_or_else(|| UserError {
-        what: format!("the library has no part {part}"),
-        advice: "Choose another part".into(),
+        what: text!("align-part-gone", name = part),
+        advice: text!("align-part-gone-advice"),
     })?;
     let title = place.map_or("", |place| shelved.shown.title(place));
     Ok((reference, title))
@@ -225,8 +228,8 @@ fn open(path: &Path, warnings: &mut Vec<UserError>) -> Result<PointCloud, UserEr
     let opened = files::open(path).map_err(|error| UserError::of(&error))?;
     warnings.extend(opened.warnings().iter().map(UserError::of));
     let cloud = cloud_of(opened).ok_or_else(|| UserError {
-        what: format!("{}: the mesh has no area", path.display()),
-        advice: "Export the mesh again with its faces".into(),
+        what: text!("align-mesh-no-area", path = path.display().to_string()),
+        advice: text!("align-mesh-no-area-advice"),
     })?;
     Ok(PointCloud::from_points(cloud.points))
 }

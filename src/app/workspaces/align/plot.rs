@@ -8,9 +8,12 @@ use super::{
     series,
     track::{MethodRun, Track},
 };
-use crate::app::ui::{
-    plot::{Axes, Axis, curve, range_of},
-    theme::{Theme, font},
+use crate::app::{
+    language::text,
+    ui::{
+        plot::{Axes, Axis, curve, range_of},
+        theme::{Theme, font},
+    },
 };
 
 /// The goal of Algorithm 3, 1e-6 m², as a power of ten.
@@ -92,7 +95,7 @@ fn name_the_searches(
     let mut searches = shown.tracks().flat_map(|(_, track)| &track.searches);
     let first = searches.next()?;
     let middle = (first.start + first.end) as f64 / 2.0;
-    let text = "genetic search".to_owned();
+    let text = text!("align-genetic-search");
     let galley = painter.layout_no_wrap(text, font::small(), theme.weak_text);
     let x = drawn.position_from_point_x(middle);
     let top = pos2(x, drawn.frame().top() + 2.0);
@@ -118,7 +121,7 @@ fn name_the_goal(
             .collect()
     });
     let curves: Vec<Vec<Pos2>> = curves.collect();
-    let text = "accepted below 1e-6 (Algorithm 3)".to_owned();
+    let text = text!("align-goal");
     let galley = painter.layout_no_wrap(text, font::small(), theme.accepted);
     let size = galley.size();
     let free = area.width() - size.x - 12.0;
@@ -157,7 +160,7 @@ fn name(
     theme: &Theme,
 ) -> Rect {
     let colour = series::colour(run.method, theme);
-    let text = series::title(run.method).to_owned();
+    let text = series::title(run.method);
     let galley = painter.layout_no_wrap(text, font::body_strong(), colour);
     let size = galley.size();
     let x = if end.x + 10.0 + size.x <= area.right() {

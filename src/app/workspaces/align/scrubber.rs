@@ -11,9 +11,12 @@ use super::{
     plot,
     state::AlignState,
 };
-use crate::app::ui::{
-    theme::{Theme, font, space},
-    widgets::{focus_ring, labelled},
+use crate::app::{
+    language::text,
+    ui::{
+        theme::{Theme, font, space},
+        widgets::{focus_ring, labelled},
+    },
 };
 
 /// Page Up and Page Down go so many iterations.
@@ -71,22 +74,21 @@ fn heading(
         ui.label(title.color(theme.weak_text));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let text = match align.playback {
-                Playback::Paused => "Play",
-                Playback::Playing => "Pause",
+                Playback::Paused => text!("align-play"),
+                Playback::Playing => text!("align-pause"),
             };
             let key = RichText::new("P").font(font::small());
-            let button = Button::new(text).shortcut_text(key.color(theme.weak_text));
-            if labelled(ui, button, text).clicked() {
+            let button = Button::new(&text).shortcut_text(key.color(theme.weak_text));
+            if labelled(ui, button, &text).clicked() {
                 actions.push(AlignAction::TogglePlay);
             }
-            let place = align.place.round();
-            let text = format!("iteration {place} of {}", shown.last_place());
-            let hint = if ui.available_width() > 340.0 {
-                " · drag to scrub, P to play"
+            let (place, last) = (align.place.round() as usize, shown.last_place());
+            let text = if ui.available_width() > 340.0 {
+                text!("align-iteration-hint", place = place, last = last)
             } else {
-                ""
+                text!("align-iteration", place = place, last = last)
             };
-            let text = RichText::new(text + hint).font(font::small());
+            let text = RichText::new(text).font(font::small());
             ui.label(text.color(theme.weak_text));
         });
     });
@@ -98,11 +100,8 @@ fn describe(ui: &Ui, response: &Response, align: &AlignState) {
     let place = f64::from(align.place.round());
     ui.accesskit_node_builder(response.id, |node| {
         node.set_role(egui::accesskit::Role::Slider);
-        node.set_label("Iteration shown");
-        node.set_description(
-            "E per iteration. Left and right go one iteration, Page Up and Page Down ten, Home and End to the ends, \
-             P plays",
-        );
+        node.set_label(text!("align-scrubber"));
+        node.set_description(text!("align-scrubber-keys"));
         node.set_min_numeric_value(0.0);
         node.set_max_numeric_value(last);
         node.set_numeric_value(place);
@@ -155,8 +154,8 @@ fn none(ui: &mut Ui, align: &AlignState, theme: &Theme) {
             .color(theme.text),
     );
     let text = match &align.shown {
-        Some(_) => "No method found a pose: there is no way to show",
-        None => "Run shows here how the mean squared distance E falls, iteration by iteration",
+        Some(_) => text!("align-no-way"),
+        None => text!("align-way"),
     };
     let middle = ui.available_height() / 2.0 - space::TARGET;
     ui.add_space(middle.max(0.0));

@@ -3,14 +3,17 @@
 use egui::Color32;
 use egui_plot::LineStyle;
 
-use crate::{app::ui::theme::Theme, stages::pose::PoseMethod};
+use crate::{
+    app::{language::text, ui::theme::Theme},
+    stages::pose::PoseMethod,
+};
 
 /// What a person calls a method.
-pub(super) fn title(method: PoseMethod) -> &'static str {
+pub(super) fn title(method: PoseMethod) -> String {
     match method {
-        PoseMethod::Icp => "ICP",
-        PoseMethod::IcpGa => "ICP-GA",
-        PoseMethod::Global => "Global",
+        PoseMethod::Icp => "ICP".into(),
+        PoseMethod::IcpGa => "ICP-GA".into(),
+        PoseMethod::Global => text!("align-global"),
     }
 }
 

@@ -10,6 +10,7 @@ use egui::{
 use super::{AlignAction, AlignFile, AlignState, Start, TableRow, series};
 use crate::{
     app::{
+        language::text,
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
@@ -43,7 +44,7 @@ impl SidePanel {
     ) {
         let table = &align.table;
         ui.label(
-            RichText::new("Table I")
+            RichText::new(text!("align-table"))
                 .font(font::verdict())
                 .color(theme.text),
         );
@@ -61,8 +62,7 @@ impl SidePanel {
                 }
             });
         if table.rows.is_empty() {
-            let text = "Every enrolled part from T1 to T5 (eq. 15), moved and brought back by every method: \
-                        E in m², the best of a row marked";
+            let text = text!("align-table-says");
             ui.add_space(space::MEDIUM);
             ui.label(RichText::new(text).color(theme.weak_text));
             self.num_seen = 0;
@@ -110,19 +110,29 @@ fn progress(
         );
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if is_at_work {
-                if labelled(ui, Button::new("Cancel"), "Cancel Table I").clicked() {
+                let label = text!("align-cancel-table");
+                if labelled(ui, Button::new(text!("align-cancel")), &label).clicked() {
                     actions.push(AlignAction::Cancel);
                 }
                 return;
             }
             let (text, label, action) = if num == 0 {
-                ("Run Table I", "Run Table I", AlignAction::RunTable)
+                let text = text!("align-run-table");
+                (text.clone(), text, AlignAction::RunTable)
             } else if num < total {
-                ("Go on", "Go on with Table I", AlignAction::RunTable)
+                (
+                    text!("align-go-on"),
+                    text!("align-go-on-table"),
+                    AlignAction::RunTable,
+                )
             } else {
-                ("Run again", "Run Table I again", AlignAction::RestartTable)
+                (
+                    text!("align-again"),
+                    text!("align-table-again"),
+                    AlignAction::RestartTable,
+                )
             };
-            let button = ui.add_enabled_ui(total > 0, |ui| labelled(ui, Button::new(text), label));
+            let button = ui.add_enabled_ui(total > 0, |ui| labelled(ui, Button::new(text), &label));
             if button.inner.clicked() {
                 actions.push(action);
             }
@@ -140,17 +150,25 @@ fn progress(
 /// How far the table is while rows are being added.
 fn going(num: usize, total: usize, remaining: Option<Duration>) -> String {
     match remaining {
-        Some(time) => format!("{num} of {total} done · about {} left", shortly(time)),
-        None => format!("{num} of {total} done"),
+        Some(time) => {
+            let time = shortly(time);
+            text!(
+                "align-rows-done-left",
+                done = num,
+                total = total,
+                time = time
+            )
+        }
+        None => text!("align-rows-done", done = num, total = total),
     }
 }
 
 /// How far the table is when nobody works on it.
 fn standing(num: usize, total: usize) -> String {
     match num {
-        0 => format!("{total} rows"),
-        num if num < total => format!("Stopped at {num} of {total}"),
-        _ => format!("All {total} done"),
+        0 => text!("align-rows", total = total),
+        num if num < total => text!("align-rows-stopped", done = num, total = total),
+        _ => text!("align-rows-all", total = total),
     }
 }
 
@@ -178,12 +196,16 @@ fn header(ui: &mut Ui, theme: &Theme) {
         let at = pos2(x, rect.center().y);
         painter.text(at, anchor, text, font::small(), theme.weak_text);
     };
-    write(rect.left(), Align2::LEFT_CENTER, "part, start");
+    write(
+        rect.left(),
+        Align2::LEFT_CENTER,
+        &text!("align-column-part"),
+    );
     for (place, x) in columns(rect) {
         write(
             x,
             Align2::RIGHT_CENTER,
-            series::title(PoseMethod::ALL[place]),
+            &series::title(PoseMethod::ALL[place]),
         );
     }
 }
@@ -244,7 +266,7 @@ fn paint_row(painter: &Painter, rect: Rect, row: &TableRow, theme: &Theme) {
         let (text, font, colour) = match (&cell.figures, row.is_best(place)) {
             (Ok(figures), true) => (short(figures.e_m2), font::body_strong(), theme.accepted),
             (Ok(figures), false) => (short(figures.e_m2), font::body(), theme.text),
-            (Err(_), _) => ("none".into(), font::body(), theme.rejected),
+            (Err(_), _) => (text!("align-none"), font::body(), theme.rejected),
         };
         let written = painter.text(pos2(x, y), Align2::RIGHT_CENTER, text, font, colour);
         if row.is_best(place) {
@@ -274,10 +296,14 @@ fn spoken(row: &TableRow) -> String {
     let mut text = format!("{}, {}", row.title, Start::Paper(row.start).title());
     for (place, cell) in row.cells.iter().enumerate() {
         let name = series::title(cell.method);
-        let best = if row.is_best(place) { ", best" } else { "" };
+        let best = if row.is_best(place) {
+            format!(", {}", text!("align-best"))
+        } else {
+            String::new()
+        };
         let _ = match &cell.figures {
             Ok(figures) => write!(text, "; {name} {}{best}", short(figures.e_m2)),
-            Err(_) => write!(text, "; {name} no pose"),
+            Err(_) => write!(text, "; {name} {}", text!("align-no-pose")),
         };
     }
     text
@@ -290,11 +316,11 @@ fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme)
     };
     let is_known = shown.pair.truth.is_some();
     let title = if is_known {
-        "True error at this start"
+        text!("align-true-error")
     } else {
-        "Uncertainty (95 %)"
+        text!("align-uncertainty")
     };
-    heading(ui, theme, title);
+    heading(ui, theme, &title);
     ui.spacing_mut().interact_size.y = 20.0;
     let line = |ui: &mut Ui, name: RichText, turn: RichText, shift: RichText| {
         ui.horizontal(|ui| {
@@ -310,12 +336,18 @@ fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme)
             });
         });
     };
-    let weak = |text: &str| {
+    let weak = |text: String| {
         RichText::new(text)
             .font(font::small())
             .color(theme.weak_text)
     };
-    line(ui, weak("method"), weak("rotation"), weak("shift"));
+    let names = [
+        text!("align-method"),
+        text!("align-rotation"),
+        text!("align-shift"),
+    ];
+    let [method, rotation, shift] = names.map(weak);
+    line(ui, method, rotation, shift);
     for run in &shown.runs {
         let colour = series::colour(run.method, theme);
         let name = RichText::new(series::title(run.method)).color(colour);
@@ -328,8 +360,8 @@ fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme)
         });
         let (turn, shift) = match off {
             Ok(Some((turn, shift))) => (session.units.angle(turn), session.units.length(shift)),
-            Ok(None) => ("unconstrained".into(), String::new()),
-            Err(_) => ("no pose".into(), String::new()),
+            Ok(None) => (text!("align-unconstrained"), String::new()),
+            Err(_) => (text!("align-no-pose"), String::new()),
         };
         let text = |text: String| RichText::new(text).color(theme.text);
         line(ui, name, text(turn), text(shift));
@@ -339,7 +371,7 @@ fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme)
 fn export(ui: &mut Ui, theme: &Theme, actions: &mut Vec<AlignAction>) {
     ui.horizontal(|ui| {
         let width = ui.available_width() - 90.0;
-        let text = RichText::new("Export CSV…").font(font::body_strong());
+        let text = RichText::new(text!("align-export-csv")).font(font::body_strong());
         let button = Button::new(text.color(theme.on_accent)).fill(theme.accent);
         if ui
             .add(button.min_size(vec2(width, space::TARGET)))
@@ -347,10 +379,11 @@ fn export(ui: &mut Ui, theme: &Theme, actions: &mut Vec<AlignAction>) {
         {
             actions.push(AlignAction::Ask(AlignFile::TableFile));
         }
-        let copy = Button::new("Copy").min_size(vec2(ui.available_width(), space::TARGET));
+        let copy =
+            Button::new(text!("align-copy")).min_size(vec2(ui.available_width(), space::TARGET));
         if ui
             .add(copy)
-            .on_hover_text("Table I as text, cells separated by tabs")
+            .on_hover_text(text!("align-copy-hint"))
             .clicked()
         {
             actions.push(AlignAction::CopyTable);

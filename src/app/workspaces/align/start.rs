@@ -6,6 +6,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use crate::{
+    app::language::text,
     geometry::rigid::{RigidTransform, from_euler_zyx},
     stages::pose::displacements::DISPLACEMENTS,
 };
@@ -38,8 +39,8 @@ impl Start {
     pub fn title(self) -> String {
         match self {
             Self::Paper(place) => format!("T{}", place + 1),
-            Self::Custom(_) => "custom start".into(),
-            Self::Random(seed) => format!("random start {seed}"),
+            Self::Custom(_) => text!("align-custom-start"),
+            Self::Random(seed) => text!("align-random-start", seed = seed),
         }
     }
 

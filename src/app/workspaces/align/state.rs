@@ -15,6 +15,7 @@ use super::{
 use crate::{
     app::{
         inspection::source::file_name,
+        language::text,
         shell::{
             context::ShellContext, file_dialog::FileDialog, message::Message, notice::Notice,
             session::Session,
@@ -101,11 +102,11 @@ impl Pairing {
     pub const ALL: [Self; 3] = [Self::MovedCopy, Self::Scene, Self::Files];
 
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::MovedCopy => "Moved copy",
-            Self::Scene => "Scene",
-            Self::Files => "Two files",
+            Self::MovedCopy => text!("align-moved-copy"),
+            Self::Scene => text!("align-scene"),
+            Self::Files => text!("align-files"),
         }
     }
 }
@@ -164,7 +165,7 @@ impl AlignState {
     pub fn choice(&self, session: &Session) -> Result<PairSource, String> {
         let part = || {
             match &session.library {
-                None => return Err("The library is being loaded".to_owned()),
+                None => return Err(text!("align-library-loading")),
                 Some(library) => {
                     if let Some(trouble) = &library.unloaded {
                         return Err(trouble.what.clone());
@@ -172,9 +173,7 @@ impl AlignState {
                 }
             }
             let part = self.chosen_part(session).map(str::to_owned);
-            part.ok_or_else(|| {
-                "The library has no part: enrol one in the Enrol workspace".to_owned()
-            })
+            part.ok_or_else(|| text!("align-library-has-no-part"))
         };
         match self.pairing {
             Pairing::MovedCopy => Ok(PairSource::MovedCopy {
@@ -184,10 +183,10 @@ impl AlignState {
             Pairing::Scene => {
                 let shown = session.shown.as_ref();
                 let inspected = &shown
-                    .ok_or("Nothing inspected yet: press Capture")?
+                    .ok_or_else(|| text!("align-nothing-inspected"))?
                     .inspected;
                 if inspected.inspection.segmentation.part.is_err() {
-                    return Err("No part was found in the scene: capture another".into());
+                    return Err(text!("align-no-part-in-scene"));
                 }
                 Ok(PairSource::Scene {
                     inspected: Arc::clone(inspected),
@@ -198,11 +197,11 @@ impl AlignState {
                 source: self
                     .source
                     .clone()
-                    .ok_or("Choose the file that is moved: Source…")?,
+                    .ok_or_else(|| text!("align-choose-source"))?,
                 target: self
                     .target
                     .clone()
-                    .ok_or("Choose the file that stays: Target…")?,
+                    .ok_or_else(|| text!("align-choose-target"))?,
             }),
         }
     }
@@ -267,7 +266,7 @@ impl AlignState {
             AlignAction::Advance(seconds) => self.advance(seconds),
             AlignAction::CopyTable => {
                 let text = table::text(&self.table.rows, '\t');
-                cx.notify(Notice::done("Copied Table I"));
+                cx.notify(Notice::done(text!("align-copied")));
                 cx.send(Message::CopyText(text));
             }
         }
@@ -285,7 +284,7 @@ impl AlignState {
         self.coming = None;
         self.job = AlignJob::Pair;
         let library_cache = cx.services.library_cache.clone();
-        self.task.start("Aligning", move |context| {
+        self.task.start(text!("align-aligning"), move |context| {
             work::pair(&source, &library_cache, context)
         });
     }
@@ -297,7 +296,7 @@ impl AlignState {
         self.table.elapsed = Duration::ZERO;
         self.job = AlignJob::Table;
         let library_cache = cx.services.library_cache.clone();
-        self.task.start("Table I", move |context| {
+        self.task.start(text!("align-table"), move |context| {
             work::table(&done, &library_cache, context)
         });
     }
@@ -317,7 +316,7 @@ impl AlignState {
     }
 
     fn write_table(&mut self, path: PathBuf) {
-        let title = format!("Writing {}", file_name(&path));
+        let title = text!("align-writing", file = file_name(&path));
         let text = table::text(&self.table.rows, ',');
         self.writing
             .start(title, move |_| Ok(work::write(path, &text)?));
@@ -336,7 +335,8 @@ impl AlignState {
         }
         match self.writing.poll() {
             Some(TaskEvent::Done(path)) => {
-                cx.notify(Notice::done(format!("Wrote {}", path.display())));
+                let path = path.display().to_string();
+                cx.notify(Notice::done(text!("align-wrote", path = path)));
             }
             Some(TaskEvent::Failed(error)) => cx.notify(error),
             Some(TaskEvent::Partial(_)) | None => {}

@@ -7,8 +7,11 @@ use std::{
 
 use super::pair::Pair;
 use crate::{
-    app::{ui::widgets::sentence, user_error::UserError},
-    error::Advice as _,
+    app::{
+        language::{results, text},
+        ui::widgets::sentence,
+        user_error::UserError,
+    },
     geometry::rigid::{self, RigidTransform},
     stages::pose::{
         FitQuality, Iteration, Phase, PoseError, PoseEstimate, PoseMethod, PoseWarning, Stopped,
@@ -128,16 +131,16 @@ impl Track {
             .filter(|error| error.rotation.degrees() > 5.0);
         match (self.stopped, is_lost) {
             (Stopped::BelowTarget, _) => {
-                format!("Accepted: E below 1e-6 m² after {num} iterations")
+                text!("align-ended-below-target", count = num)
             }
             (Stopped::Converged, Some(_)) => {
-                format!("Stuck: settled elsewhere after {num} iterations")
+                text!("align-ended-elsewhere", count = num)
             }
-            (Stopped::Converged, None) => format!("Settled after {num} iterations"),
+            (Stopped::Converged, None) => text!("align-ended-settled", count = num),
             (Stopped::NoProgress, _) => {
-                format!("Gave up: nothing better found in {num} iterations")
+                text!("align-ended-gave-up", count = num)
             }
-            (Stopped::IterationLimit, _) => format!("Still moving after {num} iterations"),
+            (Stopped::IterationLimit, _) => text!("align-ended-moving", count = num),
         }
     }
 }
@@ -175,32 +178,31 @@ fn searches(iterations: &[Iteration]) -> Vec<Range<usize>> {
 pub(super) fn in_the_window(error: &PoseError) -> UserError {
     let advice = match error {
         PoseError::OneSidedPairs { .. } | PoseError::NoOverlap { .. } => {
-            "Choose a start that is nearer, or check that both clouds show the same part in metres"
-                .into()
+            text!("align-nearer-or-same-part")
         }
-        other => other.advice(),
+        other => results::pose_error_advice(other),
     };
     UserError {
-        what: sentence(&error.to_string()),
+        what: sentence(&results::pose_error(error)),
         advice,
     }
 }
 
 fn doubted(doubt: &PoseWarning, pair: &Pair) -> UserError {
     let advice = match doubt {
-        PoseWarning::Ambiguous { .. } => "Check which way round the part lies".into(),
+        PoseWarning::Ambiguous { .. } => text!("align-which-way-round"),
         PoseWarning::Loose { .. } => {
-            "Look for an edge or a bend that only one place of the part has".into()
+            text!("align-look-for-edge")
         }
-        PoseWarning::Unsettled { .. } => "Try another method, or a start that is nearer".into(),
+        PoseWarning::Unsettled { .. } => text!("align-other-method"),
         // They do show the same.
         PoseWarning::LittleOverlap { .. } if pair.truth.is_some() => {
-            "Choose a start that is nearer".into()
+            text!("align-nearer-start")
         }
-        PoseWarning::LittleOverlap { .. } => doubt.advice(),
+        PoseWarning::LittleOverlap { .. } => text!("results-little-overlap-advice"),
     };
     UserError {
-        what: sentence(&doubt.to_string()),
+        what: sentence(&results::pose_warning(doubt)),
         advice,
     }
 }

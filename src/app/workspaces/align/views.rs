@@ -13,6 +13,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::session::{Session, ThemeChoice},
         ui::{
             theme::{ROUNDING, Theme, font, space},
@@ -115,7 +116,7 @@ impl LinkedViews {
         }
         if align.is_pair_at_work() && align.coming.is_some() {
             let at = all.center_bottom() - vec2(0.0, 12.0);
-            let text = "Previous result: a new inspection is running";
+            let text = text!("align-previous-result");
             ui.painter().text(
                 at,
                 Align2::CENTER_BOTTOM,
@@ -184,8 +185,8 @@ impl View {
             ui.label(title.color(series::colour(self.method, theme)));
             match run {
                 Some(run) => heading(ui, run, session, theme),
-                None if align.is_pair_at_work() => weak(ui, "At work…", theme),
-                None => weak(ui, "Not run", theme),
+                None if align.is_pair_at_work() => weak(ui, &text!("align-at-work"), theme),
+                None => weak(ui, &text!("align-not-run"), theme),
             }
         });
         let body = Rect::from_min_max(pos2(all.left(), split), all.max);
@@ -227,7 +228,7 @@ impl View {
             scene,
             ..
         } = self;
-        let label = format!("3-D view, {}", series::title(*method));
+        let label = text!("align-view-of", method = series::title(*method));
         let builder = UiBuilder::new().max_rect(rect);
         ui.scope_builder(builder, |ui| {
             let seen = viewport.ui(ui, &label, camera, scene, style);
@@ -268,7 +269,7 @@ fn weak(ui: &mut Ui, text: &str, theme: &Theme) {
 
 /// How a method ended, and its figures.
 fn heading(ui: &mut Ui, run: &MethodRun, session: &Session, theme: &Theme) {
-    let ms = run.time.as_secs_f64() * 1000.0;
+    let ms = format!("{:.0}", run.time.as_secs_f64() * 1000.0);
     match &run.track {
         Ok(track) => {
             let ending = track.ending();
@@ -280,12 +281,18 @@ fn heading(ui: &mut Ui, run: &MethodRun, session: &Session, theme: &Theme) {
                     .on_hover_text(format!("{}\n{}", doubt.what, doubt.advice)),
             };
             let rms = session.units.length(track.fit.rms_m);
-            let overlap = track.fit.overlap * 100.0;
+            let overlap = format!("{:.0}", track.fit.overlap * 100.0);
             let e = scientific(track.end_e_m2());
-            let figures = format!("E {e} m² · rms {rms} on {overlap:.0} % · {ms:.0} ms");
+            let figures = text!(
+                "align-figures",
+                e = e,
+                rms = rms,
+                overlap = overlap,
+                time = ms,
+            );
             weak(ui, &figures, theme);
         }
-        Err(_) => weak(ui, &format!("No pose · {ms:.0} ms"), theme),
+        Err(_) => weak(ui, &text!("align-no-pose-figures", time = ms), theme),
     }
 }
 
@@ -296,9 +303,14 @@ fn below(ui: &Ui, rect: Rect, track: &Track, place: usize, theme: &Theme) {
     let painter = ui.painter_at(rect);
     let e = track.e_m2.get(place).copied().unwrap_or(f64::NAN);
     let text = if place == last {
-        format!("End, after {last} iterations")
+        text!("align-end", count = last)
     } else {
-        format!("Iteration {place} of {last} · E {} m²", scientific(e))
+        text!(
+            "align-iteration-e",
+            place = place,
+            last = last,
+            e = scientific(e)
+        )
     };
     let at = rect.left_bottom() + vec2(space::MEDIUM, -space::MEDIUM);
     let written = painter.text(
@@ -325,15 +337,15 @@ fn empty(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
     ui.painter().rect_filled(rect, 0.0, theme.canvas);
     let choice = align.choice(session);
     let (what, advice) = if align.is_pair_at_work() {
-        ("Aligning…", String::new())
+        (text!("align-aligning-now"), String::new())
     } else {
         let advice = match choice {
-            Ok(_) => "Choose a part and a start above, then press Run".to_owned(),
+            Ok(_) => text!("align-nothing-aligned-advice"),
             Err(missing) => missing,
         };
-        ("Nothing aligned yet", advice)
+        (text!("align-nothing-aligned"), advice)
     };
-    words(ui, rect, &[(what, theme.text), (&advice, theme.weak_text)]);
+    words(ui, rect, &[(&what, theme.text), (&advice, theme.weak_text)]);
 }
 
 /// Words in the middle of where a view would be, one paragraph after the other.

@@ -6,7 +6,7 @@ use super::{CompareAction, CompareState, Front, matrix::truth_title};
 use crate::{
     app::{
         inspection::library_cache::LibraryView,
-        language::text,
+        language::{keys, text},
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -69,7 +69,10 @@ fn case_menu(
     let title = format!("{} · {} ▼", text!("compare-case"), shortened(&title, 24));
     menu(ui, &title, text!("compare-case-hint"), &mut |ui| {
         if let Some(shown) = &session.shown {
-            let title = text!("compare-in-front", scene = shown.inspected.origin.shown_title());
+            let title = text!(
+                "compare-in-front",
+                scene = shown.inspected.origin.shown_title()
+            );
             if ui.selectable_label(is_scene, title).clicked() {
                 acts.push(CompareAction::FrontScene);
                 ui.close();
@@ -282,7 +285,7 @@ fn case_buttons(
     let label = text!("compare-run-all");
     let run = RichText::new(&label).font(font::body_strong());
     let run = Button::new(run.color(theme.on_accent))
-        .shortcut_text(key("Ctrl R").color(theme.on_accent))
+        .shortcut_text(key(&keys("Ctrl R")).color(theme.on_accent))
         .fill(theme.accent);
     let run = labelled(ui, run, &label);
     if run.on_hover_text(text!("compare-run-all-hint")).clicked() {
@@ -290,7 +293,7 @@ fn case_buttons(
     }
     if let Some(undo) = &compare.undo {
         let title = undo.title();
-        let button = Button::new(&title).shortcut_text(key("Ctrl Z").color(theme.weak_text));
+        let button = Button::new(&title).shortcut_text(key(&keys("Ctrl Z")).color(theme.weak_text));
         if labelled(ui, button, &title).clicked() {
             acts.push(CompareAction::Undo);
         }

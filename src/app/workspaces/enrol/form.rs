@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     app::{
-        language::text,
+        language::{keys, text},
         shell::session::Session,
         shots::summary,
         ui::{
@@ -326,7 +326,7 @@ fn buttons(
             (false, false) => text!("enrol-save"),
         };
         ui.add_enabled_ui(unready.is_none() && !enrol.is_changing_library(), |ui| {
-            let key = RichText::new("Ctrl S").font(font::small());
+            let key = RichText::new(keys("Ctrl S")).font(font::small());
             let save = RichText::new(&text).font(font::body_strong());
             let button = Button::new(save.color(theme.on_accent))
                 .shortcut_text(key.color(theme.on_accent))

@@ -12,6 +12,7 @@ use crate::{
     app::{
         inspection::unit_system::UnitSystem,
         language::{
+            keys,
             results::{stored_title, stored_verdict},
             text,
         },
@@ -322,7 +323,7 @@ fn buttons(
     ui.horizontal(|ui| {
         let label = text!("history-open");
         let open = RichText::new(&label).font(font::body_strong());
-        let key = RichText::new("Enter").font(font::small());
+        let key = RichText::new(keys("Enter")).font(font::small());
         let open = Button::new(open.color(theme.on_accent))
             .shortcut_text(key.color(theme.on_accent))
             .fill(theme.accent);
