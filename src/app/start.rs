@@ -5,6 +5,7 @@ use std::{cell::OnceCell, env, rc::Rc};
 use eframe::NativeOptions;
 
 use super::{
+    language::Language,
     shell::settings,
     ui::viewport::{ViewError, ViewportGpu},
     window::{Window, WindowOptions},
@@ -70,6 +71,10 @@ pub fn run(given: WindowOptions) -> Result<(), WindowError> {
     {
         return Err(WindowError::NoDisplay);
     }
+    let given = WindowOptions {
+        language: given.language.or_else(|| Some(Language::of_system())),
+        ..given
+    };
     let size = given.settings.as_deref().and_then(settings::window_size);
     let options = NativeOptions {
         viewport: egui::ViewportBuilder::default()

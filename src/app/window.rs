@@ -44,7 +44,7 @@ use super::{
     },
 };
 use crate::{
-    app::language::text,
+    app::language::{Language, text},
     history::{HistoryBuffer, Writer},
     pipeline::{RecipeFolder, open_recipe},
     robot::frame_poses::FRAME_POSES,
@@ -71,6 +71,8 @@ pub struct WindowOptions {
     pub cell: Option<PathBuf>,
     /// What opens cameras.
     pub camera: Camera,
+    /// The language to speak where none was chosen in the window; without it English.
+    pub language: Option<Language>,
 }
 
 /// The window.
@@ -106,8 +108,10 @@ impl Window {
             history,
             cell,
             camera,
+            language,
         } = options;
         let is_first_start = settings.as_ref().is_some_and(|path| !path.exists());
+        language.unwrap_or_default().make_current();
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
         let kept = Arc::new(HistoryBuffer::new(history));
         let repaint = ctx.clone();
@@ -143,6 +147,9 @@ impl Window {
             gpu: gpu.clone(),
             touched: ctx.input(|input| input.time),
         };
+        let language = window.state.chosen_language.or(language);
+        window.state.session.language = language.unwrap_or_default();
+        window.state.language.make_current();
         window.state.notices.extend(trouble.map(Notice::from));
         if let (true, Some(recipes)) = (is_first_start, recipes) {
             window.use_default_recipe(recipes);
@@ -323,6 +330,7 @@ impl Window {
 
     /// Takes in what the threads, the dialog and the desktop have to tell.
     pub(super) fn fetch(&mut self, ctx: &egui::Context) {
+        self.state.language.make_current();
         self.install_theme(ctx);
         if self.is_lost() {
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
@@ -364,6 +372,7 @@ impl Window {
         if self.is_lost() {
             return;
         }
+        self.state.language.make_current();
         let ctx = ui.ctx().clone();
         let theme = Theme::of(self.state.session.theme);
         let mut actions = Vec::new();

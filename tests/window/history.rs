@@ -240,7 +240,9 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
     act_in(&mut harness, |_: &mut HistoryWorkspace, cx| {
         cx.send(Message::UseRecipe(Arc::new(recipe.into())));
         let title = "Inspecting with another recipe";
-        cx.send(Message::InspectShown { title });
+        cx.send(Message::InspectShown {
+            title: title.into(),
+        });
     });
     harness.get_by_label("Not accepted");
     go_to_history(&mut harness);
@@ -265,7 +267,9 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
     act_in_history(&mut harness, HistoryAction::Open(1));
     act_in(&mut harness, |_: &mut HistoryWorkspace, cx| {
         let title = "Inspecting with another recipe";
-        cx.send(Message::InspectShown { title });
+        cx.send(Message::InspectShown {
+            title: title.into(),
+        });
     });
     go_to_history(&mut harness);
     harness.get_by_label("1 of 1 parts");

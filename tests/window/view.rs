@@ -118,7 +118,7 @@ fn what_the_view_shows_is_chosen_in_one_menu_and_by_keys() {
     harness.get_by_label("Show ▼").click();
     harness.run_steps(2);
     for part in ViewPart::ALL {
-        harness.get_by_label(part.title());
+        harness.get_by_label(&part.title());
     }
     harness.get_by_label("Depth camera").click();
     harness.run_steps(2);

@@ -1,1 +1,184 @@
-# inspect
+# The Inspect workspace
+
+## The verdict
+
+inspect-another-make = { $part }, anderes Fabrikat
+inspect-another-model = { $part }, anderes Modell
+inspect-unknown-part = Unbekanntes Teil
+inspect-not-recognised = Nicht erkannt
+inspect-no-part = Kein Teil
+inspect-no-verdict = Kein Urteil
+inspect-live-stopped = Live wurde beendet, bevor ein Urteil galt
+inspect-press-capture = „Aufnehmen“ drücken
+inspect-moving = Bewegung
+inspect-something-moves = vor der Kamera bewegt sich etwas
+inspect-let-it-hang = Das Teil eine Sekunde still hängen lassen
+inspect-looking = Suche läuft
+inspect-not-long-enough = noch nicht lange genug gesehen
+inspect-it-is-steady = das Teil hängt still
+inspect-wait = Einen Moment warten
+inspect-not-accepted-yet = Noch nicht akzeptiert
+inspect-nearest = Am nächsten: { $part }
+
+## The card
+
+inspect-previous-result = Vorheriges Ergebnis: Eine neue Prüfung läuft
+inspect-from-history = Aus dem Verlauf, nicht das aktuelle Teil
+inspect-touches-edge = Das Teil reicht bis an den Bildrand: Etwas davon kann fehlen
+inspect-approximate = Die Pose ist ungefähr: Dies kann ein anderes Modell des Teils sein
+inspect-export = Export…
+inspect-export-says = Ein Bericht: JSON, eine PDF-Seite, eine Zeile in einer Posentabelle und die Bilder aller Stufen (Strg E)
+inspect-wrong-part = Falsches Teil?
+inspect-wrong-part-says = Im Vergleich ansehen, warum es als dieses Teil erkannt wurde
+inspect-copy-pose = Pose kopieren
+inspect-copy-pose-says = In der Konvention des Roboters, in der ersten Zeile genannt (Strg Umschalt C)
+inspect-score = Score
+inspect-next = Nächstes: { $part } { $score }
+inspect-threshold = Schwelle { $score }
+inspect-margin = Vorsprung vor dem nächsten { $margin }
+inspect-offset = Versatz zur Standardlage
+inspect-measured-from = Gemessen von { $part }, einer anderen Referenz dieses Teils
+inspect-offset-note = Teilemitte, Kameraachsen · R = Rz·Ry·Rx
+inspect-fit = Passung
+inspect-rms = rms
+inspect-overlap = Überlappung
+inspect-unconstrained = Nicht bestimmt: { $freedom }
+inspect-pose-uncertainty = Pose-Unsicherheit (95 %)
+inspect-uncertainty = Unsicherheit (95 %)
+inspect-runner-up = zweitbeste Pose
+inspect-times-worse = { $ratio }× schlechter
+inspect-iterations = { $num } Iterationen
+inspect-ambiguous = Eine andere Pose passt ebenso gut: prüfen, wie herum das Teil hängt
+inspect-inspection = Prüfung
+inspect-time = Zeit
+inspect-scene = Szene
+inspect-camera = Kamera
+inspect-simulated = simuliert
+inspect-serial = Serien-Nr.
+inspect-order = Auftrag
+inspect-operator = Bediener
+inspect-recipe = Rezept
+inspect-recipe-modified = { $name } (geändert)
+inspect-recipe-built-in = eingebaut
+
+## Stand-off
+
+inspect-stand-off = Düsenabstand der eingelernten Bahn
+inspect-mean = Mittel
+inspect-worst-of = { $value }, max. { $worst }
+inspect-in-band = im Band
+inspect-angle = Winkel
+inspect-path-fits = Die Bahn passt auch ohne die Pose
+inspect-path-needs-pose = Das Roboterprogramm muss die Pose auf die Bahn anwenden
+inspect-stand-off-of = Düsenabstand { $mean } von { $nearest } bis { $farthest }
+inspect-no-surface = das eingelernte Teil hat keine Oberfläche mit Normalen
+inspect-none-meets = keine der { $num } eingelernten Düsenpositionen zeigt auf das Teil
+
+## The pose for the robot
+
+inspect-pose = Pose
+inspect-robot-frame = Basiskoordinatensystem des Roboters, laut { $name }
+inspect-camera-frame = Kamerakoordinatensystem: Die Zelle ist nicht kalibriert
+inspect-convention-of = Konvention: { $name }
+inspect-convention-says = Roboterkonvention der Pose (K für die nächste)
+inspect-no-pose-to-copy = Keine Pose zum Kopieren: Das Teil wurde nicht akzeptiert
+inspect-no-pose-advice = Dem Hinweis auf der Karte folgen, dann erneut aufnehmen
+inspect-pose-copied = { $name } in der Konvention { $convention } kopiert
+
+## The view
+
+inspect-view = Ansicht
+inspect-colour = Farbe · { $colouring }
+inspect-show = Anzeigen
+inspect-export-path = Lackierbahn exportieren…
+inspect-export-path-says = Erfordert ein akzeptiertes Teil mit gespeicherter Lackierbahn und eine kalibrierte Zelle
+inspect-measure = Messen
+inspect-measure-says = Zwei Punkte anklicken (M)
+inspect-picture = Bild…
+inspect-picture-says = Bild der Ansicht speichern (P)
+inspect-fit-view = Einpassen
+inspect-fit-view-says = Teil einpassen (F)
+inspect-front = Vorn
+inspect-top = Oben
+inspect-side = Seite
+inspect-part-axes = Achsen des Teils
+inspect-part-camera = Tiefenkamera
+inspect-part-outline = Eingelernte Kontur
+inspect-part-nozzle-middle = Düse über der Mitte
+inspect-part-nozzle-worst = Düse an der schlechtesten Stelle
+inspect-part-spray-path = Lackierbahn
+inspect-part-robot-base = Roboterbasis
+inspect-part-shot-cameras = Kameras der Aufnahmen
+inspect-part-unseen = Von keiner Aufnahme gesehen
+inspect-caption-planes = { $points } Punkte · Teil { $part } · { $planes ->
+        [one] 1 Hintergrundebene entfernt
+       *[other] { $planes } Hintergrundebenen entfernt
+    }
+inspect-caption-shots = { $points } Punkte · Teil { $part } · { $shots } Aufnahmen zusammen
+inspect-no-camera-read = { $scene } · ohne Kamera
+inspect-view-of-scene = 3D-Ansicht der Szene
+inspect-taught-nozzle = Eingelernte Düse
+inspect-worst = Schlechteste
+inspect-path-in-band = Lackierbahn · { $inside } von { $num } im Band
+
+## The stages
+
+inspect-segmentation = Segmentierung
+inspect-binary-image = Binärbild
+inspect-contour = Kontur
+inspect-signatures = Signaturen
+inspect-ranking = Rangliste
+inspect-alignment = Ausrichtung
+inspect-enlarge-segmentation = Segmentierung vergrößern
+inspect-enlarge-binary-image = Binärbild vergrößern
+inspect-enlarge-contour = Kontur vergrößern
+inspect-enlarge-signatures = Signaturen vergrößern
+inspect-enlarge-ranking = Rangliste vergrößern
+inspect-enlarge-alignment = Ausrichtung vergrößern
+inspect-enlarged = { $stage }, vergrößert
+inspect-enlarged-without = { $stage }, vergrößert: { $why }
+inspect-says-segmentation = Hintergrundebenen in matten Farben, das Teil hell
+inspect-says-binary-image = das Teil in der Ebene seiner zwei längsten Achsen
+inspect-says-contour = Umriss, Öffnungen, Strahlen vom Schwerpunkt; gestrichelt: das eingelernte Teil
+inspect-says-signatures = Länge L und Winkel Θ der Strahlen; gestrichelt: das eingelernte Teil
+inspect-says-ranking = Score jedes eingelernten Teils gegenüber der Schwelle
+inspect-says-alignment = mittlerer quadratischer Abstand E je Iteration, logarithmisch
+inspect-stages = Stufen
+inspect-not-reached = nicht erreicht
+inspect-not-examined = nicht untersucht
+inspect-e-stayed-zero = E blieb bei 0
+inspect-ended-at = { $part } endete bei rms { $rms }
+inspect-papers-goal = Ziel des Artikels, 1e−6 m²
+inspect-not-asked-for = nicht ausgerichtet: keine Pose verlangt
+inspect-flat-shape = nicht ausgerichtet: als flache Form eingelernt
+inspect-no-pose-found = nicht ausgerichtet: keine Pose gefunden
+inspect-score-too-low = nicht ausgerichtet: Score zu niedrig für einen Versuch
+inspect-nothing-yet =
+    Noch nichts geprüft
+    „Aufnehmen“ drücken für ein Bild der simulierten Zelle, oder eine aufgenommene Szene hierher ziehen
+
+## Shortcuts and files
+
+inspect-does-redo = Letzte rückgängig gemachte Änderung der Aufnahmen wiederholen
+inspect-does-undo = Letzte Änderung der Aufnahmen eines Scans rückgängig machen
+inspect-does-picture = Bild der 3D-Ansicht speichern
+inspect-does-contour = Eingelernte Kontur ein- oder ausblenden
+inspect-does-nozzle = Düse an der schlechtesten Stelle ein- oder ausblenden
+inspect-does-convention = Pose in der nächsten Roboterkonvention zeigen
+inspect-does-copy = Pose in dieser Konvention kopieren
+inspect-report-folder = Ordner für den Bericht dieser Prüfung
+inspect-save-picture = Bild der Ansicht speichern
+inspect-pictures = Bilder
+inspect-export-path-title = Lackierbahn für den Roboter exportieren
+inspect-csv = Kommagetrennte Werte
+inspect-saving-picture = Bild wird gespeichert
+inspect-writing-report = Bericht wird geschrieben
+inspect-writing-path = Lackierbahn wird geschrieben
+inspect-picture-saved = Bild gespeichert: { $path }
+inspect-no-spray-path = Für das Angezeigte gibt es keine Lackierbahn
+inspect-no-spray-path-advice = Eine beim Teil speichern und ein Teil aufnehmen, das akzeptiert wird
+inspect-path-written = { $path } geschrieben: { $inside } von { $num } Punkten im Band, als { $convention }
+inspect-report-written = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben
+inspect-report-set-aside = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben; die letzte Zeile war unvollständig und liegt jetzt in { $aside }
+inspect-watching-folder = Ordner wird überwacht
+inspect-poses-of-scan = die Posen des Scans

@@ -116,8 +116,6 @@ results-no-progress = kein Fortschritt
 
 ## The simulated cell
 
-results-side-left = links
-results-side-right = rechts
 results-object-hood = Motorhaube
 results-object-wheel = Rad
 results-object-box = Kiste

@@ -1,1 +1,184 @@
-# inspect
+# The Inspect workspace
+
+## The verdict
+
+inspect-another-make = { $part }, another make
+inspect-another-model = { $part }, another model
+inspect-unknown-part = Unknown part
+inspect-not-recognised = Not recognised
+inspect-no-part = No part
+inspect-no-verdict = No verdict
+inspect-live-stopped = Live was stopped before a verdict counted
+inspect-press-capture = Press Capture
+inspect-moving = Moving
+inspect-something-moves = something is moving in front of the camera
+inspect-let-it-hang = Let the part hang still for a second
+inspect-looking = Looking
+inspect-not-long-enough = it was not seen for long enough
+inspect-it-is-steady = it is steady
+inspect-wait = Wait a moment
+inspect-not-accepted-yet = Not accepted yet
+inspect-nearest = Nearest: { $part }
+
+## The card
+
+inspect-previous-result = Previous result: a new inspection is running
+inspect-from-history = From the history, not the current part
+inspect-touches-edge = The part reaches the edge of the picture: some of it may be missing
+inspect-approximate = The pose is approximate: this may be another model of the part
+inspect-export = Export…
+inspect-export-says = A report: JSON, a page of PDF, a row in a table of poses, and the pictures of all stages (Ctrl E)
+inspect-wrong-part = Wrong part?
+inspect-wrong-part-says = See in Compare why it was recognised as this part
+inspect-copy-pose = Copy pose
+inspect-copy-pose-says = In the robot's convention, named on the first line (Ctrl Shift C)
+inspect-score = Score
+inspect-next = Next: { $part } { $score }
+inspect-threshold = threshold { $score }
+inspect-margin = Margin to the next { $margin }
+inspect-offset = Offset from standard position
+inspect-measured-from = Measured from { $part }, another reference of this part
+inspect-offset-note = Part's centre, camera axes · R = Rz·Ry·Rx
+inspect-fit = Fit
+inspect-rms = rms
+inspect-overlap = overlap
+inspect-unconstrained = Unconstrained: { $freedom }
+inspect-pose-uncertainty = pose uncertainty (95 %)
+inspect-uncertainty = uncertainty (95 %)
+inspect-runner-up = runner-up pose
+inspect-times-worse = { $ratio }× worse
+inspect-iterations = { $num } iterations
+inspect-ambiguous = Another pose fits as well: check which way round the part hangs
+inspect-inspection = Inspection
+inspect-time = time
+inspect-scene = scene
+inspect-camera = camera
+inspect-simulated = simulated
+inspect-serial = serial
+inspect-order = order
+inspect-operator = operator
+inspect-recipe = recipe
+inspect-recipe-modified = { $name } (modified)
+inspect-recipe-built-in = built-in
+
+## Stand-off
+
+inspect-stand-off = Stand-off of the taught path
+inspect-mean = mean
+inspect-worst-of = { $value }, worst { $worst }
+inspect-in-band = inside the band
+inspect-angle = angle
+inspect-path-fits = The path fits without the pose
+inspect-path-needs-pose = The robot program must apply the pose to the path
+inspect-stand-off-of = Stand-off { $mean } of { $nearest } to { $farthest }
+inspect-no-surface = the enrolled part has no surface with normals
+inspect-none-meets = none of { $num } taught nozzle positions points at the part
+
+## The pose for the robot
+
+inspect-pose = Pose
+inspect-robot-frame = The robot's base frame, by { $name }
+inspect-camera-frame = The camera's frame: the cell is not calibrated
+inspect-convention-of = Convention: { $name }
+inspect-convention-says = Robot convention of the pose (K for the next)
+inspect-no-pose-to-copy = There is no pose to copy: the part was not accepted
+inspect-no-pose-advice = Follow the advice on the card, then capture again
+inspect-pose-copied = Copied { $name } in the convention { $convention }
+
+## The view
+
+inspect-view = View
+inspect-colour = Colour · { $colouring }
+inspect-show = Show
+inspect-export-path = Export spray path…
+inspect-export-path-says = Needs an accepted part with a stored spray path, and a calibrated cell
+inspect-measure = Measure
+inspect-measure-says = Click two points (M)
+inspect-picture = Picture…
+inspect-picture-says = Save a picture of the view (P)
+inspect-fit-view = Fit
+inspect-fit-view-says = Fit the part (F)
+inspect-front = Front
+inspect-top = Top
+inspect-side = Side
+inspect-part-axes = Axes of the part
+inspect-part-camera = Depth camera
+inspect-part-outline = Enrolled contour
+inspect-part-nozzle-middle = Nozzle over the middle
+inspect-part-nozzle-worst = Nozzle at the worst spot
+inspect-part-spray-path = Spray path
+inspect-part-robot-base = Robot base
+inspect-part-shot-cameras = Cameras of the shots
+inspect-part-unseen = Not seen by any shot
+inspect-caption-planes = { $points } points · part { $part } · { $planes ->
+        [one] 1 background plane removed
+       *[other] { $planes } background planes removed
+    }
+inspect-caption-shots = { $points } points · part { $part } · { $shots } shots together
+inspect-no-camera-read = { $scene } · no camera was read
+inspect-view-of-scene = 3-D view of the scene
+inspect-taught-nozzle = Taught nozzle
+inspect-worst = Worst
+inspect-path-in-band = Spray path · { $inside } of { $num } in the band
+
+## The stages
+
+inspect-segmentation = Segmentation
+inspect-binary-image = Binary image
+inspect-contour = Contour
+inspect-signatures = Signatures
+inspect-ranking = Ranking
+inspect-alignment = Alignment
+inspect-enlarge-segmentation = Enlarge segmentation
+inspect-enlarge-binary-image = Enlarge binary image
+inspect-enlarge-contour = Enlarge contour
+inspect-enlarge-signatures = Enlarge signatures
+inspect-enlarge-ranking = Enlarge ranking
+inspect-enlarge-alignment = Enlarge alignment
+inspect-enlarged = { $stage }, enlarged
+inspect-enlarged-without = { $stage }, enlarged: { $why }
+inspect-says-segmentation = background planes in dull colours, the part bright
+inspect-says-binary-image = the part in the plane of its two longest axes
+inspect-says-contour = outline, openings, rays from the centroid; dashed: the enrolled part
+inspect-says-signatures = length L and angle Θ of the rays; dashed: the enrolled part
+inspect-says-ranking = score of every enrolled part against the threshold
+inspect-says-alignment = mean squared distance E per iteration, logarithmic
+inspect-stages = Stages
+inspect-not-reached = not reached
+inspect-not-examined = not examined
+inspect-e-stayed-zero = E stayed at 0
+inspect-ended-at = { $part } ended at rms { $rms }
+inspect-papers-goal = the paper's goal, 1e−6 m²
+inspect-not-asked-for = not aligned: no pose was asked for
+inspect-flat-shape = not aligned: it is enrolled as a flat shape
+inspect-no-pose-found = not aligned: no pose was found
+inspect-score-too-low = not aligned: its score was too low to be tried
+inspect-nothing-yet =
+    Nothing inspected yet
+    Press Capture for a frame of the simulated cell, or drop a captured scene here
+
+## Shortcuts and files
+
+inspect-does-redo = Redo the last undone change of the shots
+inspect-does-undo = Undo the last change of the shots of a scan
+inspect-does-picture = Save a picture of the 3-D view
+inspect-does-contour = Show or hide the enrolled contour
+inspect-does-nozzle = Show or hide the nozzle at the worst spot
+inspect-does-convention = Show the pose in the next robot convention
+inspect-does-copy = Copy the pose in that convention
+inspect-report-folder = Folder for the report of this inspection
+inspect-save-picture = Save a picture of the view
+inspect-pictures = Pictures
+inspect-export-path-title = Export the spray path for the robot
+inspect-csv = Comma-separated values
+inspect-saving-picture = Saving the picture
+inspect-writing-report = Writing the report
+inspect-writing-path = Writing the spray path
+inspect-picture-saved = Saved the picture { $path }
+inspect-no-spray-path = There is no spray path over what is in front
+inspect-no-spray-path-advice = Store one with the part, and capture a part that is accepted
+inspect-path-written = Wrote { $path }: { $inside } of { $num } points within the band, as { $convention }
+inspect-report-written = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }
+inspect-report-set-aside = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }; its last row had no end and was set aside in { $aside }
+inspect-watching-folder = Watching a folder
+inspect-poses-of-scan = the poses of the scan

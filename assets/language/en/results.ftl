@@ -116,8 +116,6 @@ results-no-progress = no progress
 
 ## The simulated cell
 
-results-side-left = left
-results-side-right = right
 results-object-hood = hood
 results-object-wheel = wheel
 results-object-box = box

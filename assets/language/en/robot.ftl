@@ -1,1 +1,70 @@
-# robot
+# The robot's cell
+robot-title = Robot
+robot-in-use = In use
+robot-by-hand = By hand
+robot-from-pairs = From pairs of poses
+robot-load-title = Load the calibration of the robot's cell
+robot-calibrations = Calibrations
+robot-pairs-title = Pairs of robot and camera poses
+robot-tables = Tables and JSON
+robot-forgotten = The calibration is no longer used; its file is kept
+robot-opening = Opening the calibration
+robot-saving = Saving the calibration
+robot-calculating = Calculating where the camera sits
+robot-no-folder = There is no folder for your own calibration
+robot-no-folder-advice = Write it with partsight calibrate --out FILE, and load that file here
+robot-saved = Saved; the former calibration is kept in { $path }
+
+## In use
+
+robot-not-calibrated = The cell is not calibrated: poses are in the camera's frame, and a robot cannot use them
+robot-file = file
+robot-edited = the file was edited: its numbers count as entered by hand
+robot-edited-advice = Calibrate again to have residuals beside them
+robot-load = Load…
+robot-forget = Forget
+robot-cell = cell
+robot-camera = camera
+robot-made = made
+robot-from = from
+robot-entered-by-hand = entered by hand
+robot-pairs-of = { $num } pairs of { $file }
+robot-residuals = residuals
+robot-residuals-are = { $mm } mm and { $degrees }° rms, worst { $worst } mm ({ $pair })
+robot-uncertainty = uncertainty (95 %)
+robot-mm-and-degrees = { $mm } mm and { $degrees }°
+robot-flange-at-every = robot_from_flange at every capture
+robot-flange-unknown = the flange pose at a capture is not known: there is no pose for the robot
+robot-flange-unknown-advice = Type the flange's pose as the controller shows it, and store it
+robot-flange-at = Flange at a capture
+robot-store = Store
+
+## By hand
+
+robot-camera-in-cell = Camera in the cell
+robot-camera-on-flange = Camera on the flange
+robot-numbers-of = Numbers of
+robot-numbers-are-of = Numbers of: { $convention }
+robot-where-camera-stands = { $transform }: where the camera's frame stands
+robot-name-of-cell = Name of the cell
+robot-use-it = Use it
+robot-use-anyway = Use it anyway
+
+## From pairs
+
+robot-choose-pairs = Choose pairs…
+robot-choose-pairs-says = A table or JSON of robot and camera poses, 8 to 15 pairs
+robot-pairs-format = A line holds the robot's pose, as the controller shows the flange, then the camera's: where it sees the target. Lines such as "# robot: kuka" and "# camera: matrix" at the top name the conventions. An enrolled part can be the target: partsight calibrate hand-eye --captures
+robot-counts = counts
+robot-off-mm = off mm
+robot-off-degrees = off °
+robot-worst = worst
+robot-left-out = left out
+robot-rms = rms of the residuals
+robot-not-determined = not determined by the pairs
+robot-flange-turned = the flange turned
+robot-span = { $turn }° at most, { $other }° about other axes; target moved { $travel } mm
+robot-read-as = read as
+robot-conventions-are = robot { $robot }, camera { $camera }
+robot-eye-to-hand = eye to hand: the camera stands in the cell
+robot-eye-in-hand = eye in hand: the camera is on the robot's flange

@@ -1,1 +1,184 @@
-# inspect
+# The Inspect workspace
+
+## The verdict
+
+inspect-another-make = { $part }, otra marca
+inspect-another-model = { $part }, otro modelo
+inspect-unknown-part = Pieza desconocida
+inspect-not-recognised = No reconocida
+inspect-no-part = Sin pieza
+inspect-no-verdict = Sin dictamen
+inspect-live-stopped = En vivo se detuvo antes de que un dictamen contara
+inspect-press-capture = Pulsar Capturar
+inspect-moving = En movimiento
+inspect-something-moves = algo se mueve delante de la cámara
+inspect-let-it-hang = Dejar la pieza inmóvil un segundo
+inspect-looking = Buscando
+inspect-not-long-enough = aún no se ha visto el tiempo suficiente
+inspect-it-is-steady = está inmóvil
+inspect-wait = Esperar un momento
+inspect-not-accepted-yet = Aún no aceptada
+inspect-nearest = La más parecida: { $part }
+
+## The card
+
+inspect-previous-result = Resultado anterior: hay una inspección en curso
+inspect-from-history = Del historial, no es la pieza actual
+inspect-touches-edge = La pieza llega al borde de la imagen: puede faltar una parte
+inspect-approximate = La pose es aproximada: puede ser otro modelo de la pieza
+inspect-export = Exportar…
+inspect-export-says = Un informe: JSON, una página PDF, una fila en una tabla de poses y las imágenes de todas las etapas (Ctrl E)
+inspect-wrong-part = ¿Otra pieza?
+inspect-wrong-part-says = Ver en Comparar por qué se reconoció como esta pieza
+inspect-copy-pose = Copiar pose
+inspect-copy-pose-says = En la convención del robot, indicada en la primera línea (Ctrl Mayús C)
+inspect-score = Puntuación
+inspect-next = Siguiente: { $part } { $score }
+inspect-threshold = umbral { $score }
+inspect-margin = Margen sobre la siguiente { $margin }
+inspect-offset = Desplazamiento respecto a la posición estándar
+inspect-measured-from = Medido desde { $part }, otra referencia de esta pieza
+inspect-offset-note = Centro de la pieza, ejes de la cámara · R = Rz·Ry·Rx
+inspect-fit = Ajuste
+inspect-rms = rms
+inspect-overlap = solape
+inspect-unconstrained = No determinada: { $freedom }
+inspect-pose-uncertainty = incertidumbre de pose (95 %)
+inspect-uncertainty = incertidumbre (95 %)
+inspect-runner-up = segunda mejor pose
+inspect-times-worse = { $ratio }× peor
+inspect-iterations = { $num } iteraciones
+inspect-ambiguous = Otra pose encaja igual de bien: comprobar en qué sentido cuelga la pieza
+inspect-inspection = Inspección
+inspect-time = tiempo
+inspect-scene = escena
+inspect-camera = cámara
+inspect-simulated = simulada
+inspect-serial = n.º de serie
+inspect-order = orden
+inspect-operator = operador
+inspect-recipe = receta
+inspect-recipe-modified = { $name } (modificada)
+inspect-recipe-built-in = integrada
+
+## Stand-off
+
+inspect-stand-off = Distancia de boquilla de la trayectoria
+inspect-mean = media
+inspect-worst-of = { $value }, peor { $worst }
+inspect-in-band = dentro de la banda
+inspect-angle = ángulo
+inspect-path-fits = La trayectoria sirve sin la pose
+inspect-path-needs-pose = El programa del robot debe aplicar la pose a la trayectoria
+inspect-stand-off-of = Distancia de boquilla { $mean }, de { $nearest } a { $farthest }
+inspect-no-surface = la pieza registrada no tiene superficie con normales
+inspect-none-meets = ninguna de las { $num } posiciones de boquilla enseñadas apunta a la pieza
+
+## The pose for the robot
+
+inspect-pose = Pose
+inspect-robot-frame = Sistema de la base del robot, según { $name }
+inspect-camera-frame = Sistema de la cámara: la celda no está calibrada
+inspect-convention-of = Convención: { $name }
+inspect-convention-says = Convención de robot de la pose (K para la siguiente)
+inspect-no-pose-to-copy = No hay pose que copiar: la pieza no se aceptó
+inspect-no-pose-advice = Seguir el consejo de la ficha y volver a capturar
+inspect-pose-copied = { $name } copiado en la convención { $convention }
+
+## The view
+
+inspect-view = Vista
+inspect-colour = Color · { $colouring }
+inspect-show = Mostrar
+inspect-export-path = Exportar trayectoria de pintura…
+inspect-export-path-says = Requiere una pieza aceptada con trayectoria de pintura guardada y una celda calibrada
+inspect-measure = Medir
+inspect-measure-says = Hacer clic en dos puntos (M)
+inspect-picture = Imagen…
+inspect-picture-says = Guardar una imagen de la vista (P)
+inspect-fit-view = Encuadrar
+inspect-fit-view-says = Encuadrar la pieza (F)
+inspect-front = Frente
+inspect-top = Arriba
+inspect-side = Lado
+inspect-part-axes = Ejes de la pieza
+inspect-part-camera = Cámara de profundidad
+inspect-part-outline = Contorno registrado
+inspect-part-nozzle-middle = Boquilla sobre el centro
+inspect-part-nozzle-worst = Boquilla en el peor punto
+inspect-part-spray-path = Trayectoria de pintura
+inspect-part-robot-base = Base del robot
+inspect-part-shot-cameras = Cámaras de las tomas
+inspect-part-unseen = No visto por ninguna toma
+inspect-caption-planes = { $points } puntos · pieza { $part } · { $planes ->
+        [one] 1 plano de fondo eliminado
+       *[other] { $planes } planos de fondo eliminados
+    }
+inspect-caption-shots = { $points } puntos · pieza { $part } · { $shots } tomas juntas
+inspect-no-camera-read = { $scene } · sin cámara
+inspect-view-of-scene = Vista 3D de la escena
+inspect-taught-nozzle = Boquilla enseñada
+inspect-worst = Peor
+inspect-path-in-band = Trayectoria de pintura · { $inside } de { $num } en la banda
+
+## The stages
+
+inspect-segmentation = Segmentación
+inspect-binary-image = Imagen binaria
+inspect-contour = Contorno
+inspect-signatures = Signaturas
+inspect-ranking = Clasificación
+inspect-alignment = Alineación
+inspect-enlarge-segmentation = Ampliar la segmentación
+inspect-enlarge-binary-image = Ampliar la imagen binaria
+inspect-enlarge-contour = Ampliar el contorno
+inspect-enlarge-signatures = Ampliar las signaturas
+inspect-enlarge-ranking = Ampliar la clasificación
+inspect-enlarge-alignment = Ampliar la alineación
+inspect-enlarged = { $stage }, ampliada
+inspect-enlarged-without = { $stage }, ampliada: { $why }
+inspect-says-segmentation = planos de fondo en colores apagados, la pieza en color vivo
+inspect-says-binary-image = la pieza en el plano de sus dos ejes mayores
+inspect-says-contour = contorno, aberturas, rayos desde el centroide; a trazos: la pieza registrada
+inspect-says-signatures = longitud L y ángulo Θ de los rayos; a trazos: la pieza registrada
+inspect-says-ranking = puntuación de cada pieza registrada frente al umbral
+inspect-says-alignment = distancia cuadrática media E por iteración, logarítmica
+inspect-stages = Etapas
+inspect-not-reached = no alcanzada
+inspect-not-examined = sin examinar
+inspect-e-stayed-zero = E se mantuvo en 0
+inspect-ended-at = { $part } terminó en rms { $rms }
+inspect-papers-goal = objetivo del artículo, 1e−6 m²
+inspect-not-asked-for = sin alinear: no se pidió pose
+inspect-flat-shape = sin alinear: está registrada como forma plana
+inspect-no-pose-found = sin alinear: no se encontró la pose
+inspect-score-too-low = sin alinear: puntuación demasiado baja para intentarlo
+inspect-nothing-yet =
+    Aún no se ha inspeccionado nada
+    Pulsar Capturar para una imagen de la celda simulada, o soltar aquí una escena capturada
+
+## Shortcuts and files
+
+inspect-does-redo = Rehacer el último cambio deshecho de las tomas
+inspect-does-undo = Deshacer el último cambio de las tomas de un escaneo
+inspect-does-picture = Guardar una imagen de la vista 3D
+inspect-does-contour = Mostrar u ocultar el contorno registrado
+inspect-does-nozzle = Mostrar u ocultar la boquilla en el peor punto
+inspect-does-convention = Mostrar la pose en la siguiente convención de robot
+inspect-does-copy = Copiar la pose en esa convención
+inspect-report-folder = Carpeta para el informe de esta inspección
+inspect-save-picture = Guardar una imagen de la vista
+inspect-pictures = Imágenes
+inspect-export-path-title = Exportar la trayectoria de pintura para el robot
+inspect-csv = Valores separados por comas
+inspect-saving-picture = Guardando la imagen
+inspect-writing-report = Escribiendo el informe
+inspect-writing-path = Escribiendo la trayectoria de pintura
+inspect-picture-saved = Imagen guardada: { $path }
+inspect-no-spray-path = No hay trayectoria de pintura para lo que se muestra
+inspect-no-spray-path-advice = Guardar una con la pieza y capturar una pieza que se acepte
+inspect-path-written = { $path } escrito: { $inside } de { $num } puntos en la banda, como { $convention }
+inspect-report-written = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }
+inspect-report-set-aside = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }; su última fila estaba incompleta y se apartó en { $aside }
+inspect-watching-folder = Vigilando una carpeta
+inspect-poses-of-scan = las poses del escaneo

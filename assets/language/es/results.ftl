@@ -116,8 +116,6 @@ results-no-progress = sin avance
 
 ## The simulated cell
 
-results-side-left = izquierda
-results-side-right = derecha
 results-object-hood = capó
 results-object-wheel = rueda
 results-object-box = caja

@@ -1,1 +1,70 @@
-# robot
+# The robot's cell
+robot-title = Robot
+robot-in-use = En uso
+robot-by-hand = A mano
+robot-from-pairs = De pares de poses
+robot-load-title = Cargar la calibración de la celda del robot
+robot-calibrations = Calibraciones
+robot-pairs-title = Pares de poses de robot y cámara
+robot-tables = Tablas y JSON
+robot-forgotten = La calibración ya no se usa; su archivo se conserva
+robot-opening = Abriendo la calibración
+robot-saving = Guardando la calibración
+robot-calculating = Calculando dónde está la cámara
+robot-no-folder = No hay carpeta para la calibración propia
+robot-no-folder-advice = Escribirla con partsight calibrate --out FILE y cargar aquí ese archivo
+robot-saved = Guardada; la calibración anterior se conserva en { $path }
+
+## In use
+
+robot-not-calibrated = La celda no está calibrada: las poses están en el sistema de la cámara y un robot no puede usarlas
+robot-file = archivo
+robot-edited = el archivo se editó: sus números cuentan como introducidos a mano
+robot-edited-advice = Calibrar de nuevo para tener los residuos
+robot-load = Cargar…
+robot-forget = Olvidar
+robot-cell = celda
+robot-camera = cámara
+robot-made = creada
+robot-from = origen
+robot-entered-by-hand = introducida a mano
+robot-pairs-of = { $num } pares de { $file }
+robot-residuals = residuos
+robot-residuals-are = { $mm } mm y { $degrees }° rms, peor { $worst } mm ({ $pair })
+robot-uncertainty = incertidumbre (95 %)
+robot-mm-and-degrees = { $mm } mm y { $degrees }°
+robot-flange-at-every = robot_from_flange en cada captura
+robot-flange-unknown = no se conoce la pose de la brida al capturar: no hay pose para el robot
+robot-flange-unknown-advice = Escribir la pose de la brida como la muestra el controlador y guardarla
+robot-flange-at = Brida al capturar
+robot-store = Guardar
+
+## By hand
+
+robot-camera-in-cell = Cámara en la celda
+robot-camera-on-flange = Cámara en la brida
+robot-numbers-of = Números de
+robot-numbers-are-of = Números de: { $convention }
+robot-where-camera-stands = { $transform }: dónde está el sistema de la cámara
+robot-name-of-cell = Nombre de la celda
+robot-use-it = Usar
+robot-use-anyway = Usar de todos modos
+
+## From pairs
+
+robot-choose-pairs = Elegir pares…
+robot-choose-pairs-says = Tabla o JSON de poses de robot y cámara, de 8 a 15 pares
+robot-pairs-format = Cada línea contiene la pose del robot, como el controlador muestra la brida, y después la de la cámara: dónde ve el objetivo. Líneas como "# robot: kuka" y "# camera: matrix" al principio indican las convenciones. Una pieza registrada puede ser el objetivo: partsight calibrate hand-eye --captures
+robot-counts = cuenta
+robot-off-mm = error mm
+robot-off-degrees = error °
+robot-worst = peor
+robot-left-out = excluido
+robot-rms = rms de los residuos
+robot-not-determined = los pares no la determinan
+robot-flange-turned = giro de la brida
+robot-span = { $turn }° como máximo, { $other }° en otros ejes; objetivo movido { $travel } mm
+robot-read-as = leído como
+robot-conventions-are = robot { $robot }, cámara { $camera }
+robot-eye-to-hand = eye-to-hand: la cámara está fija en la celda
+robot-eye-in-hand = eye-in-hand: la cámara está en la brida

@@ -1,1 +1,181 @@
-# inspect
+# The Inspect workspace
+
+## The verdict
+
+inspect-another-make = { $part }（其他品牌）
+inspect-another-model = { $part }（其他型号）
+inspect-unknown-part = 未知零件
+inspect-not-recognised = 未识别
+inspect-no-part = 无零件
+inspect-no-verdict = 无判定
+inspect-live-stopped = “实时”在判定生效前已停止
+inspect-press-capture = 按“采集”
+inspect-moving = 移动中
+inspect-something-moves = 相机前有物体在移动
+inspect-let-it-hang = 让零件静止一秒
+inspect-looking = 正在查看
+inspect-not-long-enough = 观察时间不足
+inspect-it-is-steady = 零件已静止
+inspect-wait = 请稍候
+inspect-not-accepted-yet = 尚未接受
+inspect-nearest = 最接近：{ $part }
+
+## The card
+
+inspect-previous-result = 上次结果：正在进行新的检测
+inspect-from-history = 来自历史记录，不是当前零件
+inspect-touches-edge = 零件到达画面边缘：部分可能缺失
+inspect-approximate = 位姿为近似值：可能是该零件的其他型号
+inspect-export = 导出…
+inspect-export-says = 报告：JSON、一页 PDF、位姿表中的一行以及所有步骤的图片 (Ctrl E)
+inspect-wrong-part = 零件不对？
+inspect-wrong-part-says = 在“比较”中查看为何识别为该零件
+inspect-copy-pose = 复制位姿
+inspect-copy-pose-says = 采用机器人约定，首行注明名称 (Ctrl Shift C)
+inspect-score = 得分
+inspect-next = 次优：{ $part } { $score }
+inspect-threshold = 阈值 { $score }
+inspect-margin = 与次优的裕度 { $margin }
+inspect-offset = 相对标准位置的偏移
+inspect-measured-from = 以该零件的另一参考“{ $part }”为基准测量
+inspect-offset-note = 零件中心，相机坐标轴 · R = Rz·Ry·Rx
+inspect-fit = 拟合
+inspect-rms = rms
+inspect-overlap = 重叠率
+inspect-unconstrained = 未约束：{ $freedom }
+inspect-pose-uncertainty = 位姿不确定度 (95 %)
+inspect-uncertainty = 不确定度 (95 %)
+inspect-runner-up = 次优位姿
+inspect-times-worse = 差 { $ratio } 倍
+inspect-iterations = { $num } 次迭代
+inspect-ambiguous = 另一位姿同样匹配：请确认零件的悬挂方向
+inspect-inspection = 检测
+inspect-time = 耗时
+inspect-scene = 场景
+inspect-camera = 相机
+inspect-simulated = 仿真
+inspect-serial = 序列号
+inspect-order = 订单
+inspect-operator = 操作员
+inspect-recipe = 配方
+inspect-recipe-modified = { $name }（已修改）
+inspect-recipe-built-in = 内置
+
+## Stand-off
+
+inspect-stand-off = 示教轨迹的喷距
+inspect-mean = 平均
+inspect-worst-of = { $value }，最差 { $worst }
+inspect-in-band = 合格范围内
+inspect-angle = 角度
+inspect-path-fits = 无需位姿即可使用该轨迹
+inspect-path-needs-pose = 机器人程序必须将位姿应用于轨迹
+inspect-stand-off-of = 喷距 { $mean }，范围 { $nearest } 至 { $farthest }
+inspect-no-surface = 已注册零件没有带法向的表面
+inspect-none-meets = { $num } 个示教喷嘴位置均未指向零件
+
+## The pose for the robot
+
+inspect-pose = 位姿
+inspect-robot-frame = 机器人基坐标系，依据 { $name }
+inspect-camera-frame = 相机坐标系：工位未标定
+inspect-convention-of = 约定：{ $name }
+inspect-convention-says = 位姿的机器人约定（按 K 切换）
+inspect-no-pose-to-copy = 没有可复制的位姿：零件未被接受
+inspect-no-pose-advice = 按照卡片上的提示操作，然后重新采集
+inspect-pose-copied = 已按约定 { $convention } 复制 { $name }
+
+## The view
+
+inspect-view = 视图
+inspect-colour = 着色 · { $colouring }
+inspect-show = 显示
+inspect-export-path = 导出喷涂轨迹…
+inspect-export-path-says = 需要已接受且存有喷涂轨迹的零件，以及已标定的工位
+inspect-measure = 测量
+inspect-measure-says = 点击两个点 (M)
+inspect-picture = 图片…
+inspect-picture-says = 保存视图图片 (P)
+inspect-fit-view = 适配
+inspect-fit-view-says = 适配零件 (F)
+inspect-front = 正面
+inspect-top = 顶面
+inspect-side = 侧面
+inspect-part-axes = 零件坐标轴
+inspect-part-camera = 深度相机
+inspect-part-outline = 已注册轮廓
+inspect-part-nozzle-middle = 中部上方的喷嘴
+inspect-part-nozzle-worst = 最差部位的喷嘴
+inspect-part-spray-path = 喷涂轨迹
+inspect-part-robot-base = 机器人基座
+inspect-part-shot-cameras = 各次拍摄的相机
+inspect-part-unseen = 所有拍摄均未看到
+inspect-caption-planes = { $points } 个点 · 零件 { $part } · 已移除 { $planes } 个背景平面
+inspect-caption-shots = { $points } 个点 · 零件 { $part } · 合并 { $shots } 次拍摄
+inspect-no-camera-read = { $scene } · 未读取相机
+inspect-view-of-scene = 场景三维视图
+inspect-taught-nozzle = 示教喷嘴
+inspect-worst = 最差
+inspect-path-in-band = 喷涂轨迹 · { $num } 点中 { $inside } 点在合格范围内
+
+## The stages
+
+inspect-segmentation = 分割
+inspect-binary-image = 二值图像
+inspect-contour = 轮廓
+inspect-signatures = 特征曲线
+inspect-ranking = 排名
+inspect-alignment = 配准
+inspect-enlarge-segmentation = 放大分割
+inspect-enlarge-binary-image = 放大二值图像
+inspect-enlarge-contour = 放大轮廓
+inspect-enlarge-signatures = 放大特征曲线
+inspect-enlarge-ranking = 放大排名
+inspect-enlarge-alignment = 放大配准
+inspect-enlarged = { $stage }（放大）
+inspect-enlarged-without = { $stage }（放大）：{ $why }
+inspect-says-segmentation = 背景平面为暗色，零件为亮色
+inspect-says-binary-image = 零件在其两条最长主轴平面上的投影
+inspect-says-contour = 轮廓、开口、自质心的射线；虚线：已注册零件
+inspect-says-signatures = 射线的长度 L 和角度 Θ；虚线：已注册零件
+inspect-says-ranking = 各已注册零件的得分与阈值
+inspect-says-alignment = 每次迭代的均方距离 E（对数）
+inspect-stages = 步骤
+inspect-not-reached = 未到达
+inspect-not-examined = 未检查
+inspect-e-stayed-zero = E 保持为 0
+inspect-ended-at = { $part } 结束时 rms { $rms }
+inspect-papers-goal = 论文目标值 1e−6 m²
+inspect-not-asked-for = 未配准：未要求位姿
+inspect-flat-shape = 未配准：注册为平面形状
+inspect-no-pose-found = 未配准：未找到位姿
+inspect-score-too-low = 未配准：得分过低，未尝试
+inspect-nothing-yet =
+    尚未检测
+    按“采集”获取仿真工位的一帧，或将采集的场景拖放到此处
+
+## Shortcuts and files
+
+inspect-does-redo = 重做上次撤销的拍摄更改
+inspect-does-undo = 撤销扫描拍摄的上次更改
+inspect-does-picture = 保存三维视图图片
+inspect-does-contour = 显示或隐藏已注册轮廓
+inspect-does-nozzle = 显示或隐藏最差部位的喷嘴
+inspect-does-convention = 以下一种机器人约定显示位姿
+inspect-does-copy = 按该约定复制位姿
+inspect-report-folder = 本次检测报告的文件夹
+inspect-save-picture = 保存视图图片
+inspect-pictures = 图片
+inspect-export-path-title = 为机器人导出喷涂轨迹
+inspect-csv = 逗号分隔值
+inspect-saving-picture = 正在保存图片
+inspect-writing-report = 正在写入报告
+inspect-writing-path = 正在写入喷涂轨迹
+inspect-picture-saved = 已保存图片 { $path }
+inspect-no-spray-path = 当前显示的零件没有喷涂轨迹
+inspect-no-spray-path-advice = 为零件存储轨迹，并采集可被接受的零件
+inspect-path-written = 已写入 { $path }：{ $num } 点中 { $inside } 点在合格范围内，格式 { $convention }
+inspect-report-written = 已将 { $files }、各步骤图片和 { $table } 中的一行写入 { $folder }
+inspect-report-set-aside = 已将 { $files }、各步骤图片和 { $table } 中的一行写入 { $folder }；其最后一行不完整，已移至 { $aside }
+inspect-watching-folder = 正在监视文件夹
+inspect-poses-of-scan = 扫描的位姿

@@ -1,1 +1,54 @@
-# live
+# The followed source
+live-record = 录制…
+live-record-says = 原样保存来源的每一帧 (Ctrl L)
+live-stop-recording = 停止录制
+live-stop-recording-so-far = 停止录制 · { $num } 帧，{ $size }
+live-recorded = 已录制 { $num } 帧（{ $size }）到 { $folder }
+live-live = 实时
+live-playing = 播放
+live-watching = 监视文件夹
+live-is = { $name } · { $what }
+live-lost = 已断开，正在重连
+live-opening = 正在打开
+live-each-counts = 每次采集均计入
+live-looking = 正在查看
+live-moving = 移动中
+live-steady-for = 已静止 { $seconds } s
+live-file-by-file = 每个新文件单独检测
+live-no-verdict = 零件静止前不判定
+live-frames-of = { $num }/{ $needed } 帧
+live-frames-agree = { $num } 帧中 { $agreeing } 帧一致
+live-averaged = { $evidence } · { $num } 帧平均深度
+live-dropped = 丢弃 { $num }
+live-rates = { $captured } fps，检测 { $inspected }
+live-scan-cannot = 无法跟踪扫描：其内容不会变化
+live-file-cannot = 无法跟踪单个文件：其内容不会变化
+live-cannot-advice = 在来源菜单中选择相机、录制或文件夹
+live-closing = 正在关闭相机
+live-no-more-frames = { $source } 没有更多帧
+live-source-back = 来源已恢复
+
+## Setting up the simulated cell
+
+live-what-hangs = 悬挂物
+live-hangs = 悬挂物：{ $what }
+live-side = 侧别
+live-side-left = 左
+live-side-right = 右
+live-model = 车型
+live-model-says = 0 为已注册车型
+live-hung = 悬挂方式
+live-with-care = 端正
+live-anyhow = 随意
+live-turned-away = 背转
+live-noise = 噪声
+live-no-noise = 无
+live-kinect-noise = Kinect 水平
+live-three-times = 三倍
+live-clutter = 杂物
+live-no-clutter = 无
+live-on-floor = 地面上
+live-plank = 前方有木板
+live-use-it = 使用
+live-line-runs = 产线运行，每 { $seconds } s 一件
+live-nothing = 无

@@ -116,8 +116,6 @@ results-no-progress = 无进展
 
 ## The simulated cell
 
-results-side-left = 左
-results-side-right = 右
 results-object-hood = 发动机罩
 results-object-wheel = 车轮
 results-object-box = 箱子

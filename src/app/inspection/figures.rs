@@ -5,6 +5,7 @@ use nalgebra::{Isometry2, Point2};
 
 use super::library_cache::LibraryView;
 use crate::{
+    app::language::text,
     library::Library,
     pipeline::{Inspection, Stage},
     report::{binary_picture, segmentation_picture},
@@ -43,14 +44,14 @@ impl StagePanel {
     ];
 
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::Segmentation => "Segmentation",
-            Self::BinaryImage => "Binary image",
-            Self::Contour => "Contour",
-            Self::Signature => "Signatures",
-            Self::Ranking => "Ranking",
-            Self::Alignment => "Alignment",
+            Self::Segmentation => text!("inspect-segmentation"),
+            Self::BinaryImage => text!("inspect-binary-image"),
+            Self::Contour => text!("inspect-contour"),
+            Self::Signature => text!("inspect-signatures"),
+            Self::Ranking => text!("inspect-ranking"),
+            Self::Alignment => text!("inspect-alignment"),
         }
     }
 
@@ -140,8 +141,33 @@ pub enum Alignment {
         /// Root mean square distance at the end, metres.
         rms_m: f64,
     },
-    /// It was not; why, for a person.
-    None(&'static str),
+    /// It was not.
+    None(NotAligned),
+}
+
+/// Why a part was not aligned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotAligned {
+    /// No pose was asked for.
+    NotAskedFor,
+    /// The reference has no cloud.
+    FlatShape,
+    /// No pose was found.
+    NoPose,
+    /// Other parts were tried first.
+    LowScore,
+}
+
+impl NotAligned {
+    /// The same in words.
+    pub fn title(self) -> String {
+        match self {
+            Self::NotAskedFor => text!("inspect-not-asked-for"),
+            Self::FlatShape => text!("inspect-flat-shape"),
+            Self::NoPose => text!("inspect-no-pose-found"),
+            Self::LowScore => text!("inspect-score-too-low"),
+        }
+    }
 }
 
 impl Alignment {
@@ -159,10 +185,10 @@ impl Alignment {
                     .collect(),
                 rms_m: pose.fit.rms_m,
             },
-            (None, None) => Self::None("not aligned: no pose was asked for"),
-            (None, Some(_)) if is_flat => Self::None("not aligned: it is enrolled as a flat shape"),
-            (None, Some(Err(_))) => Self::None("not aligned: no pose was found"),
-            (None, Some(Ok(_))) => Self::None("not aligned: its score was too low to be tried"),
+            (None, None) => Self::None(NotAligned::NotAskedFor),
+            (None, Some(_)) if is_flat => Self::None(NotAligned::FlatShape),
+            (None, Some(Err(_))) => Self::None(NotAligned::NoPose),
+            (None, Some(Ok(_))) => Self::None(NotAligned::LowScore),
         }
     }
 }
@@ -383,7 +409,7 @@ mod tests {
         assert_eq!(curves.len(), num_tried);
         assert!(curves.iter().all(|curve| curve.len() > 1));
         assert!(curves.windows(2).all(|pair| pair[0] != pair[1]));
-        let why = Alignment::None("not aligned: its score was too low to be tried");
+        let why = Alignment::None(NotAligned::LowScore);
         assert!(candidates.len() > num_tried);
         assert!(candidates[num_tried..].iter().all(|c| c.alignment == why));
         // The best one's is the pose that is reported.

@@ -11,7 +11,10 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-use crate::app::task::{Task, TaskContext, TaskError, TaskRunner};
+use crate::app::{
+    language::text,
+    task::{Task, TaskContext, TaskError, TaskRunner},
+};
 
 /// Between two looks at whether the watch is still wanted.
 const TURN: Duration = Duration::from_millis(100);
@@ -40,7 +43,7 @@ impl FolderWatch {
             self.folder = Some(folder.to_owned());
             let folder = folder.to_owned();
             let watch = move |context: &_| watch(&folder, context);
-            self.task.start("Watching a folder", watch);
+            self.task.start(text!("inspect-watching-folder"), watch);
         }
     }
 

@@ -20,7 +20,7 @@ use super::{
     source::Origin,
 };
 use crate::{
-    app::user_error::UserError,
+    app::{language::text, user_error::UserError},
     error::Advice,
     files::file_name,
     geometry::rigid::RigidTransform,
@@ -255,7 +255,11 @@ fn read(
                 FrameNews::Skipped(skipped) => {
                     steps.step();
                     warnings.push(UserError {
-                        what: format!("{} is left out: {}", skipped.name, skipped.error),
+                        what: text!(
+                            "shots-is-left-out",
+                            name = skipped.name.as_str(),
+                            why = skipped.error.to_string()
+                        ),
                         advice: skipped.error.advice(),
                     });
                 }

@@ -10,6 +10,7 @@ use image::{DynamicImage, ImageFormat};
 use super::{inspected::Inspected, source::Origin};
 use crate::{
     app::{
+        language::text,
         ui::viewport::{ViewColours, ViewShot},
         user_error::UserError,
     },
@@ -34,7 +35,10 @@ pub(in crate::app) fn picture(path: &Path, shot: &ViewShot) -> Result<String, Us
         writer.write_all(png.get_ref())
     })
     .map_err(|error| UserError::of(&error))?;
-    Ok(format!("Saved the picture {}", path.display()))
+    Ok(text!(
+        "inspect-picture-saved",
+        path = path.display().to_string()
+    ))
 }
 
 /// Writes a spray path for the robot, as CSV or JSON, as `partsight inspect --spray` does; says what was written.
@@ -48,8 +52,8 @@ pub(in crate::app) fn spray_path(
     let part = first.and_then(|first| inspected.library.parts.get(first.reference));
     let (Some(carried), Some(part)) = (&inspected.spray, part) else {
         return Err(UserError {
-            what: "There is no spray path over what is in front".into(),
-            advice: "Store one with the part, and capture a part that is accepted".into(),
+            what: text!("inspect-no-spray-path"),
+            advice: text!("inspect-no-spray-path-advice"),
         });
     };
     let export = SprayExport {
@@ -64,12 +68,12 @@ pub(in crate::app) fn spray_path(
         at: inspected.at,
     };
     export.save(path).map_err(|error| UserError::of(&error))?;
-    Ok(format!(
-        "Wrote {}: {} of {} points within the band, as {}",
-        path.display(),
-        carried.num_inside(),
-        carried.points.len(),
-        convention.title()
+    Ok(text!(
+        "inspect-path-written",
+        path = path.display().to_string(),
+        inside = carried.num_inside(),
+        num = carried.points.len(),
+        convention = convention.title()
     ))
 }
 
@@ -148,19 +152,23 @@ pub(in crate::app) fn report(
         .chain(&written)
         .map(|path| file_name(path))
         .collect();
-    let what = format!(
-        "Wrote {}, the pictures of its stages and a row of {} to {}",
-        names.join(", "),
-        file_name(&table),
-        folder.display()
-    );
-    if let CsvAppended::SetAside(aside) = appended {
-        let aside = file_name(&aside);
-        return Ok(format!(
-            "{what}; its last row had no end and was set aside in {aside}"
-        ));
-    }
-    Ok(what)
+    let (files, table) = (names.join(", "), file_name(&table));
+    let folder = folder.display().to_string();
+    Ok(match appended {
+        CsvAppended::SetAside(aside) => text!(
+            "inspect-report-set-aside",
+            files = files,
+            table = table,
+            folder = folder,
+            aside = file_name(&aside)
+        ),
+        CsvAppended::Row => text!(
+            "inspect-report-written",
+            files = files,
+            table = table,
+            folder = folder
+        ),
+    })
 }
 
 /// The name of the scene, with a number behind it where a report of that name lies in the folder.

@@ -9,6 +9,7 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::source::{HistoryFrame, Origin};
+use crate::app::language::text;
 use crate::{files::file_name, pipeline::NamedRecipe, scan::Shot};
 
 /// The files of a scan, and which of its shots are left out.
@@ -113,9 +114,9 @@ impl ScanOrder {
     /// What is done for it, for a person.
     pub fn title(&self) -> String {
         match self {
-            Self::Open(files) => format!("Opening {}", files.title()),
-            Self::Known(_) | Self::Kept(_) => "Putting the shots together".to_owned(),
-            Self::Add(_, frame, _) => format!("Adding {}", file_name(frame)),
+            Self::Open(files) => text!("shell-opening", name = files.title()),
+            Self::Known(_) | Self::Kept(_) => text!("shots-putting-together"),
+            Self::Add(_, frame, _) => text!("shots-adding", name = file_name(frame)),
         }
     }
 

@@ -8,7 +8,7 @@ use unic_langid::LanguageIdentifier;
 use super::Language;
 
 /// The areas of a language and what their files hold.
-type Files = &'static [(&'static str, &'static str)];
+pub(super) type Files = &'static [(&'static str, &'static str)];
 
 macro_rules! files {
     ($language:literal) => {
@@ -20,7 +20,7 @@ macro_rules! files {
 }
 
 /// The files of a language.
-fn files(language: Language) -> Files {
+pub(super) fn files(language: Language) -> Files {
     match language {
         Language::English => files!("en"),
         Language::German => files!("de"),

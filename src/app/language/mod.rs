@@ -59,6 +59,16 @@ impl Language {
         }
     }
 
+    /// A few letters for it, where there is no room for its name.
+    pub(in crate::app) fn sign(self) -> &'static str {
+        match self {
+            Self::English => "EN",
+            Self::German => "DE",
+            Self::Spanish => "ES",
+            Self::Chinese => "中文",
+        }
+    }
+
     /// Its code after ISO 639-1, which is also the name of its folder.
     fn code(self) -> &'static str {
         match self {
@@ -116,3 +126,6 @@ pub(in crate::app) fn keys(shortcut: &str) -> String {
     let named: Vec<String> = shortcut.split(' ').map(named).collect();
     named.join(" ")
 }
+
+#[cfg(test)]
+mod tests;

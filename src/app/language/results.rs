@@ -5,14 +5,16 @@
 use crate::{
     error::Advice as _,
     history::{KeepFrames, StoredVerdict, Summary},
-    pipeline::{Rejection, Unrecognisable, Verdict},
-    simulate::{ObjectKind, Side},
+    pipeline::{BUILT_IN, RecipeLabel, Rejection, Unrecognisable, Verdict},
+    scan::Excluded,
+    simulate::ObjectKind,
     stages::{
         contour::ContourError,
         pose::{Axis, FreeMotion, PoseError, PoseWarning, Stopped},
         project::ProjectError,
         segment::NoPart,
         signature::SignatureError,
+        stand_off::StandOffError,
     },
 };
 
@@ -425,11 +427,72 @@ pub(in crate::app) fn stopped(stopped: Stopped) -> String {
     }
 }
 
-/// A side of the car.
-pub(in crate::app) fn side(side: Side) -> String {
-    match side {
-        Side::Left => text!("results-side-left"),
-        Side::Right => text!("results-side-right"),
+/// Why there is no stand-off.
+pub(in crate::app) fn stand_off_error(error: &StandOffError) -> String {
+    match error {
+        StandOffError::NoSurface => text!("inspect-no-surface"),
+        StandOffError::NoneMeets { num_taught } => {
+            text!("inspect-none-meets", num = *num_taught)
+        }
+    }
+}
+
+/// Why a shot was left out, in a few words.
+pub(in crate::app) fn excluded_in_short(why: &Excluded) -> String {
+    match why {
+        Excluded::WrongPose { .. } => text!("shots-wrong-pose"),
+        Excluded::Contradicts { .. } => text!("shots-contradicts"),
+        Excluded::PartMoved { .. } => text!("shots-part-moved"),
+    }
+}
+
+/// Why a shot was left out.
+pub(in crate::app) fn excluded(why: &Excluded) -> String {
+    match why {
+        Excluded::WrongPose { moved } => text!(
+            "shots-wrong-pose-by",
+            shift = moved.shift.to_string(),
+            turn = moved.rotation.to_string()
+        ),
+        Excluded::Contradicts { share } => {
+            text!("shots-contradicts-by", share = fixed!(share * 100.0, 0))
+        }
+        Excluded::PartMoved { share } => {
+            text!("shots-part-moved-by", share = fixed!(share * 100.0, 0))
+        }
+    }
+}
+
+/// What to do about it.
+pub(in crate::app) fn excluded_advice(why: &Excluded) -> String {
+    match why {
+        Excluded::WrongPose { .. } | Excluded::Contradicts { .. } => {
+            text!("shots-excluded-advice")
+        }
+        Excluded::PartMoved { .. } => text!("shots-part-moved-advice"),
+    }
+}
+
+/// What a value of the traceability is, by its name.
+pub(in crate::app) fn traced(name: &str) -> String {
+    match name {
+        "serial" => text!("inspect-serial"),
+        "order" => text!("inspect-order"),
+        "operator" => text!("inspect-operator"),
+        name => name.to_owned(),
+    }
+}
+
+/// The name of a recipe. A name that a person has given stays as it is.
+pub(in crate::app) fn recipe_label(label: &RecipeLabel) -> String {
+    let name = match label.name.as_str() {
+        BUILT_IN => text!("inspect-recipe-built-in"),
+        name => name.to_owned(),
+    };
+    if label.is_changed {
+        text!("inspect-recipe-modified", name = name)
+    } else {
+        name
     }
 }
 
@@ -664,9 +727,6 @@ mod tests {
         }
         for kind in ObjectKind::ALL {
             assert_eq!(object(kind), kind.name());
-        }
-        for of in Side::ALL {
-            assert_eq!(side(of), of.name());
         }
         let name = |why: Stopped| why.name().replace('_', " ");
         for why in [

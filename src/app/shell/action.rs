@@ -15,7 +15,7 @@ use super::{
 use crate::{
     app::{
         inspection::{inspected::SceneOrScan, scan_choice::ScanFiles, source::CellChoice},
-        language::text,
+        language::{Language, text},
     },
     capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
     robot::Convention,
@@ -52,6 +52,8 @@ pub enum Action {
     SwitchUnits,
     /// Change the colours.
     SwitchTheme,
+    /// Speak another language.
+    Speak(Language),
     /// Open or close the list of shortcuts.
     ToggleHelp,
     /// Take a notice away.
@@ -158,9 +160,13 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
                 return Some(Effect::Tell(Event::Escape));
             }
         }
-        Action::SwitchUnits => state.session.units = state.session.units.other(),
-        Action::UseConvention(convention) => state.session.convention = convention,
-        Action::SwitchTheme => state.session.theme = state.session.theme.other(),
+        Action::SwitchUnits => state.units = state.units.other(),
+        Action::UseConvention(convention) => state.convention = convention,
+        Action::SwitchTheme => state.theme = state.theme.other(),
+        Action::Speak(language) => {
+            state.session.language = language;
+            state.session.chosen_language = Some(language);
+        }
         Action::ToggleHelp => {
             state.help = match state.help {
                 HelpPage::Closed => HelpPage::Open,

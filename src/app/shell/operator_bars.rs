@@ -12,7 +12,7 @@ use super::{
     shift::ShiftParts,
     source_menu,
     state::State,
-    top_bar::{Progress, labelled, progress},
+    top_bar::{Progress, labelled, language_menu, progress},
 };
 use crate::app::{
     language::{keys, text},
@@ -83,6 +83,7 @@ fn upper(
         {
             actions.push(Action::GoTo(WorkspaceKind::History));
         }
+        language_menu(ui, state, actions);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             progress(ui, state, work, theme, actions);
         });

@@ -20,7 +20,7 @@ use crate::{
             source::CellChoice,
             unit_system::UnitSystem,
         },
-        language::text,
+        language::{Language, text},
         user_error::UserError,
     },
     capture::SourceSpec,
@@ -64,6 +64,10 @@ pub struct Session {
     pub units: UnitSystem,
     /// Colours.
     pub theme: ThemeChoice,
+    /// The language that the window speaks.
+    pub language: Language,
+    /// The one that was chosen in it; none: the system's.
+    pub chosen_language: Option<Language>,
     /// Whose window it is.
     pub role: UserRole,
     /// What the next inspection is of.

@@ -22,7 +22,7 @@ use crate::{
             library_cache::LibraryCache, scan_choice::ScanFiles, source::CellChoice,
             unit_system::UnitSystem,
         },
-        language::text,
+        language::{Language, text},
         task::TaskRunner,
         user_error::UserError,
     },
@@ -51,6 +51,8 @@ pub struct Settings {
     pub theme: ThemeChoice,
     /// Units that are shown.
     pub units: UnitSystem,
+    /// The language chosen in the window; none: the system's.
+    pub language: Option<Language>,
     /// In which numbers the robot is told a pose.
     pub convention: Convention,
     /// The workspace in front.
@@ -109,6 +111,7 @@ impl Default for Settings {
             schema: SCHEMA,
             theme: ThemeChoice::default(),
             units: UnitSystem::default(),
+            language: None,
             convention: Convention::default(),
             workspace: WorkspaceKind::default(),
             library: None,
@@ -133,12 +136,13 @@ impl Settings {
     pub fn of(state: &State, window: Option<[f32; 2]>) -> Self {
         Self {
             schema: SCHEMA,
-            theme: state.session.theme,
-            units: state.session.units,
-            convention: state.session.convention,
-            workspace: state.session.workspace,
-            library: state.session.chosen_library.clone(),
-            recent: state.session.recent.clone(),
+            theme: state.theme,
+            units: state.units,
+            language: state.chosen_language,
+            convention: state.convention,
+            workspace: state.workspace,
+            library: state.chosen_library.clone(),
+            recent: state.recent.clone(),
             window,
             source: match &state.session.source {
                 Source::Cell(choice) => RememberedSource::Cell(*choice),
@@ -174,13 +178,14 @@ impl Settings {
         } && self.recipe_label == state.session.recipe.label;
         has_source
             && has_recipe
-            && self.theme == state.session.theme
-            && self.units == state.session.units
-            && self.convention == state.session.convention
-            && self.workspace == state.session.workspace
-            && self.library == state.session.chosen_library
-            && self.recent == state.session.recent
-            && self.average == state.session.live.params.average
+            && self.theme == state.theme
+            && self.units == state.units
+            && self.language == state.chosen_language
+            && self.convention == state.convention
+            && self.workspace == state.workspace
+            && self.library == state.chosen_library
+            && self.recent == state.recent
+            && self.average == state.live.params.average
             && self.lock_after == state.roles.lock_after
             && self.pin == state.roles.pin
             && self.role == state.session.role
@@ -197,6 +202,8 @@ impl Settings {
         let session = Session {
             theme: self.theme,
             units: self.units,
+            language: self.language.unwrap_or_default(),
+            chosen_language: self.language,
             workspace: match role {
                 UserRole::Operator if !is_operators(self.workspace) => WorkspaceKind::Inspect,
                 _ => self.workspace,
@@ -349,6 +356,7 @@ mod tests {
         Settings {
             theme: ThemeChoice::Light,
             units: UnitSystem::MetresRadians,
+            language: Some(Language::Spanish),
             convention: Convention::Staubli,
             library: Some("/media/stick/reference_parts".into()),
             recent: vec!["a.pcd".into(), "b c.ply".into()],

@@ -13,7 +13,7 @@ use super::{
 pub(in crate::app) use crate::app::ui::widgets::{focus_ring, labelled, shortened};
 use crate::app::{
     inspection::{figures::StagePanel, library_cache::LibraryView, source::file_name},
-    language::{keys, text},
+    language::{Language, keys, text},
     task::Running,
     ui::theme::{Theme, ThemeChoice, font, space},
 };
@@ -170,11 +170,30 @@ fn settings(
     {
         actions.push(Action::SwitchUnits);
     }
+    language_menu(ui, state, actions);
     // What is at work, and the way out of it, come first.
     let has_room = !is_at_work || ui.available_width() > 480.0;
     if let Some(library) = state.session.library.as_ref().filter(|_| has_room) {
         library_menu(ui, state, library, actions);
     }
+}
+
+/// The languages, each as its speakers call it.
+pub(super) fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let now = state.language;
+    let menu = ui.menu_button(format!("{} ▼", now.sign()), |ui| {
+        for language in Language::ALL {
+            let button = Button::selectable(language == now, language.own_name());
+            if ui.add(button).clicked() {
+                actions.push(Action::Speak(language));
+                ui.close();
+            }
+        }
+    });
+    let label = text!("shell-language-of", language = now.own_name());
+    let button = menu.response;
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
+    button.on_hover_text(text!("shell-language-says"));
 }
 
 /// Which library is in use, and others to use.

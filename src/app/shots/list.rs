@@ -9,21 +9,22 @@ use egui::{
 };
 
 use super::state::{ShotsAction, ShotsFile, ShotsState, StripTab};
-use crate::{
-    app::{
-        inspection::{
-            fuse::FusedShots,
-            scan_choice::ShotChoice,
-            scan_figure::{ShotFate, ShotRow},
-            unit_system::UnitSystem,
-        },
-        shell::session::{Session, WorkspaceKind},
-        ui::{
-            theme::{ROUNDING, Theme, font, space},
-            widgets::{Mark, focus_ring, grouped, labelled, mark, sentence, shortened},
-        },
+use crate::app::{
+    inspection::{
+        fuse::FusedShots,
+        scan_choice::ShotChoice,
+        scan_figure::{ShotFate, ShotRow},
+        unit_system::UnitSystem,
     },
-    error::Advice as _,
+    language::{
+        results::{excluded, excluded_advice, excluded_in_short},
+        text,
+    },
+    shell::session::{Session, WorkspaceKind},
+    ui::{
+        theme::{ROUNDING, Theme, font, space},
+        widgets::{Mark, focus_ring, grouped, labelled, mark, sentence, shortened},
+    },
 };
 
 /// Width of a shot in the list, logical pixels.
@@ -69,19 +70,22 @@ impl ShotList {
             ..
         } = scan;
         let shown = shots.strip;
+        let shots_title = text!("shots-shots");
         ui.horizontal(|ui| {
             ui.spacing_mut().button_padding.x = 9.0;
-            for (tab, text) in [(StripTab::Shots, "Shots"), (StripTab::Usual, usual)] {
+            for (tab, text) in [(StripTab::Shots, &*shots_title), (StripTab::Usual, usual)] {
                 let is_shown = shown == tab;
-                let button = Button::selectable(is_shown, text).min_size(Vec2::splat(space::TARGET));
+                let button =
+                    Button::selectable(is_shown, text).min_size(Vec2::splat(space::TARGET));
                 if ui.add(button).clicked() {
                     actions.push(ShotsAction::Strip(tab));
                 }
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let key = |text: &str| RichText::new(text).font(font::small());
-                if labelled(ui, Button::new(key("Add a shot…")), "Add a shot…")
-                    .on_hover_text("A frame of the same part; its pose must be in the file of the poses or in poses.json beside it")
+                let add = text!("shots-add");
+                if labelled(ui, Button::new(key(&add)), &add)
+                    .on_hover_text(text!("shots-add-says"))
                     .clicked()
                 {
                     actions.push(ShotsAction::Ask(ShotsFile::Shot));
@@ -89,12 +93,23 @@ impl ShotList {
                 // Enrol has its own, for corrections and shots alike.
                 if session.workspace != WorkspaceKind::Enrol {
                     for (text, label, can, action) in [
-                        ("Redo", "Redo the change of the shots", shots.can_redo(), ShotsAction::Redo),
-                        ("Undo", "Undo the change of the shots", shots.can_undo(), ShotsAction::Undo),
+                        (
+                            text!("shots-redo"),
+                            text!("shots-redo-label"),
+                            shots.can_redo(),
+                            ShotsAction::Redo,
+                        ),
+                        (
+                            text!("shots-undo"),
+                            text!("shots-undo-label"),
+                            shots.can_undo(),
+                            ShotsAction::Undo,
+                        ),
                     ] {
-                        let button = Button::new(key(text)).min_size(Vec2::splat(space::TARGET));
+                        let button = Button::new(key(&text)).min_size(Vec2::splat(space::TARGET));
                         let response = ui.add_enabled(can, button);
-                        response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, label));
+                        response
+                            .widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, &label));
                         if response.clicked() {
                             actions.push(action);
                         }
@@ -150,11 +165,15 @@ impl ShotList {
 fn caption(fused: &FusedShots, units: UnitSystem) -> String {
     let num = fused.rows.len();
     let used = match fused.num_used() {
-        used if used == num => format!("{num} shots"),
-        used => format!("{used} of {num} shots used"),
+        used if used == num => text!("shots-all-used", num = num),
+        used => text!("shots-some-used", used = used, num = num),
     };
     match fused.scan.after.part.or(fused.scan.after.all) {
-        Some(overlap) => format!("{used} · they agree to {} rms", units.length(overlap.rms.0)),
+        Some(overlap) => text!(
+            "shots-agree",
+            used = used,
+            rms = units.length(overlap.rms.0)
+        ),
         None => used,
     }
 }
@@ -185,7 +204,7 @@ fn card(
                 let text = format!("{} · {}", place + 1, shortened(&row.name, LETTERS));
                 let text = RichText::new(text).font(font::body_strong());
                 let response = ui.add(Checkbox::new(&mut is_checked, text));
-                let label = format!("Use {}", row.name);
+                let label = text!("shots-use", name = &row.name);
                 response.widget_info(|| {
                     WidgetInfo::selected(egui::Role::CheckBox, true, is_taken, label.clone())
                 });
@@ -193,9 +212,9 @@ fn card(
                     response.scroll_to_me(None);
                 }
                 let says = if is_taken {
-                    "Drop this shot: the others are put together without it"
+                    text!("shots-drop-says")
                 } else {
-                    "Take this shot back"
+                    text!("shots-take-back-says")
                 };
                 if response.on_hover_text(says).clicked() {
                     actions.push(ShotsAction::Toggle(place));
@@ -231,7 +250,7 @@ fn picture(
             .rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
     }
     focus_ring(ui, rect, &response, theme);
-    let label = format!("Mark what shot {} alone sees", place + 1);
+    let label = text!("shots-mark", shot = place + 1);
     response
         .widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_marked, label.clone()));
     if response.on_hover_text(&label).clicked() {
@@ -257,52 +276,55 @@ fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem, theme: &
     };
     match row.fate {
         ShotFate::Dropped => {
-            small(ui, "Dropped".into(), theme.weak_text);
+            small(ui, text!("shots-dropped"), theme.weak_text);
         }
         ShotFate::Excluded(why) => {
-            let advice = why.advice();
-            let why = why.to_string();
-            // The card of the workspace has the rest.
-            let short = why.split(':').next().unwrap_or(&why);
-            said(
-                ui,
-                format!("Left out: {short}"),
-                &format!("{}. {}", sentence(&why), advice),
+            let all = text!(
+                "shots-left-out-says",
+                why = sentence(&excluded(&why)),
+                advice = excluded_advice(&why)
             );
+            // The card of the workspace has the rest.
+            let short = text!("shots-left-out", why = excluded_in_short(&why));
+            said(ui, short, &all);
         }
         ShotFate::Used {
             moved,
             rms,
             has_part,
         } => {
-            let seen = format!("{:.0} % of the part", row.seen * 100.0);
-            let all = format!("It sees {} points of the part", grouped(row.num_points));
+            let seen = text!("shots-seen", share = format!("{:.0}", row.seen * 100.0));
+            let all = text!("shots-seen-says", num = grouped(row.num_points));
             small(ui, seen, theme.text).on_hover_text(all);
             if has_part {
                 let only = match row.only * 100.0 {
-                    only if only > 0.0 && only < 1.0 => "alone sees < 1 %".to_owned(),
-                    only => format!("alone sees {only:.0} %"),
+                    only if only > 0.0 && only < 1.0 => "< 1 %".to_owned(),
+                    only => format!("{only:.0} %"),
                 };
-                small(ui, only, theme.weak_text);
+                small(ui, text!("shots-alone", share = only), theme.weak_text);
             } else {
-                let says = "The other shots say what of it is the part";
-                small(ui, "no part found in it".into(), theme.warning).on_hover_text(says);
+                let says = text!("shots-no-part-says");
+                small(ui, text!("shots-no-part"), theme.warning).on_hover_text(says);
             }
-            let moved = format!(
-                "moved {} · {}",
-                units.length(moved.shift.0),
-                units.angle(moved.rotation.0)
+            let moved = text!(
+                "shots-moved",
+                shift = units.length(moved.shift.0),
+                turn = units.angle(moved.rotation.0)
             );
             small(ui, moved, theme.weak_text);
             if let Some(rms) = rms {
-                small(ui, format!("rms {}", units.length(rms.0)), theme.weak_text);
+                small(
+                    ui,
+                    text!("shots-rms", rms = units.length(rms.0)),
+                    theme.weak_text,
+                );
             } else {
-                let says = "It keeps the pose that the robot gave";
-                small(ui, "overlaps no other".into(), theme.warning).on_hover_text(says);
+                let says = text!("shots-overlaps-none-says");
+                small(ui, text!("shots-overlaps-none"), theme.warning).on_hover_text(says);
             }
         }
     }
     if !is_taken && row.fate != ShotFate::Dropped {
-        small(ui, "To be dropped…".into(), theme.weak_text);
+        small(ui, text!("shots-to-be-dropped"), theme.weak_text);
     }
 }

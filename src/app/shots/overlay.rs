@@ -5,6 +5,7 @@ use egui::{Align2, Color32, Painter, Pos2, Rect, vec2};
 use crate::{
     app::{
         inspection::{fuse::FusedShots, scan_figure::ScanFigure},
+        language::text,
         ui::{
             theme::{ROUNDING, Theme, font},
             viewport::{PointSet, PointSize, Role, TextLabel, ViewColours, ViewScene},
@@ -71,24 +72,18 @@ impl Overlay<'_> {
         let mut entries = Vec::new();
         if self.unseen_points().is_some() {
             let text = match self.unseen {
-                Some((_, share)) => format!(
-                    "Not seen by any shot · {} of the enrolled surface",
-                    percent(share)
-                ),
-                None => format!(
-                    "Unseen: the part may continue here · {} of the outline",
-                    percent(self.figure().open_share)
-                ),
+                Some((_, share)) => text!("shots-not-seen", share = percent(share)),
+                None => text!("shots-unseen", share = percent(self.figure().open_share)),
             };
             entries.push((colours.role(Role::Unseen).colour, text));
         }
         if let Some(place) = self.looked_at
             && let Some(row) = self.fused.rows.get(place)
         {
-            let text = format!(
-                "Seen by shot {} alone · {} of the part",
-                place + 1,
-                percent(row.only)
+            let text = text!(
+                "shots-seen-by-one",
+                shot = place + 1,
+                share = percent(row.only)
             );
             entries.push((colours.role(Role::SeenOnce).colour, text));
         }

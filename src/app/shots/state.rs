@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::app::{
     inspection::scan_choice::{ScanFiles, ScanOrder, ShotChoice},
+    language::text,
     shell::{
         file_dialog::{FileChoice, FileRequest, all_files},
         notice::Notice,
@@ -88,16 +89,16 @@ impl ShotsFile {
     pub(in crate::app) fn request(self) -> FileRequest {
         match self {
             Self::Shot => FileRequest {
-                title: "Add a frame to the scan".into(),
+                title: text!("shots-add-a-frame"),
                 filters: vec![
-                    ("Captured scenes".into(), &["png", "pcd", "ply"]),
+                    (text!("shell-captured-scenes"), &["png", "pcd", "ply"]),
                     all_files(),
                 ],
                 choice: FileChoice::File,
             },
             Self::Poses => FileRequest {
-                title: "File of the poses of the shots".into(),
-                filters: vec![("Poses".into(), &["json"]), all_files()],
+                title: text!("shots-poses-file"),
+                filters: vec![(text!("shots-poses"), &["json"]), all_files()],
                 choice: FileChoice::File,
             },
         }
@@ -164,8 +165,8 @@ impl ShotsState {
                 }
                 if choice.num_taken() < LEAST_SHOTS {
                     return Err(Notice::look(
-                        format!("A scan needs at least {LEAST_SHOTS} shots"),
-                        "Take another shot back first",
+                        text!("shots-at-least", num = LEAST_SHOTS),
+                        text!("shots-take-another"),
                     ));
                 }
                 Some(choose(choice, Way::First))

@@ -2,20 +2,21 @@
 
 use egui::{RichText, Ui};
 
-use crate::{
-    app::{
-        inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem},
-        ui::{
-            theme::{Theme, font, space},
-            widgets::{grouped, heading, row, sentence},
-        },
+use crate::app::{
+    inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem},
+    language::{
+        results::{excluded, excluded_advice},
+        text,
     },
-    error::Advice as _,
+    ui::{
+        theme::{Theme, font, space},
+        widgets::{grouped, heading, row, sentence},
+    },
 };
 
 /// Draws the section.
 pub(in crate::app) fn summary(ui: &mut Ui, fused: &FusedShots, units: UnitSystem, theme: &Theme) {
-    heading(ui, theme, "Scan");
+    heading(ui, theme, &text!("shots-scan"));
     // Text lies closer than controls do.
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 20.0;
@@ -29,8 +30,8 @@ fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem, theme: &Theme) {
     row(
         ui,
         theme,
-        "shots used",
-        &format!("{} of {num_all}", fused.num_used()),
+        &text!("shots-used"),
+        &text!("shots-num-used", used = fused.num_used(), num = num_all),
     );
     let moved = fused.rows.iter().filter_map(|row| match row.fate {
         ShotFate::Used { moved, .. } => Some([moved.shift.0, moved.rotation.0]),
@@ -40,26 +41,30 @@ fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem, theme: &Theme) {
         [most[0].max(one[0]), most[1].max(one[1])]
     });
     let moved = format!("{} · {}", units.length(shift), units.angle(turn));
-    row(ui, theme, "poses refined by up to", &moved);
+    row(ui, theme, &text!("shots-refined-by"), &moved);
     if let Some(overlap) = fused.scan.after.part.or(fused.scan.after.all) {
         row(
             ui,
             theme,
-            "shots agree to, rms",
+            &text!("shots-agree-to"),
             &units.length(overlap.rms.0),
         );
     }
     let num_part = fused.scan.cloud.is_part.iter().filter(|is| **is).count();
-    row(ui, theme, "points of the part", &grouped(num_part));
+    row(ui, theme, &text!("shots-points"), &grouped(num_part));
     let open = format!("{:.0} %", fused.figure.open_share * 100.0);
-    row(ui, theme, "outline open", &open);
+    row(ui, theme, &text!("shots-outline-open"), &open);
     for (place, shot) in fused.rows.iter().enumerate() {
         if let ShotFate::Excluded(why) = shot.fate {
             ui.add_space(space::SMALL);
-            let text = format!("Shot {} is left out: {why}", place + 1);
+            let text = text!(
+                "shots-shot-left-out",
+                shot = place + 1,
+                why = excluded(&why)
+            );
             ui.label(RichText::new(sentence(&text)).color(theme.text));
             ui.label(
-                RichText::new(why.advice())
+                RichText::new(excluded_advice(&why))
                     .font(font::body_strong())
                     .color(theme.warning),
             );

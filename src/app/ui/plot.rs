@@ -12,6 +12,7 @@ use egui_plot::{
 };
 
 use super::theme::{Theme, font};
+use crate::app::language::text;
 
 /// Beyond either end of its range an axis shows this share of it: a line at the end is seen whole.
 const MARGIN: f64 = 0.03;
@@ -223,7 +224,13 @@ impl RayCurves<'_> {
                     value.map_or("–".to_owned(), |value| text(f64::from(value)))
                 };
                 let part = part.map_or("–".to_owned(), value);
-                format!("ray {place}: query {}, part {part} {unit}", value(scene))
+                text!(
+                    "view-ray",
+                    place = place,
+                    query = value(scene),
+                    part = part,
+                    unit = unit
+                )
             }));
         }
         axes.show(ui, area, theme, |plot| {

@@ -289,7 +289,7 @@ impl Theme {
         ctx.set_style_of(egui_theme, style);
     }
 
-    /// The typeface, embedded; egui's own follows for signs that it lacks.
+    /// The typefaces, embedded; egui's own follow for signs that they lack.
     pub fn install_fonts(ctx: &egui::Context) {
         let mut fonts = FontDefinitions::default();
         let regular = include_bytes!("../../../assets/fonts/Inter-Regular.otf");
@@ -299,10 +299,20 @@ impl Theme {
                 .font_data
                 .insert(name.into(), Arc::new(FontData::from_owned(bytes.to_vec())));
         }
+        // For Chinese, in any language: titles of parts may be written in it.
+        let chinese = include_bytes!("../../../assets/fonts/NotoSansSC-Subset.otf");
+        let chinese_name = "Noto Sans SC";
+        fonts.font_data.insert(
+            chinese_name.into(),
+            Arc::new(FontData::from_static(chinese)),
+        );
         let fallbacks = fonts.families.get(&FontFamily::Proportional).cloned();
         let with_fallbacks = |name: &str| {
             let fallbacks = fallbacks.iter().flatten().cloned();
-            std::iter::once(name.to_owned()).chain(fallbacks).collect()
+            [name.to_owned(), chinese_name.to_owned()]
+                .into_iter()
+                .chain(fallbacks)
+                .collect()
         };
         fonts
             .families
@@ -310,6 +320,9 @@ impl Theme {
         fonts
             .families
             .insert(strong_family(), with_fallbacks("Inter SemiBold"));
+        if let Some(monospace) = fonts.families.get_mut(&FontFamily::Monospace) {
+            monospace.push(chinese_name.to_owned());
+        }
         ctx.set_fonts(fonts);
     }
 }

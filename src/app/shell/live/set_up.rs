@@ -5,10 +5,11 @@ use egui::{Button, Context, DragValue, Grid, RichText, Ui, vec2};
 use super::state::LiveAction;
 use crate::{
     app::{
+        language::{results::object, text},
         shell::{action::Action, state::State, top_bar::labelled},
         ui::{
             theme::{Theme, font, space},
-            widgets::{self, sentence},
+            widgets,
         },
     },
     capture::{CellScene, SimulatedPose, SimulatedSpec, SourceSpec},
@@ -16,7 +17,13 @@ use crate::{
 };
 
 /// Noise that can be chosen: times a Kinect's.
-const NOISES: [(&str, f64); 3] = [("None", 0.0), ("A Kinect's", 1.0), ("Three times", 3.0)];
+fn noises() -> [(String, f64); 3] {
+    [
+        (text!("live-no-noise"), 0.0),
+        (text!("live-kinect-noise"), 1.0),
+        (text!("live-three-times"), 3.0),
+    ]
+}
 /// Seconds that a part of the line takes.
 const EVERY: f64 = 8.0;
 /// More car models than these are not drawn by anybody.
@@ -35,7 +42,7 @@ pub(in crate::app) fn set_up(
     let mut spec = known.clone();
     let modal = widgets::dialog(ctx, "set up the cell", |ui| {
         ui.set_max_width(560.0);
-        let title = RichText::new("Simulated cell").font(font::verdict());
+        let title = RichText::new(text!("shell-simulated-cell")).font(font::verdict());
         ui.label(title.color(theme.text));
         ui.add_space(space::SMALL);
         Grid::new("cell")
@@ -45,10 +52,11 @@ pub(in crate::app) fn set_up(
         ui.add_space(space::MEDIUM);
         let mut closing = None;
         ui.horizontal(|ui| {
-            if widgets::default_button(ui, "Use it", true, theme) {
+            if widgets::default_button(ui, &text!("live-use-it"), true, theme) {
                 closing = Some(true);
             }
-            if labelled(ui, Button::new("Close"), "Close").clicked() {
+            let close = text!("shell-close");
+            if labelled(ui, Button::new(&*close), &close).clicked() {
                 closing = Some(false);
             }
         });
@@ -68,7 +76,7 @@ pub(in crate::app) fn set_up(
 }
 
 fn rows(ui: &mut Ui, spec: &mut SimulatedSpec) {
-    row(ui, "What hangs there", |ui| {
+    row(ui, text!("live-what-hangs"), |ui| {
         egui::ComboBox::from_id_salt("scene")
             .selected_text(scene_title(spec.scene))
             .width(240.0)
@@ -83,53 +91,58 @@ fn rows(ui: &mut Ui, spec: &mut SimulatedSpec) {
                 egui::WidgetInfo::labeled(
                     egui::Role::ComboBox,
                     true,
-                    format!("Hangs there: {title}"),
+                    text!("live-hangs", what = title),
                 )
             });
     });
-    row(ui, "Side", |ui| {
+    row(ui, text!("live-side"), |ui| {
         for side in Side::ALL {
-            choice(ui, &mut spec.side, side, &sentence(side.name()));
+            let name = match side {
+                Side::Left => text!("live-side-left"),
+                Side::Right => text!("live-side-right"),
+            };
+            choice(ui, &mut spec.side, side, name);
         }
     });
-    row(ui, "Car model", |ui| {
+    row(ui, text!("live-model"), |ui| {
         let model = DragValue::new(&mut spec.model).range(0..=MAX_MODEL);
-        ui.add_sized([80.0, space::TARGET], model)
-            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::SpinButton, true, "Car model"));
-        ui.label("0 is the enrolled one");
+        ui.add_sized([80.0, space::TARGET], model).widget_info(|| {
+            egui::WidgetInfo::labeled(egui::Role::SpinButton, true, text!("live-model"))
+        });
+        ui.label(text!("live-model-says"));
     });
-    row(ui, "Hung", |ui| {
+    row(ui, text!("live-hung"), |ui| {
         for (text, pose) in [
-            ("With care", SimulatedPose::Facing),
-            ("Anyhow", SimulatedPose::Placed),
-            ("Turned away", SimulatedPose::Hard),
+            (text!("live-with-care"), SimulatedPose::Facing),
+            (text!("live-anyhow"), SimulatedPose::Placed),
+            (text!("live-turned-away"), SimulatedPose::Hard),
         ] {
             choice(ui, &mut spec.pose, pose, text);
         }
     });
-    row(ui, "Noise", |ui| {
-        for (text, noise) in NOISES {
+    row(ui, text!("live-noise"), |ui| {
+        for (text, noise) in noises() {
             choice(ui, &mut spec.noise, noise, text);
         }
     });
-    row(ui, "Clutter", |ui| {
+    row(ui, text!("live-clutter"), |ui| {
         for (text, clutter) in [
-            ("None", Clutter::None),
-            ("On the floor", Clutter::OnFloor),
-            ("A plank in front", Clutter::InFront),
+            (text!("live-no-clutter"), Clutter::None),
+            (text!("live-on-floor"), Clutter::OnFloor),
+            (text!("live-plank"), Clutter::InFront),
         ] {
             choice(ui, &mut spec.clutter, clutter, text);
         }
     });
 }
 
-fn row(ui: &mut Ui, name: &str, controls: impl FnOnce(&mut Ui)) {
+fn row(ui: &mut Ui, name: String, controls: impl FnOnce(&mut Ui)) {
     ui.label(name);
     ui.horizontal(|ui| controls(ui));
     ui.end_row();
 }
 
-fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: &str) {
+fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: String) {
     let is_chosen = *value == this;
     let button = Button::selectable(is_chosen, text).min_size(vec2(space::TARGET, space::TARGET));
     if ui.add(button).clicked() {
@@ -151,9 +164,9 @@ fn scenes(now: CellScene) -> impl Iterator<Item = CellScene> {
 
 fn scene_title(scene: CellScene) -> String {
     match scene {
-        CellScene::Line { every } => format!("The line runs, a part every {every:.0} s"),
+        CellScene::Line { every } => text!("live-line-runs", seconds = format!("{every:.0}")),
         CellScene::Part(kind) => kind.title().to_owned(),
-        CellScene::Object(kind) => format!("Not enrolled: {}", kind.name()),
-        CellScene::Empty => "Nothing".into(),
+        CellScene::Object(kind) => text!("shell-not-enrolled", what = object(kind)),
+        CellScene::Empty => text!("live-nothing"),
     }
 }

@@ -5,13 +5,11 @@ use std::{
     sync::{Arc, Mutex},
 };
 
-use super::{
-    status::frames_word,
-    work::{FollowedParts, LiveAnswer, LiveStart, LiveStatus, SourceState, follow, rest},
-};
+use super::work::{FollowedParts, LiveAnswer, LiveStart, LiveStatus, SourceState, follow, rest};
 use crate::{
     app::{
         inspection::{inspected::Inspected, library_cache::LibraryCache},
+        language::text,
         shell::{
             action::{DialogRequest, Effect, notify},
             message::{Event, ReinspectionPurpose},
@@ -162,15 +160,15 @@ pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
 
 /// Follows the source; whatever was being inspected is given up.
 fn start(state: &mut State) {
-    if state.session.source.followed().is_none() {
-        let what = match state.session.source {
-            Source::Scan(_) => "A scan cannot be followed: it does not change",
-            _ => "A single file cannot be followed: it does not change",
+    if state.source.followed().is_none() {
+        let what = match state.source {
+            Source::Scan(_) => text!("live-scan-cannot"),
+            _ => text!("live-file-cannot"),
         };
         let notice = Notice {
             kind: NoticeKind::Look,
-            what: what.into(),
-            advice: "Choose a camera, a recording or a folder in the source menu".into(),
+            what,
+            advice: text!("live-cannot-advice"),
         };
         notify(state, notice);
         return;
@@ -199,7 +197,7 @@ fn follow_source(state: &mut State) {
     state.session.live.status = None;
     let library_cache = state.follower.library_cache.clone();
     let job = move |context: &_| follow(&request, &library_cache, context);
-    state.follower.task.start("Live", job);
+    state.follower.task.start(text!("live-live"), job);
 }
 
 /// Something that verdicts rest on has changed: none of those before counts. Does nothing while nothing is followed.
@@ -215,7 +213,7 @@ pub(in crate::app) fn give_way(state: &mut State) {
         ended(state);
         let library_cache = state.follower.library_cache.clone();
         let task = &mut state.follower.task;
-        task.start("Closing the camera", move |_| Ok(rest(&library_cache)));
+        task.start(text!("live-closing"), move |_| Ok(rest(&library_cache)));
     }
 }
 
@@ -224,12 +222,11 @@ fn end_recording(state: &mut State) {
     state.session.live.recording = None;
     let status = state.session.live.status.as_mut();
     if let Some(recorded) = status.and_then(|status| status.recorded.take()) {
-        let what = format!(
-            "Recorded {} {}, {}, to {}",
-            recorded.num_frames,
-            frames_word(recorded.num_frames),
-            megabytes(recorded.num_bytes),
-            recorded.folder.display()
+        let what = text!(
+            "live-recorded",
+            num = recorded.num_frames,
+            size = megabytes(recorded.num_bytes),
+            folder = recorded.folder.display().to_string()
         );
         notify(state, Notice::done(what));
     }
@@ -292,7 +289,10 @@ fn receive(state: &mut State, answer: LiveAnswer) -> Option<Event> {
             ended(state);
             let spec = state.session.source.followed();
             let title = spec.map_or_else(String::new, |spec| spec.title());
-            notify(state, Notice::done(format!("{title} has no more frames")));
+            notify(
+                state,
+                Notice::done(text!("live-no-more-frames", source = title)),
+            );
         }
         LiveAnswer::Stands(_) | LiveAnswer::Rests => {}
     }
@@ -334,7 +334,7 @@ fn watch_source(state: &mut State, source: &SourceState) {
         SourceState::Opening => {}
         SourceState::Running => {
             if dismiss_lost_notice(state) {
-                notify(state, Notice::done("The source is back"));
+                notify(state, Notice::done(text!("live-source-back")));
             }
         }
     }

@@ -8,6 +8,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::session::{Session, Source},
         ui::{
             theme::{Theme, font, space},
@@ -53,24 +54,25 @@ pub(in crate::app) fn card(ui: &mut Ui, session: &Session, theme: &Theme) -> boo
 fn record(ui: &mut Ui, session: &Session) -> bool {
     let size = Vec2::new(ui.available_width(), space::TARGET);
     if session.live.recording.is_none() {
-        let text = RichText::new("Record…").font(font::small());
-        let says = "Save every frame of the source unchanged (Ctrl L)";
+        let text = RichText::new(text!("live-record")).font(font::small());
+        let says = text!("live-record-says");
         let button = ui.add(Button::new(text).min_size(size));
         return button.on_hover_text(says).clicked();
     }
     let recorded = session.live.status.as_ref();
     let recorded = recorded.and_then(|status| status.recorded.as_ref());
-    let so_far = recorded.map_or_else(String::new, |recorded| {
-        let size = megabytes(recorded.num_bytes);
-        let word = frames_word(recorded.num_frames);
-        format!(" · {} {word}, {size}", recorded.num_frames)
-    });
-    let text = RichText::new(format!("Stop recording{so_far}")).font(font::small());
+    let name = match recorded {
+        Some(recorded) => text!(
+            "live-stop-recording-so-far",
+            num = recorded.num_frames,
+            size = megabytes(recorded.num_bytes)
+        ),
+        None => text!("live-stop-recording"),
+    };
+    let text = RichText::new(&name).font(font::small());
     let button = Button::selectable(true, text).min_size(size);
     let response = ui.add(button);
-    response.widget_info(|| {
-        egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Stop recording{so_far}"))
-    });
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
     response.clicked()
 }
 
@@ -91,41 +93,44 @@ pub(in crate::app) fn chip(ui: &mut Ui, session: &Session, theme: &Theme) {
 /// What matters most, and a sign for it.
 pub(in crate::app) fn words(session: &Session) -> (Mark, String) {
     let name = match &session.source {
-        Source::Camera(spec) if matches!(**spec, SourceSpec::Recording(_)) => "Playing",
-        Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)) => "Watching the folder",
-        Source::Camera(_) | Source::Cell(_) | Source::File(_) | Source::Scan(_) => "Live",
+        Source::Camera(spec) if matches!(**spec, SourceSpec::Recording(_)) => text!("live-playing"),
+        Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)) => text!("live-watching"),
+        Source::Camera(_) | Source::Cell(_) | Source::File(_) | Source::Scan(_) => {
+            text!("live-live")
+        }
     };
     let Some(status) = &session.live.status else {
-        return (Mark::Open, format!("{name} · opening"));
+        let opening = text!("live-opening");
+        return (Mark::Open, text!("live-is", name = name, what = opening));
     };
     let (sign, what) = match (&status.source, status.stillness) {
-        (SourceState::Lost(_), _) => (Mark::Bad, "lost, reconnecting".into()),
-        (SourceState::Opening, _) => (Mark::Open, "opening".into()),
-        (SourceState::Running, None) => (Mark::Good, "each capture counts".into()),
-        (SourceState::Running, Some(MotionState::Watching)) => (Mark::Open, "looking".into()),
-        (SourceState::Running, Some(MotionState::Moving)) => (Mark::Open, "moving".into()),
+        (SourceState::Lost(_), _) => (Mark::Bad, text!("live-lost")),
+        (SourceState::Opening, _) => (Mark::Open, text!("live-opening")),
+        (SourceState::Running, None) => (Mark::Good, text!("live-each-counts")),
+        (SourceState::Running, Some(MotionState::Watching)) => (Mark::Open, text!("live-looking")),
+        (SourceState::Running, Some(MotionState::Moving)) => (Mark::Open, text!("live-moving")),
         (SourceState::Running, Some(MotionState::Steady { lasting, .. })) => (
             Mark::Good,
-            format!("steady for {:.1} s", lasting.as_secs_f64()),
+            text!(
+                "live-steady-for",
+                seconds = format!("{:.1}", lasting.as_secs_f64())
+            ),
         ),
     };
-    (sign, format!("{name} · {what}"))
+    (sign, text!("live-is", name = name, what = what))
 }
 
 /// What the verdict rests on.
 fn evidence_text(status: &LiveStatus) -> String {
-    let averaged = match status.num_averaged {
-        0 | 1 => String::new(),
-        num => format!(" · depth of {num}"),
+    let averaged = |evidence: String| match status.num_averaged {
+        0 | 1 => evidence,
+        num => text!("live-averaged", evidence = evidence, num = num),
     };
     match (&status.standing, status.stillness) {
-        (_, None) => "Every new file is inspected on its own".into(),
-        (LiveVerdict::Open, _) => "No verdict until the part hangs still".into(),
+        (_, None) => text!("live-file-by-file"),
+        (LiveVerdict::Open, _) => text!("live-no-verdict"),
         (LiveVerdict::Gathering { num_frames, needed }, _) => {
-            format!(
-                "{num_frames} of {needed} {}{averaged}",
-                frames_word(*needed)
-            )
+            averaged(text!("live-frames-of", num = *num_frames, needed = *needed))
         }
         (LiveVerdict::Counted(agreed), _) => {
             let ConsensusVerdict {
@@ -133,15 +138,13 @@ fn evidence_text(status: &LiveStatus) -> String {
                 num_agreeing,
                 ..
             } = **agreed;
-            let agree = if num_frames == 1 { "agrees" } else { "agree" };
-            let word = frames_word(num_frames);
-            format!("{num_agreeing} of {num_frames} {word} {agree}{averaged}")
+            averaged(text!(
+                "live-frames-agree",
+                agreeing = num_agreeing,
+                num = num_frames
+            ))
         }
     }
-}
-
-pub(super) fn frames_word<N: Copy + PartialEq + From<u8>>(num: N) -> &'static str {
-    if num == N::from(1) { "frame" } else { "frames" }
 }
 
 /// Rates, latency, and what was dropped.
@@ -152,8 +155,8 @@ fn figures(status: &LiveStatus) -> String {
     let latency = status
         .latency
         .map(|latency| format!("{:.0} ms", latency.as_secs_f64() * 1000.0));
-    let dropped = (status.num_dropped > 0).then(|| format!("{} dropped", status.num_dropped));
-    let rates = format!("{captured} fps, {inspected} inspected");
+    let dropped = (status.num_dropped > 0).then(|| text!("live-dropped", num = status.num_dropped));
+    let rates = text!("live-rates", captured = captured, inspected = inspected);
     let all: Vec<String> = [Some(rates), latency, dropped]
         .into_iter()
         .flatten()

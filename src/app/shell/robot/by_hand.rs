@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         ui::{
             theme::{Theme, font, space},
             widgets::Mark,
@@ -27,14 +28,14 @@ pub(super) fn ui(
     mounts(ui, dialog);
     ui.add_space(space::SMALL);
     ui.horizontal(|ui| {
-        ui.label("Numbers of");
+        ui.label(text!("robot-numbers-of"));
         convention(ui, &mut dialog.convention);
     });
     let small = |text: &str| RichText::new(text.to_owned()).font(font::small());
     ui.label(small(dialog.convention.meaning()).color(theme.weak_text));
     ui.add_space(space::SMALL);
     let transform = dialog.mount.camera_transform();
-    let label = ui.label(format!("{transform}: where the camera's frame stands"));
+    let label = ui.label(text!("robot-where-camera-stands", transform = transform));
     let hint = dialog.convention.names().join("  ");
     let rows = if dialog.convention == Convention::Matrix {
         4
@@ -80,7 +81,7 @@ fn convention(ui: &mut Ui, convention: &mut Convention) {
         })
         .response;
     response.widget_info(|| {
-        let text = format!("Numbers of: {}", chosen.title());
+        let text = text!("robot-numbers-are-of", convention = chosen.title());
         egui::WidgetInfo::labeled(egui::Role::ComboBox, true, text)
     });
 }

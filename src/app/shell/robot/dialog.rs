@@ -8,6 +8,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -38,7 +39,7 @@ impl RobotCell {
         let mut caused = Vec::new();
         let modal = widgets::dialog(ctx, "robot", |ui| {
             ui.set_width(WIDTH.min(ctx.content_rect().width() - 80.0));
-            let title = RichText::new("Robot").font(font::verdict());
+            let title = RichText::new(text!("robot-title")).font(font::verdict());
             ui.label(title.color(theme.text));
             ui.add_space(space::SMALL);
             ui.horizontal(|ui| {
@@ -56,7 +57,8 @@ impl RobotCell {
                     self.page(ui, session, &mut dialog, theme, &mut caused);
                 });
             ui.separator();
-            if labelled(ui, Button::new("Close"), "Close").clicked() {
+            let close = text!("shell-close");
+            if labelled(ui, Button::new(&*close), &close).clicked() {
                 caused.push(RobotAction::Close);
             }
         });
@@ -93,7 +95,7 @@ impl RobotCell {
 }
 
 /// One of several, chosen by a press.
-pub(super) fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: &str) {
+pub(super) fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: String) {
     let is_chosen = *value == this;
     let button = Button::selectable(is_chosen, text)
         .frame_when_inactive(true)
@@ -107,8 +109,8 @@ pub(super) fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: &s
 pub(super) fn mounts(ui: &mut Ui, dialog: &mut RobotDialog) {
     ui.horizontal(|ui| {
         for (mount, text) in [
-            (Mount::EyeToHand, "Camera in the cell"),
-            (Mount::EyeInHand, "Camera on the flange"),
+            (Mount::EyeToHand, text!("robot-camera-in-cell")),
+            (Mount::EyeInHand, text!("robot-camera-on-flange")),
         ] {
             choice(ui, &mut dialog.mount, mount, text);
         }
@@ -118,7 +120,7 @@ pub(super) fn mounts(ui: &mut Ui, dialog: &mut RobotDialog) {
 /// What a new calibration is called.
 pub(super) fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
     ui.horizontal(|ui| {
-        let label = ui.label("Name of the cell");
+        let label = ui.label(text!("robot-name-of-cell"));
         ui.add(egui::TextEdit::singleline(&mut dialog.name).desired_width(280.0))
             .labelled_by(label.id);
     });
@@ -126,7 +128,7 @@ pub(super) fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
 
 /// The button that uses what stands there.
 pub(super) fn use_it(ui: &mut Ui, is_there: bool, theme: &Theme) -> bool {
-    widgets::default_button(ui, "Use it", is_there, theme)
+    widgets::default_button(ui, &text!("robot-use-it"), is_there, theme)
 }
 
 /// Trouble or doubt, its sign before it and what to do below.

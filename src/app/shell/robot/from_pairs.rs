@@ -11,6 +11,7 @@ use super::{
 use crate::{
     app::{
         inspection::source::file_name,
+        language::text,
         ui::{
             theme::{Theme, font, space},
             widgets::{Mark, labelled, row},
@@ -36,15 +37,15 @@ pub(super) fn ui(
     mounts(ui, dialog);
     ui.add_space(space::SMALL);
     ui.horizontal(|ui| {
-        if labelled(ui, Button::new("Choose pairs…"), "Choose pairs…").clicked() {
+        let choose = text!("robot-choose-pairs");
+        if labelled(ui, Button::new(&*choose), &choose).clicked() {
             caused.push(RobotAction::Ask(RobotFile::Pairs));
         }
         match &dialog.pairs {
             Some(path) => ui.label(RichText::new(file_name(path)).color(theme.text)),
-            None => ui.label(
-                RichText::new("A table or JSON of robot and camera poses, 8 to 15 pairs")
-                    .color(theme.weak_text),
-            ),
+            None => {
+                ui.label(RichText::new(text!("robot-choose-pairs-says")).color(theme.weak_text))
+            }
         };
         if !robot.is_idle() {
             ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
@@ -52,9 +53,7 @@ pub(super) fn ui(
     });
     let Some(found) = dialog.solved.clone() else {
         if dialog.pairs.is_none() {
-            let text = "A line holds the robot's pose, as the controller shows the flange, then the camera's: where it sees \
-                        the target. Lines such as \"# robot: kuka\" and \"# camera: matrix\" at the top name the conventions. \
-                        An enrolled part can be the target: partsight calibrate hand-eye --captures";
+            let text = text!("robot-pairs-format");
             ui.label(
                 RichText::new(text)
                     .font(font::small())
@@ -89,7 +88,7 @@ pub(super) fn ui(
     ui.add_space(space::SMALL);
     name(ui, dialog);
     if !solved.is_usable() {
-        let text = "Use it anyway";
+        let text = text!("robot-use-anyway");
         ui.add(Checkbox::new(&mut dialog.insists, text));
     }
     ui.add_space(space::SMALL);
@@ -101,7 +100,7 @@ pub(super) fn ui(
 /// How far each pair is off; a pair whose tick is taken away does not count.
 fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog, theme: &Theme) {
     let solved = &found.solved;
-    let weak = |text: &str| RichText::new(text.to_owned()).color(theme.weak_text);
+    let weak = |text: String| RichText::new(text).color(theme.weak_text);
     ScrollArea::vertical()
         .id_salt("residuals")
         .max_height(TABLE)
@@ -109,7 +108,12 @@ fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog, theme: 
         .show(ui, |ui| {
             let grid = Grid::new("pairs").num_columns(4).spacing(vec2(24.0, 2.0));
             grid.show(ui, |ui| {
-                for title in ["counts", "off mm", "off °", ""] {
+                for title in [
+                    text!("robot-counts"),
+                    text!("robot-off-mm"),
+                    text!("robot-off-degrees"),
+                    String::new(),
+                ] {
                     ui.label(weak(title));
                 }
                 ui.end_row();
@@ -129,12 +133,12 @@ fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog, theme: 
                         ui.label(format!("{:.2}", off.shift.mm()));
                         ui.label(format!("{:.3}", off.rotation.degrees()));
                         ui.label(weak(if place == solved.residuals.worst {
-                            "worst"
+                            text!("robot-worst")
                         } else {
-                            ""
+                            String::new()
                         }));
                     } else {
-                        ui.label(weak("left out"));
+                        ui.label(weak(text!("robot-left-out")));
                     }
                     ui.end_row();
                 }
@@ -145,32 +149,36 @@ fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog, theme: 
 fn figures(ui: &mut Ui, found: &SolvedPairs, theme: &Theme) {
     let solved = &found.solved;
     let rms = &solved.residuals.rms;
-    let text = format!(
-        "{:.2} mm and {:.3}°",
-        rms.shift.mm(),
-        rms.rotation.degrees()
+    let text = text!(
+        "robot-mm-and-degrees",
+        mm = format!("{:.2}", rms.shift.mm()),
+        degrees = format!("{:.3}", rms.rotation.degrees())
     );
-    row(ui, theme, "rms of the residuals", &text);
+    row(ui, theme, &text!("robot-rms"), &text);
     let bounds = &solved.bounds;
     let text = if bounds.shift.0.is_finite() {
-        format!(
-            "{:.2} mm and {:.3}°",
-            bounds.shift.mm(),
-            bounds.turn.degrees()
+        text!(
+            "robot-mm-and-degrees",
+            mm = format!("{:.2}", bounds.shift.mm()),
+            degrees = format!("{:.3}", bounds.turn.degrees())
         )
     } else {
-        "not determined by the pairs".into()
+        text!("robot-not-determined")
     };
-    row(ui, theme, "uncertainty (95 %)", &text);
+    row(ui, theme, &text!("robot-uncertainty"), &text);
     let span = &solved.span;
-    let text = format!(
-        "{:.0}° at most, {:.0}° about other axes; target moved {:.0} mm",
-        span.largest_turn.degrees(),
-        span.other_turn.degrees(),
-        span.travel.mm()
+    let text = text!(
+        "robot-span",
+        turn = format!("{:.0}", span.largest_turn.degrees()),
+        other = format!("{:.0}", span.other_turn.degrees()),
+        travel = format!("{:.0}", span.travel.mm())
     );
-    row(ui, theme, "the flange turned", &text);
+    row(ui, theme, &text!("robot-flange-turned"), &text);
     let [robot, camera] = found.conventions;
-    let text = format!("robot {}, camera {}", robot.title(), camera.title());
-    row(ui, theme, "read as", &text);
+    let text = text!(
+        "robot-conventions-are",
+        robot = robot.title(),
+        camera = camera.title()
+    );
+    row(ui, theme, &text!("robot-read-as"), &text);
 }

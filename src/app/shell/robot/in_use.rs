@@ -8,6 +8,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -19,6 +20,7 @@ use crate::{
     robot::{
         Convention, RobotPose,
         calibration::{CameraPlace, CellCalibration, Origin},
+        hand_eye::Mount,
     },
 };
 
@@ -33,16 +35,21 @@ pub(super) fn ui(
     let in_use = robot.in_use();
     match in_use {
         None => {
-            let text = "The cell is not calibrated: poses are in the camera's frame, and a robot cannot use them";
+            let text = text!("robot-not-calibrated");
             ui.label(RichText::new(text).color(theme.text));
         }
         Some(in_use) => {
             figures(ui, &in_use.calibration, theme);
-            row(ui, theme, "file", &in_use.path.display().to_string());
+            row(
+                ui,
+                theme,
+                &text!("robot-file"),
+                &in_use.path.display().to_string(),
+            );
             if in_use.is_edited {
                 let edited = UserError {
-                    what: "the file was edited: its numbers count as entered by hand".into(),
-                    advice: "Calibrate again to have residuals beside them".into(),
+                    what: text!("robot-edited"),
+                    advice: text!("robot-edited-advice"),
                 };
                 told(ui, Mark::Look, &edited, theme);
             }
@@ -69,46 +76,77 @@ pub(super) fn ui(
     }
     ui.add_space(space::MEDIUM);
     ui.horizontal(|ui| {
-        if labelled(ui, Button::new("Load…"), "Load…").clicked() {
+        let load = text!("robot-load");
+        if labelled(ui, Button::new(&*load), &load).clicked() {
             caused.push(RobotAction::Ask(RobotFile::Calibration));
         }
-        if in_use.is_some() && labelled(ui, Button::new("Forget"), "Forget").clicked() {
+        let forget = text!("robot-forget");
+        if in_use.is_some() && labelled(ui, Button::new(&*forget), &forget).clicked() {
             caused.push(RobotAction::Forget);
         }
     });
 }
 
 fn figures(ui: &mut Ui, calibration: &CellCalibration, theme: &Theme) {
-    row(ui, theme, "cell", &calibration.shown_with_identity());
     row(
         ui,
         theme,
-        "camera",
-        &sentence(calibration.camera.mount().describe()),
+        &text!("robot-cell"),
+        &calibration.shown_with_identity(),
+    );
+    row(
+        ui,
+        theme,
+        &text!("robot-camera"),
+        &sentence(&mount(calibration.camera.mount())),
     );
     let made = calibration
         .made_at
         .strftime("%Y-%m-%d %H:%M UTC")
         .to_string();
-    row(ui, theme, "made", &made);
+    row(ui, theme, &text!("robot-made"), &made);
     match &calibration.origin {
-        Origin::ByHand => row(ui, theme, "from", "entered by hand"),
+        Origin::ByHand => row(
+            ui,
+            theme,
+            &text!("robot-from"),
+            &text!("robot-entered-by-hand"),
+        ),
         Origin::HandEye(fit) => {
-            let from = format!("{} pairs of {}", fit.num_pairs, fit.pairs_file);
-            row(ui, theme, "from", &from);
-            let rms = format!(
-                "{:.2} mm and {:.3}° rms, worst {:.2} mm ({})",
-                fit.rms_mm, fit.rms_degrees, fit.worst_mm, fit.worst_pair
+            let from = text!(
+                "robot-pairs-of",
+                num = fit.num_pairs,
+                file = &fit.pairs_file
             );
-            row(ui, theme, "residuals", &rms);
+            row(ui, theme, &text!("robot-from"), &from);
+            let rms = text!(
+                "robot-residuals-are",
+                mm = format!("{:.2}", fit.rms_mm),
+                degrees = format!("{:.3}", fit.rms_degrees),
+                worst = format!("{:.2}", fit.worst_mm),
+                pair = &fit.worst_pair
+            );
+            row(ui, theme, &text!("robot-residuals"), &rms);
             if let (Some(mm), Some(degrees)) = (fit.bound_mm, fit.bound_degrees) {
-                let bounds = format!("{mm:.2} mm and {degrees:.3}°");
-                row(ui, theme, "uncertainty (95 %)", &bounds);
+                let bounds = text!(
+                    "robot-mm-and-degrees",
+                    mm = format!("{mm:.2}"),
+                    degrees = format!("{degrees:.3}")
+                );
+                row(ui, theme, &text!("robot-uncertainty"), &bounds);
             }
             for doubt in &fit.doubts {
                 ui.label(RichText::new(sentence(doubt)).color(theme.warning));
             }
         }
+    }
+}
+
+/// What the camera is fixed to, in full.
+fn mount(mount: Mount) -> String {
+    match mount {
+        Mount::EyeToHand => text!("robot-eye-to-hand"),
+        Mount::EyeInHand => text!("robot-eye-in-hand"),
     }
 }
 
@@ -151,18 +189,17 @@ fn arm(
     caused: &mut Vec<RobotAction>,
 ) {
     if let Some(stored) = stored {
-        let name = "robot_from_flange at every capture";
-        pose(ui, name, stored, convention, theme);
+        let name = text!("robot-flange-at-every");
+        pose(ui, &name, stored, convention, theme);
     } else {
         let unknown = UserError {
-            what: "the flange pose at a capture is not known: there is no pose for the robot"
-                .into(),
-            advice: "Type the flange's pose as the controller shows it, and store it".into(),
+            what: text!("robot-flange-unknown"),
+            advice: text!("robot-flange-unknown-advice"),
         };
         told(ui, Mark::Look, &unknown, theme);
     }
     ui.horizontal(|ui| {
-        let label = ui.label("Flange at a capture");
+        let label = ui.label(text!("robot-flange-at"));
         let hint = format!("{}: {}", convention.name(), convention.names().join(" "));
         ui.add(
             egui::TextEdit::singleline(&mut dialog.arm)
@@ -172,7 +209,8 @@ fn arm(
         .labelled_by(label.id);
         let is_pose = dialog.typed_arm().is_ok();
         ui.add_enabled_ui(is_pose, |ui| {
-            if labelled(ui, Button::new("Store"), "Store").clicked() {
+            let store = text!("robot-store");
+            if labelled(ui, Button::new(&*store), &store).clicked() {
                 caused.push(RobotAction::StoreArm);
             }
         });

@@ -8,6 +8,7 @@ use super::work::{self, CellInUse, RobotResult, SolvedPairs};
 use crate::{
     app::{
         inspection::source::file_name,
+        language::text,
         shell::{
             context::ShellContext,
             file_dialog::{FileChoice, FileDialog, FileRequest, all_files},
@@ -52,11 +53,11 @@ impl RobotPage {
     pub const ALL: [Self; 3] = [Self::InUse, Self::ByHand, Self::FromPairs];
 
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::InUse => "In use",
-            Self::ByHand => "By hand",
-            Self::FromPairs => "From pairs of poses",
+            Self::InUse => text!("robot-in-use"),
+            Self::ByHand => text!("robot-by-hand"),
+            Self::FromPairs => text!("robot-from-pairs"),
         }
     }
 }
@@ -170,14 +171,14 @@ impl RobotFile {
     fn request(self) -> FileRequest {
         match self {
             Self::Calibration => FileRequest {
-                title: "Load the calibration of the robot's cell".into(),
-                filters: vec![("Calibrations".into(), &["toml"]), all_files()],
+                title: text!("robot-load-title"),
+                filters: vec![(text!("robot-calibrations"), &["toml"]), all_files()],
                 choice: FileChoice::File,
             },
             Self::Pairs => FileRequest {
-                title: "Pairs of robot and camera poses".into(),
+                title: text!("robot-pairs-title"),
                 filters: vec![
-                    ("Tables and JSON".into(), &["csv", "txt", "json"]),
+                    (text!("robot-tables"), &["csv", "txt", "json"]),
                     all_files(),
                 ],
                 choice: FileChoice::File,
@@ -262,7 +263,7 @@ impl RobotCell {
             RobotAction::Forget => {
                 self.in_use = None;
                 cx.send(Message::UseCalibration(RememberedCell::Forgotten, None));
-                let what = "The calibration is no longer used; its file is kept";
+                let what = text!("robot-forgotten");
                 cx.notify(Notice::done(what));
             }
         }
@@ -270,12 +271,12 @@ impl RobotCell {
 
     fn load(&mut self, path: PathBuf) {
         let job = |_: &_| Ok(work::load(path)?);
-        self.task.start("Opening the calibration", job);
+        self.task.start(text!("robot-opening"), job);
     }
 
     fn save(&mut self, path: PathBuf, calibration: CellCalibration) {
         let job = move |_: &_| Ok(work::save(path, &calibration)?);
-        self.task.start("Saving the calibration", job);
+        self.task.start(text!("robot-saving"), job);
     }
 
     fn store_arm(&mut self) {
@@ -314,7 +315,7 @@ impl RobotCell {
             dialog.solved = None;
             let (mount, left_out) = (dialog.mount, dialog.left_out.clone());
             let job = move |_: &_| Ok(work::solve_pairs(pairs, mount, left_out)?);
-            self.task.start("Calculating where the camera sits", job);
+            self.task.start(text!("robot-calculating"), job);
         }
     }
 
@@ -322,8 +323,8 @@ impl RobotCell {
     fn save_new(&mut self, camera: CameraPlace, origin: Origin, cx: &mut ShellContext<'_>) {
         let Some(path) = cx.session.usual_cell.clone() else {
             cx.notify(Notice::look(
-                "There is no folder for your own calibration",
-                "Write it with partsight calibrate --out FILE, and load that file here",
+                text!("robot-no-folder"),
+                text!("robot-no-folder-advice"),
             ));
             return;
         };
@@ -363,8 +364,7 @@ impl RobotCell {
         match result {
             RobotResult::InUse(in_use, former) => {
                 if let Some(former) = former {
-                    let former = former.display();
-                    let what = format!("Saved; the former calibration is kept in {former}");
+                    let what = text!("robot-saved", path = former.display().to_string());
                     cx.notify(Notice::done(what));
                 }
                 let cell = if Some(&in_use.path) == cx.session.usual_cell.as_ref() {

@@ -40,6 +40,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::CloseTop
         | Action::SwitchUnits
         | Action::SwitchTheme
+        | Action::Speak(_)
         | Action::ToggleHelp
         | Action::Dismiss(_)
         | Action::Notify(_)

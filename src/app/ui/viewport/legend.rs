@@ -7,7 +7,7 @@ use super::{
     scene::ViewScene,
     style::{Colouring, Legend, SCALE_STOPS, ViewStyle},
 };
-use crate::units::Metres;
+use crate::{app::language::text, units::Metres};
 
 const BAR: Vec2 = Vec2::new(168.0, 8.0);
 const MARGIN: f32 = 14.0;
@@ -32,7 +32,7 @@ pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewS
             bar(
                 painter,
                 rect,
-                "height, mm",
+                &text!("view-height-scale"),
                 &values,
                 &colours.height_scale,
                 style,
@@ -44,7 +44,7 @@ pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewS
             bar(
                 painter,
                 rect,
-                "deviation, mm",
+                &text!("view-deviation-scale"),
                 &values,
                 &colours.deviation_scale,
                 style,

@@ -8,7 +8,7 @@ use super::{
     navigation::vec2,
     style::{Role, ViewStyle},
 };
-use crate::units::Metres;
+use crate::{app::language::text, units::Metres};
 
 /// Up to two points, and what lies between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -51,10 +51,10 @@ impl Measurement {
     }
 
     /// What a person is to do next; nothing once there is a distance.
-    pub(super) fn next_step(&self) -> Option<&'static str> {
+    pub(super) fn next_step(&self) -> Option<String> {
         match self.points {
-            [None, _] => Some("Measure: click a point of the cloud"),
-            [Some(_), None] => Some("Measure: click a second point"),
+            [None, _] => Some(text!("view-measure-first")),
+            [Some(_), None] => Some(text!("view-measure-second")),
             [Some(_), Some(_)] => None,
         }
     }

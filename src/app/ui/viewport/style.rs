@@ -2,6 +2,7 @@
 
 use egui::Color32;
 
+use crate::app::language::text;
 use crate::{stages::segment::PointLabel, units::Metres};
 
 /// Colours of a scale, evenly spaced from its low end to its high end.
@@ -102,12 +103,12 @@ impl Colouring {
     pub const ALL: [Self; 4] = [Self::Segment, Self::Height, Self::Deviation, Self::Plain];
 
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::Segment => "Segments",
-            Self::Height => "Height",
-            Self::Deviation => "Deviation",
-            Self::Plain => "Plain",
+            Self::Segment => text!("view-segments"),
+            Self::Height => text!("view-height"),
+            Self::Deviation => text!("view-deviation"),
+            Self::Plain => text!("view-plain"),
         }
     }
 }

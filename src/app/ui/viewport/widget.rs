@@ -24,7 +24,10 @@ use super::{
     screenshot::ViewShot,
     style::ViewStyle,
 };
-use crate::error::{Advice, lock};
+use crate::{
+    app::language::text,
+    error::{Advice, lock},
+};
 
 /// What a click on the view does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -253,7 +256,7 @@ impl Viewport {
             && let Some(next) = self.measure.next_step()
         {
             let at = rect.center_bottom() - egui::vec2(0.0, 44.0);
-            measure::plate(&painter, at, next, style, Anchor::Middle);
+            measure::plate(&painter, at, &next, style, Anchor::Middle);
         }
         legend::ui(&painter, rect, scene, style);
     }
@@ -264,10 +267,7 @@ fn describe(ui: &Ui, response: &Response, label: &str) {
     ui.accesskit_node_builder(response.id, |node| {
         node.set_role(egui::accesskit::Role::Canvas);
         node.set_label(label);
-        node.set_description(
-            "3-D view. Arrow keys turn, with Shift they shift, plus and minus zoom, F fits, X, Y and Z look along an \
-             axis, M measures",
-        );
+        node.set_description(text!("view-keys"));
     });
 }
 
@@ -281,7 +281,9 @@ fn say(ui: &mut Ui, rect: Rect, error: &ViewError, style: &ViewStyle) {
         ui.add_space((inside.height() / 2.0 - 40.0).max(0.0));
         // Selectable text would take the drags away from the view.
         let mut say = |text: RichText| ui.add(Label::new(text).selectable(false));
-        say(RichText::new("No 3-D view").size(20.0).color(colours.text));
+        say(RichText::new(text!("view-no-view"))
+            .size(20.0)
+            .color(colours.text));
         say(RichText::new(error.to_string()).color(colours.weak_text));
         say(RichText::new(error.advice()).color(colours.text));
     });

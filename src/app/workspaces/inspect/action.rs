@@ -6,6 +6,7 @@ use super::state::ViewPart;
 use crate::{
     app::{
         inspection::figures::StagePanel,
+        language::text,
         shell::file_dialog::{FileChoice, FileRequest},
         shots::{ShotsAction, ShotsFile},
         ui::viewport::Colouring,
@@ -61,21 +62,18 @@ impl InspectFile {
     pub(super) fn request(self) -> FileRequest {
         match self {
             Self::Report => FileRequest {
-                title: "Folder for the report of this inspection".into(),
+                title: text!("inspect-report-folder"),
                 filters: Vec::new(),
                 choice: FileChoice::FolderToWrite,
             },
             Self::Picture => FileRequest {
-                title: "Save a picture of the view".into(),
-                filters: vec![("Pictures".into(), &["png"])],
+                title: text!("inspect-save-picture"),
+                filters: vec![(text!("inspect-pictures"), &["png"])],
                 choice: FileChoice::NewFile("view.png"),
             },
             Self::SprayPath => FileRequest {
-                title: "Export the spray path for the robot".into(),
-                filters: vec![
-                    ("Comma-separated values".into(), &["csv"]),
-                    ("JSON".into(), &["json"]),
-                ],
+                title: text!("inspect-export-path-title"),
+                filters: vec![(text!("inspect-csv"), &["csv"]), ("JSON".into(), &["json"])],
                 choice: FileChoice::NewFile("spray-path.csv"),
             },
             Self::Shots(file) => file.request(),

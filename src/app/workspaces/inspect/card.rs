@@ -13,6 +13,10 @@ use super::{
 use crate::{
     app::{
         inspection::{inspected::Inspected, unit_system::UnitSystem},
+        language::{
+            results::{free_motion, recipe_label, stopped, traced},
+            text,
+        },
         shell::{
             live,
             session::{Session, UserRole},
@@ -38,14 +42,14 @@ pub(super) fn ui(
 ) {
     if session.is_old() {
         ui.label(
-            RichText::new("Previous result: a new inspection is running")
+            RichText::new(text!("inspect-previous-result"))
                 .font(font::body_strong())
                 .color(theme.warning),
         );
         ui.multiply_opacity(0.55);
     }
     if session.shown.as_ref().is_some_and(|shown| shown.is_past) {
-        let text = "From the history, not the current part";
+        let text = text!("inspect-from-history");
         let text = RichText::new(text).font(font::body_strong());
         ui.label(text.color(theme.warning));
     }
@@ -71,7 +75,7 @@ pub(super) fn ui(
     headline::ui(ui, &headline, theme);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if inspection.touches_edge() && inspected.scan.is_none() {
-            let text = "The part reaches the edge of the picture: some of it may be missing";
+            let text = text!("inspect-touches-edge");
             ui.label(RichText::new(text).color(theme.warning));
         }
         score(ui, inspected, &headline, theme);
@@ -79,7 +83,7 @@ pub(super) fn ui(
             offset(ui, inspected, pose, session.units, theme);
             fit(ui, pose, session.units, theme);
             if inspection.verdict.is_approximate() {
-                let text = "The pose is approximate: this may be another model of the part";
+                let text = text!("inspect-approximate");
                 ui.label(RichText::new(text).color(theme.warning));
             }
             stand_off::ui(ui, inspected, session.units, theme);
@@ -101,18 +105,18 @@ fn action_buttons(
 ) {
     let ways = [
         (
-            "Export…",
-            "A report: JSON, a page of PDF, a row in a table of poses, and the pictures of all stages (Ctrl E)",
+            text!("inspect-export"),
+            text!("inspect-export-says"),
             InspectAction::Ask(InspectFile::Report),
         ),
         (
-            "Wrong part?",
-            "See in Compare why it was recognised as this part",
+            text!("inspect-wrong-part"),
+            text!("inspect-wrong-part-says"),
             InspectAction::Compare,
         ),
         (
-            "Copy pose",
-            "In the robot's convention, named on the first line (Ctrl Shift C)",
+            text!("inspect-copy-pose"),
+            text!("inspect-copy-pose-says"),
             InspectAction::CopyPose,
         ),
     ];
@@ -140,7 +144,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
         return;
     };
     ui.add_space(space::MEDIUM);
-    row(ui, theme, "Score", &format!("{score:.2}"));
+    row(ui, theme, &text!("inspect-score"), &format!("{score:.2}"));
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
     let painter = ui.painter();
     let bar = Rect::from_min_max(rect.min + vec2(0.0, 2.0), rect.max - vec2(0.0, 2.0));
@@ -171,17 +175,24 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
     };
     ui.horizontal(|ui| {
         if let Some(next) = inspected.figures.candidates.get(1) {
-            ui.label(caption(format!("Next: {} {:.2}", next.title, next.score)));
+            ui.label(caption(text!(
+                "inspect-next",
+                part = &next.title,
+                score = format!("{:.2}", next.score)
+            )));
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label(caption(format!(
-                "threshold {:.2}",
-                inspected.recipe.accept.min_score
+            ui.label(caption(text!(
+                "inspect-threshold",
+                score = format!("{:.2}", inspected.recipe.accept.min_score)
             )));
         });
     });
     if inspected.figures.candidates.len() > 1 {
-        ui.label(caption(format!("Margin to the next {margin:.2}")));
+        ui.label(caption(text!(
+            "inspect-margin",
+            margin = format!("{margin:.2}")
+        )));
     }
 }
 
@@ -194,7 +205,7 @@ fn offset(
     theme: &Theme,
 ) {
     let camera_from_part = pose.camera_from_part();
-    heading(ui, theme, "Offset from standard position");
+    heading(ui, theme, &text!("inspect-offset"));
     let middle = inspected.middle;
     let shift = middle.map(|middle| camera_from_part * middle - middle);
     let shifts = shift.map_or_else(Vec::new, |shift| {
@@ -222,10 +233,10 @@ fn offset(
     }
     if let Some(other) = inspected.inspection.other_reference() {
         let other = inspected.library.title_of(other);
-        let text = format!("Measured from {other}, another reference of this part");
+        let text = text!("inspect-measured-from", part = other);
         ui.label(RichText::new(text).color(theme.weak_text));
     }
-    let note = "Part's centre, camera axes · R = Rz·Ry·Rx";
+    let note = text!("inspect-offset-note");
     ui.label(
         RichText::new(note)
             .font(font::small())
@@ -240,22 +251,31 @@ fn turns(pose: &RigidTransform) -> [(&'static str, f64); 3] {
 }
 
 fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
-    heading(ui, theme, "Fit");
-    row(ui, theme, "rms", &units.length(pose.fit.rms_m));
+    heading(ui, theme, &text!("inspect-fit"));
     row(
         ui,
         theme,
-        "overlap",
+        &text!("inspect-rms"),
+        &units.length(pose.fit.rms_m),
+    );
+    row(
+        ui,
+        theme,
+        &text!("inspect-overlap"),
         &format!("{:.0} %", pose.fit.overlap * 100.0),
     );
     if let Some(bounds) = pose.uncertainty {
         if let Some(freedom) = bounds.freedom {
-            let text = format!("Unconstrained: {freedom}");
+            let text = text!("inspect-unconstrained", freedom = free_motion(freedom));
             ui.label(RichText::new(text).color(theme.warning));
         } else {
             let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));
             let value = format!("{shift} · {turn}");
-            let names = ["pose uncertainty (95 %)", "uncertainty (95 %)", "95 %"];
+            let names = [
+                text!("inspect-pose-uncertainty"),
+                text!("inspect-uncertainty"),
+                "95 %".to_owned(),
+            ];
             let width = |text: &str| {
                 let laid_out = ui
                     .painter()
@@ -263,8 +283,8 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
                 laid_out.size().x
             };
             let room = ui.available_width() - width(&value) - 2.0 * space::SMALL;
-            let fits = |name: &&str| width(name) <= room;
-            let name = names.into_iter().find(fits).unwrap_or(names[2]);
+            let fits = |name: &&String| width(name) <= room;
+            let name = names.iter().find(fits).unwrap_or(&names[2]);
             row(ui, theme, name, &value);
         }
     }
@@ -272,37 +292,49 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
         row(
             ui,
             theme,
-            "runner-up pose",
-            &format!("{:.1}× worse", runner_up.ratio),
+            &text!("inspect-runner-up"),
+            &text!(
+                "inspect-times-worse",
+                ratio = format!("{:.1}", runner_up.ratio)
+            ),
         );
     }
-    let stopped = pose.stopped.name().replace('_', " ");
-    let by = format!("{stopped} · {}", pose.method.name());
+    let by = format!("{} · {}", stopped(pose.stopped), pose.method.name());
     row(
         ui,
         theme,
-        &format!("{} iterations", pose.iterations.len()),
+        &text!("inspect-iterations", num = pose.iterations.len()),
         &by,
     );
     if pose.is_ambiguous() {
-        let text = "Another pose fits as well: check which way round the part hangs";
+        let text = text!("inspect-ambiguous");
         ui.label(RichText::new(text).color(theme.warning));
     }
 }
 
 fn footer(ui: &mut Ui, inspected: &Inspected, role: UserRole, theme: &Theme) {
-    heading(ui, theme, "Inspection");
+    heading(ui, theme, &text!("inspect-inspection"));
     let ms = inspected.inspection.timings.total.as_secs_f64() * 1000.0;
-    row(ui, theme, "time", &format!("{ms:.1} ms"));
-    row(ui, theme, "scene", &inspected.origin.title());
+    row(ui, theme, &text!("inspect-time"), &format!("{ms:.1} ms"));
+    row(
+        ui,
+        theme,
+        &text!("inspect-scene"),
+        &inspected.origin.shown_title(),
+    );
     if inspected.origin.is_simulated() {
-        row(ui, theme, "camera", "simulated");
+        row(
+            ui,
+            theme,
+            &text!("inspect-camera"),
+            &text!("inspect-simulated"),
+        );
     }
     for (name, text) in inspected.trace().known() {
-        row(ui, theme, name, &shortened(text, 28));
+        row(ui, theme, &traced(name), &shortened(text, 28));
     }
     if role == UserRole::Engineer {
-        let label = inspected.recipe.label.to_string();
-        row(ui, theme, "recipe", &shortened(&label, 28));
+        let label = recipe_label(&inspected.recipe.label);
+        row(ui, theme, &text!("inspect-recipe"), &shortened(&label, 28));
     }
 }

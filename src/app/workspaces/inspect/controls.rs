@@ -9,6 +9,7 @@ use super::{
 };
 use crate::app::{
     inspection::inspected::Inspected,
+    language::text,
     shell::session::Session,
     ui::{
         theme::{font, space},
@@ -30,11 +31,14 @@ pub(super) fn ui(
 ) {
     let figure = &inspected.view;
     if ui.available_width() < NARROW {
-        ui.menu_button(small("View ▼"), |ui| sides(ui, view));
+        ui.menu_button(small(opened(&text!("inspect-view"))), |ui| sides(ui, view));
     } else {
         sides(ui, view);
     }
-    let now = format!("Colour · {} ▼", view.style.colouring.title());
+    let now = opened(&text!(
+        "inspect-colour",
+        colouring = view.style.colouring.title()
+    ));
     ui.menu_button(small(now), |ui| {
         for colouring in Colouring::ALL {
             let is_chosen = view.style.colouring == colouring;
@@ -46,7 +50,7 @@ pub(super) fn ui(
             }
         }
     });
-    ui.menu_button(small("Show ▼"), |ui| {
+    ui.menu_button(small(opened(&text!("inspect-show"))), |ui| {
         for part in ViewPart::ALL {
             let mut is_shown = state.parts.contains(&part);
             let choice = egui::Checkbox::new(&mut is_shown, part.title());
@@ -58,21 +62,19 @@ pub(super) fn ui(
             }
         }
         ui.separator();
-        let export = Button::new("Export spray path…");
+        let export = Button::new(text!("inspect-export-path"));
         let can_export = figure.spray.is_some() && session.robot_of(inspected).is_some();
         let export = ui.add_enabled(can_export, export);
-        let export = export.on_disabled_hover_text(
-            "Needs an accepted part with a stored spray path, and a calibrated cell",
-        );
+        let export = export.on_disabled_hover_text(text!("inspect-export-path-says"));
         if export.clicked() {
             actions.push(InspectAction::Ask(InspectFile::SprayPath));
             ui.close();
         }
     });
     let is_measuring = view.viewport.tool == ViewTool::Measure;
-    let measure = Button::new(small("Measure")).selected(is_measuring);
+    let measure = Button::new(small(text!("inspect-measure"))).selected(is_measuring);
     if press(ui, measure)
-        .on_hover_text("Click two points (M)")
+        .on_hover_text(text!("inspect-measure-says"))
         .clicked()
     {
         view.viewport.tool = if is_measuring {
@@ -81,25 +83,30 @@ pub(super) fn ui(
             ViewTool::Measure
         };
     }
-    if press(ui, Button::new(small("Picture…")))
-        .on_hover_text("Save a picture of the view (P)")
+    if press(ui, Button::new(small(text!("inspect-picture"))))
+        .on_hover_text(text!("inspect-picture-says"))
         .clicked()
     {
         actions.push(InspectAction::Ask(InspectFile::Picture));
     }
 }
 
+/// A name with the sign of what opens.
+fn opened(name: &str) -> String {
+    format!("{name} ▼")
+}
+
 fn sides(ui: &mut Ui, view: &mut SceneView) {
-    if press(ui, Button::new(small("Fit")))
-        .on_hover_text("Fit the part (F)")
+    if press(ui, Button::new(small(text!("inspect-fit-view"))))
+        .on_hover_text(text!("inspect-fit-view-says"))
         .clicked()
     {
         view.camera.request_fit(FitRequest::Focus);
     }
     for (text, side) in [
-        ("Front", StandardView::Front),
-        ("Top", StandardView::Top),
-        ("Side", StandardView::Side),
+        (text!("inspect-front"), StandardView::Front),
+        (text!("inspect-top"), StandardView::Top),
+        (text!("inspect-side"), StandardView::Side),
     ] {
         if press(ui, Button::new(small(text))).clicked() {
             view.camera.look(side);

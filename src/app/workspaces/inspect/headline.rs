@@ -5,13 +5,19 @@ use egui::{FontId, RichText, Sense, Ui, Vec2};
 use crate::{
     app::{
         inspection::inspected::{Inspected, LiveFrameContext},
+        language::{
+            results::{
+                rejection, rejection_advice, stored_verdict, unrecognisable, unrecognisable_advice,
+            },
+            text,
+        },
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
             widgets::{Mark, mark, sentence},
         },
     },
-    error::Advice as _,
+    history::StoredVerdict,
     pipeline::{Rejection, Verdict, live::MotionState},
 };
 
@@ -53,34 +59,36 @@ impl Headline {
                         reason @ (Rejection::AnotherModel { .. } | Rejection::AnotherMake { .. }),
                     ) => Self {
                         title: match reason {
-                            Rejection::AnotherMake { .. } => format!("{nearest}, another make"),
-                            _ => format!("{nearest}, another model"),
+                            Rejection::AnotherMake { .. } => {
+                                text!("inspect-another-make", part = nearest)
+                            }
+                            _ => text!("inspect-another-model", part = nearest),
                         },
                         nearest: None,
                         is_accepted: false,
                         is_open: false,
-                        complaint: Some((reason.to_string(), reason.advice())),
+                        complaint: Some((rejection(reason), rejection_advice(reason))),
                     },
                     // No name in large letters that is not certain.
                     Some(reason) => Self {
                         title: if inspected.inspection.verdict.is_unknown() {
-                            "Unknown part".into()
+                            text!("inspect-unknown-part")
                         } else {
-                            "Not recognised".into()
+                            text!("inspect-not-recognised")
                         },
                         nearest: Some(nearest),
                         is_accepted: false,
                         is_open: false,
-                        complaint: Some((reason.to_string(), reason.advice())),
+                        complaint: Some((rejection(reason), rejection_advice(reason))),
                     },
                 }
             }
             Verdict::NoPart(reason) => Self {
-                title: "No part".into(),
+                title: text!("inspect-no-part"),
                 nearest: None,
                 is_accepted: false,
                 is_open: false,
-                complaint: Some((reason.to_string(), reason.advice())),
+                complaint: Some((unrecognisable(reason), unrecognisable_advice(reason))),
             },
         }
     }
@@ -91,28 +99,34 @@ impl Headline {
         let nearest = inspected.figures.candidates.first();
         let (title, complaint) = match followed.stillness {
             _ if !is_live => (
-                "No verdict",
-                ("Live was stopped before a verdict counted", "Press Capture"),
+                text!("inspect-no-verdict"),
+                (
+                    text!("inspect-live-stopped"),
+                    text!("inspect-press-capture"),
+                ),
             ),
             MotionState::Moving => (
-                "Moving",
+                text!("inspect-moving"),
                 (
-                    "something is moving in front of the camera",
-                    "Let the part hang still for a second",
+                    text!("inspect-something-moves"),
+                    text!("inspect-let-it-hang"),
                 ),
             ),
             MotionState::Watching => (
-                "Looking",
-                ("it was not seen for long enough", "Wait a moment"),
+                text!("inspect-looking"),
+                (text!("inspect-not-long-enough"), text!("inspect-wait")),
             ),
-            MotionState::Steady { .. } => ("Looking", ("it is steady", "Wait a moment")),
+            MotionState::Steady { .. } => (
+                text!("inspect-looking"),
+                (text!("inspect-it-is-steady"), text!("inspect-wait")),
+            ),
         };
         Self {
-            title: title.into(),
+            title,
             nearest: nearest.filter(|_| is_part).map(|best| best.title.clone()),
             is_accepted: false,
             is_open: true,
-            complaint: Some((complaint.0.into(), complaint.1.into())),
+            complaint: Some(complaint),
         }
     }
 }
@@ -125,11 +139,19 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline, theme: &Theme) {
             .color(theme.text),
     );
     let (sign, word, colour) = if headline.is_accepted {
-        (Mark::Good, "Accepted", theme.accepted)
+        (
+            Mark::Good,
+            stored_verdict(StoredVerdict::Accepted),
+            theme.accepted,
+        )
     } else if headline.is_open {
-        (Mark::Look, "Not accepted yet", theme.warning)
+        (Mark::Look, text!("inspect-not-accepted-yet"), theme.warning)
     } else {
-        (Mark::Bad, "Not accepted", theme.rejected)
+        (
+            Mark::Bad,
+            stored_verdict(StoredVerdict::NotAccepted),
+            theme.rejected,
+        )
     };
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(Vec2::splat(32.0), Sense::hover());
@@ -137,7 +159,7 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline, theme: &Theme) {
         ui.label(RichText::new(word).font(font::far_verdict()).color(colour));
     });
     if let Some(nearest) = &headline.nearest {
-        ui.label(RichText::new(format!("Nearest: {nearest}")).color(theme.weak_text));
+        ui.label(RichText::new(text!("inspect-nearest", part = nearest)).color(theme.weak_text));
     }
     if let Some((reason, advice)) = &headline.complaint {
         ui.add_space(space::SMALL);

@@ -26,6 +26,7 @@ pub use self::{
 };
 use crate::app::{
     inspection::{fuse::FusedShots, inspected::Inspected},
+    language::{Language, text},
     shell::{
         context::ShellContext,
         key_binding::{KeyBinding, Shortcut},
@@ -53,49 +54,49 @@ const SHORTCUTS: [Shortcut<InspectAction>; 7] = [
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::Z,
         keys: "Ctrl Shift Z",
-        does: || "Redo the last undone change of the shots".into(),
+        does: || text!("inspect-does-redo"),
         action: || InspectAction::Shots(ShotsAction::Redo),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::Z,
         keys: "Ctrl Z",
-        does: || "Undo the last change of the shots of a scan".into(),
+        does: || text!("inspect-does-undo"),
         action: || InspectAction::Shots(ShotsAction::Undo),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::P,
         keys: "P",
-        does: || "Save a picture of the 3-D view".into(),
+        does: || text!("inspect-does-picture"),
         action: || InspectAction::Ask(InspectFile::Picture),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::C,
         keys: "C",
-        does: || "Show or hide the enrolled contour".into(),
+        does: || text!("inspect-does-contour"),
         action: || InspectAction::Toggle(ViewPart::Outline),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::N,
         keys: "N",
-        does: || "Show or hide the nozzle at the worst spot".into(),
+        does: || text!("inspect-does-nozzle"),
         action: || InspectAction::Toggle(ViewPart::NozzleWorst),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::K,
         keys: "K",
-        does: || "Show the pose in the next robot convention".into(),
+        does: || text!("inspect-does-convention"),
         action: || InspectAction::NextConvention,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::C,
         keys: "Ctrl Shift C",
-        does: || "Copy the pose in that convention".into(),
+        does: || text!("inspect-does-copy"),
         action: || InspectAction::CopyPose,
     },
 ];
@@ -112,6 +113,8 @@ pub struct InspectWorkspace {
 /// Textures of one result.
 struct TextureSet {
     generation: u64,
+    /// The language of the words in the view.
+    language: Language,
     segmentation: Option<TextureHandle>,
     binary: Option<TextureHandle>,
 }
@@ -194,7 +197,7 @@ impl InspectWorkspace {
         let mut caused = Vec::new();
         let margin = Frame::new().inner_margin(Margin::symmetric(12, 6));
         let shown = margin.show(ui, |ui| {
-            let is_list = ShotList::tabs(ui, scan, "Stages", &mut caused);
+            let is_list = ShotList::tabs(ui, scan, &text!("inspect-stages"), &mut caused);
             if is_list {
                 if session.is_old() {
                     ui.multiply_opacity(0.75);
@@ -224,12 +227,13 @@ impl InspectWorkspace {
         }
     }
 
-    /// Uploads what a new result shows, once.
+    /// Uploads what a new result shows, once; the words in the view change with the language.
     fn make(&mut self, ctx: &egui::Context, shown: &Shown) {
+        let language = Language::current();
         if self
             .made
             .as_ref()
-            .is_some_and(|made| made.generation == shown.generation)
+            .is_some_and(|made| (made.generation, made.language) == (shown.generation, language))
         {
             return;
         }
@@ -237,6 +241,7 @@ impl InspectWorkspace {
         let figures = &shown.inspected.figures;
         self.made = Some(TextureSet {
             generation: shown.generation,
+            language,
             segmentation: texture(ctx, "segmentation", figures.segmentation.as_ref()),
             binary: texture(ctx, "binary image", figures.binary.as_ref()),
         });
@@ -357,8 +362,7 @@ fn strip_height(state: &InspectState, inspected: &Inspected, height: f32) -> f32
 fn empty(ui: &Ui, session: &Session, theme: &Theme) {
     let text = match &session.inspecting {
         Some(run) => format!("{}…", run.title),
-        None => "Nothing inspected yet\nPress Capture for a frame of the simulated cell, or drop a captured scene here"
-            .into(),
+        None => text!("inspect-nothing-yet"),
     };
     let rect = ui.max_rect();
     let galley = ui.painter().layout(

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     app::{
         inspection::inspected::Inspected,
-        language::text,
+        language::{results::stored_verdict, text},
         shell::{current_trace, live::SourceState, session::Session},
         ui::{
             theme::{Theme, font, space},
@@ -379,9 +379,13 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
                 (Mark::Bad, theme.rejected)
             };
             // What was nearest belongs to the engineer.
-            let name = row.title.split(" · ").next().unwrap_or_default();
+            let name = match row.verdict {
+                StoredVerdict::Accepted => row.title.clone(),
+                StoredVerdict::NotAccepted => text!("inspect-not-recognised"),
+                StoredVerdict::Unknown | StoredVerdict::NoPart => stored_verdict(row.verdict),
+            };
             let name = match row.trace.serial.as_str() {
-                "" => name.to_owned(),
+                "" => name,
                 serial => format!("{name} · {serial}"),
             };
             let at = row.at.to_zoned(jiff::tz::TimeZone::system());

@@ -13,6 +13,7 @@ use crate::app::{
         },
         inspected::Inspected,
     },
+    language::text,
     shell::session::Session,
     ui::{
         plot::{Axes, Axis, RayCurves, curve, range_of},
@@ -86,7 +87,7 @@ impl Pictures<'_> {
                 .map(|candidate| self.alignment(candidate, ui, inner, detail)),
         };
         if is_there.is_none() {
-            self.says(painter, inner, "not reached");
+            self.says(painter, inner, &text!("inspect-not-reached"));
         }
     }
 
@@ -109,10 +110,10 @@ impl Pictures<'_> {
     }
 
     /// Why the chosen candidate was not aligned, where it was not.
-    pub(super) fn not_aligned(&self) -> Option<&'static str> {
+    pub(super) fn not_aligned(&self) -> Option<String> {
         match self.candidate()?.alignment {
             Alignment::Done { .. } => None,
-            Alignment::None(why) => Some(why),
+            Alignment::None(why) => Some(why.title()),
         }
     }
 
@@ -189,15 +190,17 @@ impl Pictures<'_> {
     fn alignment(&self, candidate: &RankedPartFigure, ui: &mut Ui, rect: Rect, detail: PlotDetail) {
         let (log_e, rms_m) = match &candidate.alignment {
             Alignment::Done { log_e, rms_m } if !log_e.is_empty() => (log_e, *rms_m),
-            Alignment::Done { .. } => return self.says(ui.painter(), rect, "E stayed at 0"),
-            Alignment::None(why) => return self.says(ui.painter(), rect, why),
+            Alignment::Done { .. } => {
+                return self.says(ui.painter(), rect, &text!("inspect-e-stayed-zero"));
+            }
+            Alignment::None(why) => return self.says(ui.painter(), rect, &why.title()),
         };
         let theme = self.theme;
         let [low, high] = range_of(log_e);
         let up = [low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil()];
         let is_large = detail == PlotDetail::Large;
         let rms = self.session.units.length(rms_m);
-        let title = format!("{} ended at rms {rms}", candidate.title);
+        let title = text!("inspect-ended-at", part = &candidate.title, rms = rms);
         let last = (log_e.len() - 1) as f64;
         let axes = Axes {
             title: is_large
@@ -222,7 +225,7 @@ impl Pictures<'_> {
             let end = Points::new("", end.unwrap_or_default()).radius(3.0);
             plot.points(end.color(theme.first_series));
             if is_large {
-                let text = RichText::new("the paper's goal, 1e\u{2212}6 m²").font(font::small());
+                let text = RichText::new(text!("inspect-papers-goal")).font(font::small());
                 let above = GOAL + 0.01 * (up[1] - up[0]);
                 let at = PlotPoint::new(last.max(1.0), above);
                 let text = Text::new("", at, text).color(colour);

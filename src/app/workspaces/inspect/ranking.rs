@@ -11,6 +11,7 @@ use super::plots::{Pictures, PlotDetail};
 use crate::{
     app::{
         inspection::figures::RankedPartFigure,
+        language::text,
         ui::{theme::font, widgets::Scale},
     },
     pipeline::Verdict,
@@ -90,7 +91,7 @@ impl Pictures<'_> {
                 let score = if candidate.is_examined {
                     format!("{:.2}", candidate.score)
                 } else {
-                    "not examined".to_owned()
+                    text!("inspect-not-examined")
                 };
                 painter.text(at, Align2::RIGHT_CENTER, score, font::body(), colour);
             }

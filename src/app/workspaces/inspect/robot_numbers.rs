@@ -6,6 +6,7 @@ use super::action::InspectAction;
 use crate::{
     app::{
         inspection::inspected::Inspected,
+        language::text,
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -33,12 +34,12 @@ pub(super) fn numbered(session: &Session, inspected: &Inspected) -> Option<Numbe
     let (name, frame, transform) = match session.robot_of(inspected) {
         Some(robot) => (
             "robot_from_part",
-            format!("The robot's base frame, by {}", robot.name),
+            text!("inspect-robot-frame", name = &robot.name),
             robot.robot_from_part(&camera_from_part),
         ),
         None => (
             "camera_from_part",
-            "The camera's frame: the cell is not calibrated".to_owned(),
+            text!("inspect-camera-frame"),
             camera_from_part,
         ),
     };
@@ -84,7 +85,7 @@ pub(super) fn ui(
     let Some(numbered) = numbered(session, inspected) else {
         return;
     };
-    heading(ui, theme, "Pose");
+    heading(ui, theme, &text!("inspect-pose"));
     ui.scope(|ui| {
         // Text lies closer on the card; this is pressed.
         ui.spacing_mut().interact_size.y = space::TARGET;
@@ -147,10 +148,10 @@ fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<InspectAction>) {
         })
         .response;
     response.widget_info(|| {
-        let text = format!("Convention: {}", chosen.title());
+        let text = text!("inspect-convention-of", name = chosen.title());
         egui::WidgetInfo::labeled(egui::Role::ComboBox, true, text)
     });
-    response.on_hover_text("Robot convention of the pose (K for the next)");
+    response.on_hover_text(text!("inspect-convention-says"));
     if convention != chosen {
         actions.push(InspectAction::UseConvention(convention));
     }

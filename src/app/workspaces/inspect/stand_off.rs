@@ -5,6 +5,7 @@ use egui::{Align2, Rect, RichText, Sense, Ui, pos2, vec2};
 use crate::{
     app::{
         inspection::{inspected::Inspected, unit_system::UnitSystem},
+        language::{results::stand_off_error, text},
         ui::{
             theme::{ROUNDING, Theme, font, space},
             widgets::{Scale, heading, row, sentence},
@@ -18,11 +19,11 @@ pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem, theme: &
     let Some(found) = &inspected.stand_off else {
         return;
     };
-    heading(ui, theme, "Stand-off of the taught path");
+    heading(ui, theme, &text!("inspect-stand-off"));
     match found {
         Ok(found) => figures(ui, found, &inspected.recipe.stand_off, units, theme),
         Err(error) => {
-            let text = sentence(&error.to_string());
+            let text = sentence(&stand_off_error(error));
             ui.label(RichText::new(text).color(theme.weak_text));
         }
     }
@@ -36,29 +37,29 @@ fn figures(
     theme: &Theme,
 ) {
     bar(ui, found, params, units, theme);
-    let pair = format!(
-        "{}, worst {}",
-        units.length(found.mean.0),
-        units.length(found.worst.distance.0)
+    let pair = text!(
+        "inspect-worst-of",
+        value = units.length(found.mean.0),
+        worst = units.length(found.worst.distance.0)
     );
-    row(ui, theme, "mean", &pair);
+    row(ui, theme, &text!("inspect-mean"), &pair);
     row(
         ui,
         theme,
-        "inside the band",
+        &text!("inspect-in-band"),
         &format!("{:.0} %", found.in_band * 100.0),
     );
-    let pair = format!(
-        "{}, worst {}",
-        units.angle(found.mean_angle.0),
-        units.angle(found.worst_angle.0)
+    let pair = text!(
+        "inspect-worst-of",
+        value = units.angle(found.mean_angle.0),
+        worst = units.angle(found.worst_angle.0)
     );
-    row(ui, theme, "angle", &pair);
+    row(ui, theme, &text!("inspect-angle"), &pair);
     // Parts rarely hang as they were taught: a path that follows the pose is the usual case, and no fault of the part.
     let text = if found.keeps_the_band() {
-        "The path fits without the pose"
+        text!("inspect-path-fits")
     } else {
-        "The robot program must apply the pose to the path"
+        text!("inspect-path-needs-pose")
     };
     ui.label(
         RichText::new(text)
@@ -75,11 +76,11 @@ fn bar(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem
     let wide = (far - near).max(1e-3);
     let size = vec2(ui.available_width(), BAR + space::SMALL + NUMBERS);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    let text = format!(
-        "Stand-off {} of {} to {}",
-        units.length(found.mean.0),
-        units.length(params.nearest.0),
-        units.length(params.farthest.0)
+    let text = text!(
+        "inspect-stand-off-of",
+        mean = units.length(found.mean.0),
+        nearest = units.length(params.nearest.0),
+        farthest = units.length(params.farthest.0)
     );
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
     let painter = ui.painter();

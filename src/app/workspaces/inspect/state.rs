@@ -15,6 +15,7 @@ use crate::{
             report_files,
             scan_choice::{ScanOrder, ShotChoice},
         },
+        language::text,
         shell::{
             context::ShellContext,
             file_dialog::FileDialog,
@@ -68,17 +69,17 @@ impl ViewPart {
     ];
 
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::Axes => "Axes of the part",
-            Self::Camera => "Depth camera",
-            Self::Outline => "Enrolled contour",
-            Self::NozzleMiddle => "Nozzle over the middle",
-            Self::NozzleWorst => "Nozzle at the worst spot",
-            Self::SprayPath => "Spray path",
-            Self::RobotBase => "Robot base",
-            Self::ShotCameras => "Cameras of the shots",
-            Self::Unseen => "Not seen by any shot",
+            Self::Axes => text!("inspect-part-axes"),
+            Self::Camera => text!("inspect-part-camera"),
+            Self::Outline => text!("inspect-part-outline"),
+            Self::NozzleMiddle => text!("inspect-part-nozzle-middle"),
+            Self::NozzleWorst => text!("inspect-part-nozzle-worst"),
+            Self::SprayPath => text!("inspect-part-spray-path"),
+            Self::RobotBase => text!("inspect-part-robot-base"),
+            Self::ShotCameras => text!("inspect-part-shot-cameras"),
+            Self::Unseen => text!("inspect-part-unseen"),
         }
     }
 }
@@ -313,9 +314,10 @@ impl InspectState {
                 if path.extension().is_none() {
                     path.set_extension("png");
                 }
-                self.writing.start("Saving the picture", move |_| {
-                    Ok(report_files::picture(&path, &shot)?)
-                });
+                self.writing
+                    .start(text!("inspect-saving-picture"), move |_| {
+                        Ok(report_files::picture(&path, &shot)?)
+                    });
             }
             Err(error) => cx.notify(error),
         }
@@ -329,15 +331,16 @@ impl InspectState {
         let inspected = Arc::clone(&shown.inspected);
         let robot = cx.session.robot_of(&inspected).cloned();
         let convention = cx.session.convention;
-        self.writing.start("Writing the report", move |_| {
-            let report = report_files::report_of(&inspected, robot.as_deref(), convention);
-            Ok(report_files::report(
-                &folder,
-                &inspected,
-                &report,
-                shot.as_ref(),
-            )?)
-        });
+        self.writing
+            .start(text!("inspect-writing-report"), move |_| {
+                let report = report_files::report_of(&inspected, robot.as_deref(), convention);
+                Ok(report_files::report(
+                    &folder,
+                    &inspected,
+                    &report,
+                    shot.as_ref(),
+                )?)
+            });
     }
 
     /// Writes the spray path of the inspection in front for the robot; nothing without a path or a calibrated cell.
@@ -353,7 +356,7 @@ impl InspectState {
             return;
         }
         let convention = cx.session.convention;
-        self.writing.start("Writing the spray path", move |_| {
+        self.writing.start(text!("inspect-writing-path"), move |_| {
             Ok(report_files::spray_path(
                 &path, &inspected, &robot, convention,
             )?)
@@ -368,12 +371,16 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
     };
     let Some(numbered) = numbered(cx.session, &shown.inspected) else {
         return cx.notify(Notice::look(
-            "There is no pose to copy: the part was not accepted",
-            "Follow the advice on the card, then capture again",
+            text!("inspect-no-pose-to-copy"),
+            text!("inspect-no-pose-advice"),
         ));
     };
     let title = numbered.pose.convention.title();
-    let what = format!("Copied {} in the convention {title}", numbered.name);
+    let what = text!(
+        "inspect-pose-copied",
+        name = numbered.name,
+        convention = title
+    );
     cx.notify(Notice::done(what));
     cx.send(Message::CopyText(clipboard_text(&numbered)));
 }

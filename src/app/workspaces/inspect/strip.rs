@@ -11,6 +11,7 @@ use super::{
 use crate::{
     app::{
         inspection::figures::StagePanel,
+        language::text,
         ui::{
             theme::{font, space},
             widgets::focus_ring,
@@ -49,7 +50,7 @@ pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Inspect
         let response = ui.interact(cell, ui.scope_id().with(place), Sense::click());
         let is_enlarged = pictures.state.enlarged == Some(panel);
         response.widget_info(|| {
-            let label = format!("Enlarge {}", panel.title().to_lowercase());
+            let label = enlarge(panel);
             egui::WidgetInfo::selected(egui::Role::Button, true, is_enlarged, label)
         });
         let painter = ui.painter_at(cell);
@@ -108,10 +109,11 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
                     .color(theme.text),
             );
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let name = text!("shell-close");
                 let close =
-                    Button::new("Close").shortcut_text(RichText::new("Esc").font(font::small()));
+                    Button::new(&*name).shortcut_text(RichText::new("Esc").font(font::small()));
                 let close = ui.add(close.min_size(Vec2::splat(space::TARGET)));
-                close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Close"));
+                close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
                 if close.clicked() {
                     actions.push(InspectAction::CloseEnlarged);
                 }
@@ -135,10 +137,13 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::hover());
         response.widget_info(|| {
-            let mut label = format!("{}, enlarged", panel.title());
-            if let (StagePanel::Alignment, Some(why)) = (panel, pictures.not_aligned()) {
-                label = format!("{label}: {why}");
-            }
+            let stage = panel.title();
+            let label = match (panel, pictures.not_aligned()) {
+                (StagePanel::Alignment, Some(why)) => {
+                    text!("inspect-enlarged-without", stage = stage, why = why)
+                }
+                _ => text!("inspect-enlarged", stage = stage),
+            };
             egui::WidgetInfo::labeled(egui::Role::Image, true, label)
         });
         pictures.paint(panel, ui, rect, PlotDetail::Large);
@@ -161,15 +166,26 @@ fn candidates(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<InspectAct
     });
 }
 
-fn explanation(panel: StagePanel) -> &'static str {
+fn enlarge(panel: StagePanel) -> String {
     match panel {
-        StagePanel::Segmentation => "background planes in dull colours, the part bright",
-        StagePanel::BinaryImage => "the part in the plane of its two longest axes",
+        StagePanel::Segmentation => text!("inspect-enlarge-segmentation"),
+        StagePanel::BinaryImage => text!("inspect-enlarge-binary-image"),
+        StagePanel::Contour => text!("inspect-enlarge-contour"),
+        StagePanel::Signature => text!("inspect-enlarge-signatures"),
+        StagePanel::Ranking => text!("inspect-enlarge-ranking"),
+        StagePanel::Alignment => text!("inspect-enlarge-alignment"),
+    }
+}
+
+fn explanation(panel: StagePanel) -> String {
+    match panel {
+        StagePanel::Segmentation => text!("inspect-says-segmentation"),
+        StagePanel::BinaryImage => text!("inspect-says-binary-image"),
         StagePanel::Contour => {
-            "outline, openings, rays from the centroid; dashed: the enrolled part"
+            text!("inspect-says-contour")
         }
-        StagePanel::Signature => "length L and angle Θ of the rays; dashed: the enrolled part",
-        StagePanel::Ranking => "score of every enrolled part against the threshold",
-        StagePanel::Alignment => "mean squared distance E per iteration, logarithmic",
+        StagePanel::Signature => text!("inspect-says-signatures"),
+        StagePanel::Ranking => text!("inspect-says-ranking"),
+        StagePanel::Alignment => text!("inspect-says-alignment"),
     }
 }

@@ -12,6 +12,7 @@ use super::{
 use crate::{
     app::{
         inspection::{inspected::Inspected, unit_system::UnitSystem},
+        language::text,
         shell::session::{Session, Shown, ThemeChoice},
         shots::{Overlay, POINT_SIZE},
         ui::{
@@ -119,20 +120,24 @@ impl SceneView {
         }
         self.space = space;
         self.session = shown.session;
-        let num_planes = inspected.inspection.segmentation.planes.len();
-        let removed = match &inspected.scan {
-            Some(scan) => format!("{} shots together", scan.fused.num_used()),
-            None if num_planes == 1 => "1 background plane removed".into(),
-            None => format!("{num_planes} background planes removed"),
+        let (points, part) = (grouped(figures.num_points), grouped(figures.num_part));
+        self.caption = match &inspected.scan {
+            Some(scan) => text!(
+                "inspect-caption-shots",
+                points = points,
+                part = part,
+                shots = scan.fused.num_used()
+            ),
+            None => text!(
+                "inspect-caption-planes",
+                points = points,
+                part = part,
+                planes = inspected.inspection.segmentation.planes.len()
+            ),
         };
-        self.caption = format!(
-            "{} points · part {} · {removed}",
-            grouped(figures.num_points),
-            grouped(figures.num_part),
-        );
         let is_simulated = inspected.origin.is_simulated();
-        let title = inspected.origin.title();
-        self.origin = is_simulated.then(|| format!("{title} · no camera was read"));
+        let title = inspected.origin.shown_title();
+        self.origin = is_simulated.then(|| text!("inspect-no-camera-read", scene = title));
     }
 
     pub(super) fn ui(
@@ -201,7 +206,7 @@ impl SceneView {
     }
 
     fn paint(&mut self, ui: &mut Ui) {
-        let label = "3-D view of the scene";
+        let label = &text!("inspect-view-of-scene");
         let seen = self
             .viewport
             .ui(ui, label, &mut self.camera, &self.scene, &self.style);
@@ -266,8 +271,8 @@ impl SceneView {
                 ViewPart::Outline => lines.extend(figure.outline.clone()),
                 ViewPart::NozzleMiddle | ViewPart::NozzleWorst => {
                     let (place, name) = match part {
-                        ViewPart::NozzleMiddle => (0, "Taught nozzle"),
-                        _ => (1, "Worst"),
+                        ViewPart::NozzleMiddle => (0, text!("inspect-taught-nozzle")),
+                        _ => (1, text!("inspect-worst")),
                     };
                     if let Some(nozzle) = nozzles.and_then(|nozzles| nozzles.get(place)) {
                         lines.push(nozzle.lines.clone());
@@ -284,9 +289,10 @@ impl SceneView {
                         lines.push(spray.lines.clone());
                         labels.push(TextLabel {
                             at: spray.start,
-                            text: format!(
-                                "Spray path · {} of {} in the band",
-                                spray.num_inside, spray.num_points
+                            text: text!(
+                                "inspect-path-in-band",
+                                inside = spray.num_inside,
+                                num = spray.num_points
                             ),
                         });
                     }
@@ -297,7 +303,7 @@ impl SceneView {
                         let at = base.translation.vector;
                         labels.push(TextLabel {
                             at: glam::Vec3::new(at.x as f32, at.y as f32, at.z as f32),
-                            text: "Robot base".into(),
+                            text: text!("inspect-part-robot-base"),
                         });
                     }
                 }
