@@ -257,7 +257,7 @@ fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
     press_quickly(&mut harness, "Random");
     press_quickly(&mut harness, "Custom…");
     for pairing in Pairing::ALL {
-        press_quickly(&mut harness, pairing.title());
+        press_quickly(&mut harness, &pairing.title());
         let mut num_controls = 0;
         for role in [Role::Button, Role::Tab, Role::Slider, Role::TextInput] {
             for node in harness.query_all_by_role(role) {

@@ -1,5 +1,5 @@
 ## What is aligned
-align-moved-copy = Verschobene Kopie
+align-moved-copy = Bewegte Kopie
 align-scene = Szene
 align-files = Zwei Dateien
 align-run = Starten
@@ -78,7 +78,7 @@ align-iteration = Iteration { $place } von { $last }
 align-iteration-hint = Iteration { $place } von { $last } · ziehen zum Blättern, P zum Abspielen
 align-scrubber = Angezeigte Iteration
 align-scrubber-keys = E je Iteration. Links und rechts gehen eine Iteration weiter, Bild auf und Bild ab zehn, Pos 1 und Ende an die Enden, P spielt ab
-align-no-way = Kein Verfahren hat eine Pose gefunden: es gibt keinen Verlauf
+align-no-way = Kein Verfahren hat eine Pose gefunden: nichts darzustellen
 align-way = „Starten“ zeigt hier, wie der mittlere quadratische Abstand E von Iteration zu Iteration sinkt
 
 ## Table I

@@ -19,11 +19,11 @@ compare-choose-truth = Auswählen…
 compare-truth-hint = Was tatsächlich vor der Kamera hing
 compare-actual-part = Tatsächliches Teil: { $part }
 compare-truth-nothing = Nichts (leere Zelle)
-compare-against = gegen
+compare-against = verglichen mit
 compare-against-none = kein Teil
 compare-against-hint = Das eingelernte Teil, mit dem der Fall verglichen wird
 compare-against-follows = Das tatsächliche, sonst das beste
-compare-against-choice = Gegen: { $part }
+compare-against-choice = Verglichen mit: { $part }
 compare-remark = Bemerkung
 compare-keep-case = Fall speichern
 compare-keep-case-hint = Diese Szene mit ihrem tatsächlichen Teil speichern
@@ -81,7 +81,7 @@ compare-back = Zur Matrix
 compare-earlier = Früherer Lauf…
 compare-earlier-label = Mit einem früheren Lauf vergleichen…
 compare-earlier-hint = Vergleichen mit dem, was partsight evaluate --json von einem früheren Lauf geschrieben hat
-compare-ran-at = gelaufen um { $time }
+compare-ran-at = geprüft um { $time }
 compare-false-accepts =
     { $count ->
         [0] keine Falschakzeptanz
