@@ -121,6 +121,8 @@ pub(in crate::app) fn keys(shortcut: &str) -> String {
         "Shift" => text!("shell-key-shift"),
         "Space" => text!("shell-key-space"),
         "Enter" => text!("shell-key-enter"),
+        "Up" => text!("shell-key-up"),
+        "Down" => text!("shell-key-down"),
         key => key.to_owned(),
     };
     let named: Vec<String> = shortcut.split(' ').map(named).collect();

@@ -10,7 +10,7 @@ pub struct KeyBinding {
     /// The key.
     pub key: Key,
     /// Both, for a person.
-    pub keys: &'static str,
+    pub keys: fn() -> String,
     /// What it does, for a person.
     pub does: fn() -> String,
 }
@@ -22,7 +22,7 @@ pub struct Shortcut<A> {
     /// The key.
     pub key: Key,
     /// Both, for a person.
-    pub keys: &'static str,
+    pub keys: fn() -> String,
     /// What it does, for a person.
     pub does: fn() -> String,
     /// Makes the action.

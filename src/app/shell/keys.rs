@@ -12,7 +12,7 @@ use super::{
     state::{HelpPage, State},
 };
 use crate::app::{
-    language::{self, text},
+    language::{keys, text},
     ui::{
         theme::{Theme, font, space},
         widgets,
@@ -24,21 +24,21 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Space,
-        keys: "Space",
+        keys: || keys("Space"),
         does: || text!("shell-does-capture"),
         action: || Action::Capture,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::L,
-        keys: "L",
+        keys: || keys("L"),
         does: || text!("shell-does-live"),
         action: || Action::Live(LiveAction::Toggle),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::L,
-        keys: "Ctrl L",
+        keys: || keys("Ctrl L"),
         does: || text!("shell-does-record"),
         action: || Action::Live(LiveAction::ToggleRecording),
     },
@@ -46,70 +46,70 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::O,
-        keys: "Ctrl Shift O",
+        keys: || keys("Ctrl Shift O"),
         does: || text!("shell-does-open-scan"),
         action: || Action::Ask(DialogRequest::Scan),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::O,
-        keys: "Ctrl O",
+        keys: || keys("Ctrl O"),
         does: || text!("shell-open-scene"),
         action: || Action::Ask(DialogRequest::Scene),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::E,
-        keys: "Ctrl E",
+        keys: || keys("Ctrl E"),
         does: || text!("shell-does-export"),
         action: || Action::Export,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::B,
-        keys: "B",
+        keys: || keys("B"),
         does: || text!("shell-does-robot"),
         action: || Action::Robot(RobotAction::Toggle),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::U,
-        keys: "U",
+        keys: || keys("U"),
         does: || text!("shell-does-units"),
         action: || Action::SwitchUnits,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::T,
-        keys: "T",
+        keys: || keys("T"),
         does: || text!("shell-does-theme"),
         action: || Action::SwitchTheme,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::K,
-        keys: "Ctrl K",
+        keys: || keys("Ctrl K"),
         does: || text!("shell-does-role"),
         action: || Action::Role(RoleAction::Switch),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::Q,
-        keys: "Ctrl Q",
+        keys: || keys("Ctrl Q"),
         does: || text!("shell-does-quit"),
         action: || Action::Quit,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::F1,
-        keys: "F1",
+        keys: || keys("F1"),
         does: || text!("shell-does-help"),
         action: || Action::ToggleHelp,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Escape,
-        keys: "Esc",
+        keys: || keys("Esc"),
         does: || text!("shell-does-escape"),
         action: || Action::CloseTop,
     },
@@ -250,13 +250,10 @@ pub(in crate::app) fn help(
         let list_area = ScrollArea::vertical().max_height(room);
         list_area.min_scrolled_height(room).show(ui, |ui| {
             list.show(ui, |ui| {
-                let row = |keys: &str, does: String| [language::keys(keys), does];
-                let own = own
-                    .iter()
-                    .map(|binding| row(binding.keys, (binding.does)()));
-                let named = SHORTCUTS.iter().map(|s| row(s.keys, (s.does)()));
+                let own = own.iter().map(|own| [(own.keys)(), (own.does)()]);
+                let named = SHORTCUTS.iter().map(|s| [(s.keys)(), (s.does)()]);
                 let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
-                let of_rail = of_rail.map(|((_, keys), workspace)| row(keys, workspace.title()));
+                let of_rail = of_rail.map(|((_, rail), workspace)| [keys(rail), workspace.title()]);
                 let is_enrolling = state.workspace == WorkspaceKind::Enrol;
                 let of_picture = is_enrolling.then(picture_keys).into_iter().flatten();
                 let others = of_picture.chain(other_keys());

@@ -37,7 +37,7 @@ pub use self::{
 };
 use self::{side::SidePanel, views::LinkedViews};
 use crate::app::{
-    language::text,
+    language::{keys, text},
     shell::{
         context::ShellContext,
         key_binding::{KeyBinding, Shortcut},
@@ -58,28 +58,28 @@ const SHORTCUTS: [Shortcut<AlignAction>; 4] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::R,
-        keys: "R",
+        keys: || keys("R"),
         does: || text!("align-key-run"),
         action: || AlignAction::Run,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::P,
-        keys: "P, or Space on the plot",
+        keys: || text!("align-keys-play"),
         does: || text!("align-key-play"),
         action: || AlignAction::TogglePlay,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Comma,
-        keys: ", or \u{2190} on the plot",
+        keys: || text!("align-keys-back"),
         does: || text!("align-key-back"),
         action: || AlignAction::Step(-1.0),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Period,
-        keys: ". or \u{2192} on the plot",
+        keys: || text!("align-keys-on"),
         does: || text!("align-key-on"),
         action: || AlignAction::Step(1.0),
     },

@@ -35,7 +35,7 @@ pub use self::{
     work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
 };
 use crate::app::{
-    language::text,
+    language::{keys, text},
     shell::{
         context::ShellContext,
         key_binding::{KeyBinding, Shortcut},
@@ -51,21 +51,21 @@ const SHORTCUTS: [Shortcut<CompareAction>; 3] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::K,
-        keys: "K",
+        keys: || keys("K"),
         does: || text!("compare-key-keep"),
         action: || CompareAction::Keep,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::R,
-        keys: "Ctrl R",
+        keys: || keys("Ctrl R"),
         does: || text!("compare-key-run"),
         action: || CompareAction::RunAll,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::Z,
-        keys: "Ctrl Z",
+        keys: || keys("Ctrl Z"),
         does: || text!("compare-key-undo"),
         action: || CompareAction::Undo,
     },

@@ -45,7 +45,7 @@ use self::{
 };
 use crate::app::{
     inspection::inspected::SceneOrScan,
-    language::text,
+    language::{keys, text},
     shell::{
         context::ShellContext,
         key_binding::{KeyBinding, Shortcut},
@@ -67,21 +67,21 @@ const SHORTCUTS: [Shortcut<EnrolAction>; 3] = [
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::Z,
-        keys: "Ctrl Shift Z",
+        keys: || keys("Ctrl Shift Z"),
         does: || text!("enrol-key-redo"),
         action: || EnrolAction::Redo,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::Z,
-        keys: "Ctrl Z",
+        keys: || keys("Ctrl Z"),
         does: || text!("enrol-key-undo"),
         action: || EnrolAction::Undo,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::S,
-        keys: "Ctrl S",
+        keys: || keys("Ctrl S"),
         does: || text!("enrol-key-save"),
         action: || EnrolAction::Save,
     },

@@ -29,7 +29,7 @@ use self::{details::Details, list::List};
 
 use crate::{
     app::{
-        language::text,
+        language::{keys, text},
         shell::{
             context::ShellContext,
             key_binding::{KeyBinding, Shortcut},
@@ -51,28 +51,28 @@ const SHORTCUTS: [Shortcut<HistoryAction>; 4] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::ArrowUp,
-        keys: "Up",
+        keys: || keys("Up"),
         does: || text!("history-key-newer"),
         action: || HistoryAction::Step(Direction::Up),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::ArrowDown,
-        keys: "Down",
+        keys: || keys("Down"),
         does: || text!("history-key-older"),
         action: || HistoryAction::Step(Direction::Down),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Enter,
-        keys: "Enter",
+        keys: || keys("Enter"),
         does: || text!("history-key-open"),
         action: || HistoryAction::OpenSelected,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::A,
-        keys: "A",
+        keys: || keys("A"),
         does: || text!("history-key-again"),
         action: || HistoryAction::AgainSelected,
     },
