@@ -147,9 +147,9 @@ impl Window {
             gpu: gpu.clone(),
             touched: ctx.input(|input| input.time),
         };
-        let language = window.state.chosen_language.or(language);
+        let language = window.state.session.chosen_language.or(language);
         window.state.session.language = language.unwrap_or_default();
-        window.state.language.make_current();
+        window.state.session.language.make_current();
         window.state.notices.extend(trouble.map(Notice::from));
         if let (true, Some(recipes)) = (is_first_start, recipes) {
             window.use_default_recipe(recipes);
@@ -330,7 +330,7 @@ impl Window {
 
     /// Takes in what the threads, the dialog and the desktop have to tell.
     pub(super) fn fetch(&mut self, ctx: &egui::Context) {
-        self.state.language.make_current();
+        self.state.session.language.make_current();
         self.install_theme(ctx);
         if self.is_lost() {
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
@@ -372,7 +372,7 @@ impl Window {
         if self.is_lost() {
             return;
         }
-        self.state.language.make_current();
+        self.state.session.language.make_current();
         let ctx = ui.ctx().clone();
         let theme = Theme::of(self.state.session.theme);
         let mut actions = Vec::new();

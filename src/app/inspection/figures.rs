@@ -339,7 +339,7 @@ pub(in crate::app) fn plain(point: &Point2<f64>) -> [f32; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::Alignment;
+    use super::{Alignment, NotAligned};
     use crate::{
         app::inspection::{
             inspected::{InspectRequest, inspect},

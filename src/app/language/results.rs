@@ -5,7 +5,7 @@
 use crate::{
     error::Advice as _,
     history::{KeepFrames, StoredVerdict, Summary},
-    pipeline::{BUILT_IN, RecipeLabel, Rejection, Unrecognisable, Verdict},
+    pipeline::{BUILT_IN, RecipeLabel, Rejection, Unrecognisable},
     scan::Excluded,
     simulate::ObjectKind,
     stages::{
@@ -58,21 +58,6 @@ pub(in crate::app) fn keep_frames(keep: KeepFrames) -> String {
         KeepFrames::All => text!("results-keep-all"),
         KeepFrames::NotAccepted => text!("results-keep-not-accepted"),
         KeepFrames::None => text!("results-keep-none"),
-    }
-}
-
-/// Why a verdict is not accepted, and what to do; `None` if it is. `word_of` calls the parts something else, such as
-/// their titles.
-pub(in crate::app) fn complaint(
-    verdict: &Verdict,
-    word_of: impl Fn(&str) -> String,
-) -> Option<[String; 2]> {
-    match verdict {
-        Verdict::Part { rejected, .. } => {
-            let why = rejected.clone()?.renamed(word_of);
-            Some([rejection(&why), rejection_advice(&why)])
-        }
-        Verdict::NoPart(why) => Some([unrecognisable(why), unrecognisable_advice(why)]),
     }
 }
 

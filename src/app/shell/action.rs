@@ -138,7 +138,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::TakeEmptyCell => state.take_empty_cell(),
         Action::ForgetEmptyCell => {
-            state.empty_cell = None;
+            state.session.empty_cell = None;
             notify(state, Notice::done(text!("shell-empty-cell-discarded")));
             live::restart_consensus(state);
         }
@@ -160,9 +160,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
                 return Some(Effect::Tell(Event::Escape));
             }
         }
-        Action::SwitchUnits => state.units = state.units.other(),
-        Action::UseConvention(convention) => state.convention = convention,
-        Action::SwitchTheme => state.theme = state.theme.other(),
+        Action::SwitchUnits => state.session.units = state.session.units.other(),
+        Action::UseConvention(convention) => state.session.convention = convention,
+        Action::SwitchTheme => state.session.theme = state.session.theme.other(),
         Action::Speak(language) => {
             state.session.language = language;
             state.session.chosen_language = Some(language);

@@ -239,7 +239,7 @@ impl State {
             let part = self.part_in(&saved);
             // What is enrolled is no part of an order.
             let part = part.unwrap_or_else(|| PartAtHand::Past(Traceability::default()));
-            let job = self.inspect_job(saved);
+            let job = self.session.inspect_job(saved);
             self.inspect_part(title, job, purpose, part);
         } else if self.inspector.running().is_none() {
             self.inspect_shown(&title, purpose);

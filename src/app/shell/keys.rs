@@ -254,7 +254,7 @@ pub(in crate::app) fn help(
                 let named = SHORTCUTS.iter().map(|s| [(s.keys)(), (s.does)()]);
                 let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
                 let of_rail = of_rail.map(|((_, rail), workspace)| [keys(rail), workspace.title()]);
-                let is_enrolling = state.workspace == WorkspaceKind::Enrol;
+                let is_enrolling = state.session.workspace == WorkspaceKind::Enrol;
                 let of_picture = is_enrolling.then(picture_keys).into_iter().flatten();
                 let others = of_picture.chain(other_keys());
                 for [keys, does] in named.chain(own).chain(of_rail).chain(others) {

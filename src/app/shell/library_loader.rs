@@ -106,7 +106,7 @@ pub(super) fn update(state: &mut State) {
     {
         let num = library.parts.len();
         state.use_library(&library);
-        if state.role == UserRole::Engineer {
+        if state.session.role == UserRole::Engineer {
             let what = text!("shell-library-reloaded", num = num);
             notify(state, Notice::done(what));
         }

@@ -132,7 +132,7 @@ fn counts(ui: &mut Ui, shift: &ShiftParts, theme: &Theme) {
 fn lower(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let text = |text: &str| RichText::new(text).font(font::verdict());
     let key = |text: &str| RichText::new(text).font(font::small());
-    let is_live = state.is_live();
+    let is_live = state.session.is_live();
     let (name, space) = (text!("shell-capture"), keys("Space"));
     // The accent is for what is pressed next: while frames are followed, nothing is.
     let capture = if is_live {

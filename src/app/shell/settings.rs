@@ -136,13 +136,13 @@ impl Settings {
     pub fn of(state: &State, window: Option<[f32; 2]>) -> Self {
         Self {
             schema: SCHEMA,
-            theme: state.theme,
-            units: state.units,
-            language: state.chosen_language,
-            convention: state.convention,
-            workspace: state.workspace,
-            library: state.chosen_library.clone(),
-            recent: state.recent.clone(),
+            theme: state.session.theme,
+            units: state.session.units,
+            language: state.session.chosen_language,
+            convention: state.session.convention,
+            workspace: state.session.workspace,
+            library: state.session.chosen_library.clone(),
+            recent: state.session.recent.clone(),
             window,
             source: match &state.session.source {
                 Source::Cell(choice) => RememberedSource::Cell(*choice),
@@ -178,14 +178,14 @@ impl Settings {
         } && self.recipe_label == state.session.recipe.label;
         has_source
             && has_recipe
-            && self.theme == state.theme
-            && self.units == state.units
-            && self.language == state.chosen_language
-            && self.convention == state.convention
-            && self.workspace == state.workspace
-            && self.library == state.chosen_library
-            && self.recent == state.recent
-            && self.average == state.live.params.average
+            && self.theme == state.session.theme
+            && self.units == state.session.units
+            && self.language == state.session.chosen_language
+            && self.convention == state.session.convention
+            && self.workspace == state.session.workspace
+            && self.library == state.session.chosen_library
+            && self.recent == state.session.recent
+            && self.average == state.session.live.params.average
             && self.lock_after == state.roles.lock_after
             && self.pin == state.roles.pin
             && self.role == state.session.role

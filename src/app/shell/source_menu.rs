@@ -96,7 +96,7 @@ fn heading(ui: &mut Ui, text: String) {
 
 fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     heading(ui, text!("shell-simulated-cell"));
-    let (is_set_up, spec) = match &state.source {
+    let (is_set_up, spec) = match &state.session.source {
         Source::Camera(spec) => match &**spec {
             SourceSpec::Simulated(spec) => (true, spec.clone()),
             _ => (false, SimulatedSpec::default()),
@@ -154,7 +154,7 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             DialogRequest::Scene,
         ),
         (
-            matches!(state.source, Source::Scan(_)),
+            matches!(state.session.source, Source::Scan(_)),
             text!("shell-open-scan"),
             text!("shell-open-scan-says"),
             DialogRequest::Scan,
@@ -210,14 +210,17 @@ fn empty_cell(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     heading(ui, text!("shell-empty-cell"));
     let take = Button::new(text!("shell-capture-empty-cell"));
     let take = ui
-        .add_enabled(state.shown.is_some(), take)
+        .add_enabled(state.session.shown.is_some(), take)
         .on_hover_text(text!("shell-capture-empty-cell-says"));
     if take.clicked() {
         actions.push(Action::TakeEmptyCell);
         ui.close();
     }
     let forget = Button::new(text!("shell-discard-empty-cell"));
-    if ui.add_enabled(state.empty_cell.is_some(), forget).clicked() {
+    if ui
+        .add_enabled(state.session.empty_cell.is_some(), forget)
+        .clicked()
+    {
         actions.push(Action::ForgetEmptyCell);
         ui.close();
     }

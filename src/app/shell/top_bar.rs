@@ -125,7 +125,7 @@ fn robot_button(
         let key = RichText::new("B").font(font::small());
         button = button.shortcut_text(key.color(theme.weak_text));
     }
-    let says = match (&state.robot, robot.in_use()) {
+    let says = match (&state.session.robot, robot.in_use()) {
         (Some(frame), _) => text!("shell-calibrated-by", name = &frame.name),
         (None, Some(_)) => text!("shell-no-flange-pose"),
         (None, None) => text!("shell-not-calibrated"),
@@ -149,8 +149,8 @@ fn settings(
     if labelled(ui, help, &name).clicked() {
         actions.push(Action::ToggleHelp);
     }
-    let name = state.theme.title();
-    let says = match state.theme.other() {
+    let name = state.session.theme.title();
+    let says = match state.session.theme.other() {
         ThemeChoice::Dark => text!("shell-to-dark"),
         ThemeChoice::Light => text!("shell-to-light"),
     };
@@ -180,7 +180,7 @@ fn settings(
 
 /// The languages, each as its speakers call it.
 pub(super) fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    let now = state.language;
+    let now = state.session.language;
     let menu = ui.menu_button(format!("{} ▼", now.sign()), |ui| {
         for language in Language::ALL {
             let button = Button::selectable(language == now, language.own_name());
@@ -220,7 +220,7 @@ fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut
             actions.push(Action::Ask(DialogRequest::Library));
             ui.close();
         }
-        let is_other = state.chosen_library.is_some() || library.unloaded.is_some();
+        let is_other = state.session.chosen_library.is_some() || library.unloaded.is_some();
         if is_other && ui.button(text!("shell-use-usual-library")).clicked() {
             actions.push(Action::UseFoundLibrary);
             ui.close();

@@ -160,8 +160,8 @@ pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
 
 /// Follows the source; whatever was being inspected is given up.
 fn start(state: &mut State) {
-    if state.source.followed().is_none() {
-        let what = match state.source {
+    if state.session.source.followed().is_none() {
+        let what = match state.session.source {
             Source::Scan(_) => text!("live-scan-cannot"),
             _ => text!("live-file-cannot"),
         };
