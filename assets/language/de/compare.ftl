@@ -5,12 +5,12 @@ compare-no-case = keiner
 compare-in-front = { $scene } (angezeigt)
 compare-kept-cases = Gespeicherte Fälle
 compare-no-cases-listed = Noch keine
-compare-asked = welches Teil ist es tatsächlich?
+compare-asked = welches Teil ist es?
 compare-taken-for = erkannt als
 compare-nearest-to = am nächsten
 compare-nothing = nichts
-compare-accepted-asked = akzeptiert · welches Teil ist es tatsächlich?
-compare-not-accepted-asked = nicht akzeptiert · welches Teil ist es tatsächlich?
+compare-accepted-asked = akzeptiert · welches Teil ist es?
+compare-not-accepted-asked = nicht akzeptiert · welches Teil ist es?
 compare-accepted-right = akzeptiert, und es ist
 compare-not-accepted-right = nicht akzeptiert, und es ist
 compare-accepted-wrong = akzeptiert, es ist aber
@@ -56,8 +56,8 @@ compare-rays = Strahlen, m²
 compare-lag-zero-rays = Lag 0, in Strahlen
 compare-lag-zero-pixels = Lag 0, in Pixeln
 compare-lag-read = Lag { $lag }: A { $auto }, C { $cross }
-compare-auto = A: mit sich
-compare-cross = C: mit Szene
+compare-auto = A: selbst
+compare-cross = C: Szene
 
 ## The distances
 compare-distances = Abstand je Teil
@@ -70,7 +70,7 @@ compare-compare-with = Vergleichen mit { $part }: { $figures }
 compare-distance-hint = Abstand der Umrisse { $outline } (Standard) · ‖A − C‖₁ { $paper } px² + rad² (Artikel) · Score am Ende { $score }
 
 ## The kept cases
-compare-all-cases = Alle gespeicherten Fälle
+compare-all-cases = Gespeicherte Fälle
 compare-looking = Gespeicherte Fälle werden gesucht
 compare-no-cases-in = Keine gespeicherten Fälle in { $folder }
 compare-no-cases = Noch keine gespeicherten Fälle
@@ -81,7 +81,7 @@ compare-back = Zur Matrix
 compare-earlier = Früherer Lauf…
 compare-earlier-label = Mit einem früheren Lauf vergleichen…
 compare-earlier-hint = Vergleichen mit dem, was partsight evaluate --json von einem früheren Lauf geschrieben hat
-compare-ran-at = geprüft um { $time }
+compare-ran-at = um { $time }
 compare-false-accepts =
     { $count ->
         [0] keine Falschakzeptanz
@@ -162,8 +162,8 @@ compare-num-changed = { $count } geändert
 compare-list-changes = Anzeigen
 compare-reset-all = Zurücksetzen
 compare-reset-all-hint = Alle Parameter auf ihren Vorgabewert zurücksetzen
-compare-parameter-change = { $parameter }: { $value }, Vorgabe { $default }
-compare-scaling = Skalierung: ein Kern gegen mehrere
+compare-parameter-change = { $parameter }: { $value } (Vorgabe: { $default })
+compare-scaling = Skalierung: ein Kern oder mehrere
 compare-more = Mehr zu { $group } ({ $count })
 compare-more-changed = Mehr zu { $group } ({ $count }, { $changed } geändert)
 compare-parameter-changed = { $parameter } · geändert

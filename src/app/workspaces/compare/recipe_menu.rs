@@ -27,6 +27,9 @@ use crate::{
 /// Letters of a name that the panel has room for.
 const MAX_LETTERS: usize = 20;
 
+/// Least width of the line in which a name is written, logical pixels.
+const NARROWEST_NAME: f32 = 90.0;
+
 /// Draws all of it.
 pub(super) fn ui(
     ui: &mut Ui,
@@ -179,18 +182,25 @@ fn name_ui(
         .is_ok_and(|name| compare.recipes.has(name.as_str()));
     let is_same = text.trim() == current;
     let can_take = checked.is_ok() && !is_taken;
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let (take, take_label) = match naming.purpose {
             NamingPurpose::SaveAs => (text!("compare-save"), text!("compare-save-name")),
             NamingPurpose::Rename => (text!("compare-take-rename"), text!("compare-rename-name")),
         };
         let cancel = text!("compare-cancel");
         let widths = [&take, &cancel].map(|text| button_width(ui, text).max(64.0));
-        let buttons = widths[0] + widths[1] + 2.0 * space::SMALL;
+        let whole = ui.available_width() - space::MEDIUM;
+        let beside = whole - widths[0] - widths[1] - 2.0 * space::SMALL;
+        // Where the buttons leave too little room they stand below.
+        let width = if beside < NARROWEST_NAME {
+            whole
+        } else {
+            beside
+        };
         let edit = TextEdit::singleline(&mut text)
             .hint_text(text!("compare-name-hint"))
             .align(egui::Align2::LEFT_CENTER)
-            .desired_width(ui.available_width() - buttons - space::MEDIUM)
+            .desired_width(width)
             .min_size(vec2(0.0, space::TARGET));
         let response = ui.add(edit);
         response.widget_info(|| {

@@ -3,8 +3,8 @@
 use std::cell::Cell;
 
 use egui::{
-    Button, CollapsingHeader, DragValue, Frame, Margin, Panel, RichText, ScrollArea, Sense, Slider,
-    Ui, Vec2, WidgetInfo, vec2,
+    Button, CollapsingHeader, Color32, DragValue, Frame, Margin, Panel, RichText, ScrollArea,
+    Sense, Slider, TextStyle, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::{CompareAction, CompareState, case_bar::judged, recipe_menu, scaling_plot};
@@ -61,7 +61,7 @@ pub(super) fn ui(
                         group_ui(ui, group, recipe, &default, theme, acts);
                     }
                     ui.add_space(space::SMALL);
-                    CollapsingHeader::new(text!("compare-scaling"))
+                    fold(ui, text!("compare-scaling"), Color32::PLACEHOLDER)
                         .id_salt("scaling")
                         .show(ui, |ui| scaling_plot::ui(ui, compare, theme, acts));
                 });
@@ -106,13 +106,21 @@ fn group_ui(
             changed = num_changed
         ),
     };
-    CollapsingHeader::new(RichText::new(title).color(theme.weak_text))
+    fold(ui, title, theme.weak_text)
         .id_salt(group.title())
         .show_unindented(ui, |ui| {
             for parameter in of(Place::Fold) {
                 control(ui, parameter, recipe, default, theme, acts);
             }
         });
+}
+
+/// A fold whose title has more than one line where the panel is too narrow.
+fn fold(ui: &Ui, title: String, colour: Color32) -> CollapsingHeader {
+    let font = TextStyle::Button.resolve(ui.style());
+    let spacing = ui.spacing();
+    let width = ui.available_width() - spacing.indent - 2.0 * spacing.button_padding.x;
+    CollapsingHeader::new(ui.painter().layout(title, font, colour, width))
 }
 
 /// A title within a sentence: German nouns keep their capital letters.
@@ -277,7 +285,10 @@ fn choice_ui(
     let chosen = parameter.value(recipe) as usize;
     let (name, options) = (parameters::name(parameter), parameters::options(parameter));
     let each = width / options.len() as f32 - space::SMALL;
-    if each < 64.0 {
+    let widths = options
+        .iter()
+        .map(|option| recipe_menu::button_width(ui, option));
+    if each < widths.fold(64.0, f32::max) {
         let now = options.get(chosen).cloned().unwrap_or_default();
         ui.menu_button(format!("{now} ▼"), |ui| {
             for (place, option) in options.iter().enumerate() {

@@ -21,7 +21,6 @@ use crate::{
             widgets::{Mark, fitted, grouped, labelled, shortened},
         },
     },
-    error::Advice as _,
     library::PartName,
     stages::reference::Coverage,
 };
@@ -235,7 +234,9 @@ fn reference_menu(
 pub(super) fn shared_title(ui: &mut Ui, form: &Form, session: &Session, theme: &Theme) {
     let library = session.library.as_deref();
     if let Some(shared) = library.and_then(|library| form.shared_title(library)) {
-        complaint(ui, &shared.to_string(), &shared.advice(), theme);
+        let part = shared.other.as_str();
+        let what = text!("enrol-shared-title", part = part, title = shared.title);
+        complaint(ui, &what, &text!("enrol-shared-title-advice"), theme);
     }
 }
 
