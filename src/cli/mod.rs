@@ -7,6 +7,7 @@ mod align;
 mod bench;
 mod calibrate;
 mod capture;
+mod cell;
 mod console;
 mod enrol;
 mod evaluate;
@@ -86,6 +87,7 @@ enum Command {
     Recipe(recipes::RecipeArgs),
     Align(align::AlignArgs),
     Calibrate(calibrate::CalibrateArgs),
+    Cell(cell::CellArgs),
     Simulate(simulate::SimulateArgs),
     Bench(bench::BenchArgs),
     Evaluate(evaluate::EvaluateArgs),
@@ -141,6 +143,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Recipe(args)) => recipes::run(&args, &mut console),
         Some(Command::Align(args)) => align::run(&args, &mut console),
         Some(Command::Calibrate(args)) => calibrate::run(&args, &mut console),
+        Some(Command::Cell(args)) => cell::run(&args, &mut console),
         Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
         Some(Command::Bench(args)) => bench::run(&args, &mut console),
         Some(Command::Evaluate(args)) => evaluate::run(&args, &mut console),

@@ -18,6 +18,7 @@
 //! shifts the middle too. It is nothing to give to a robot.
 
 pub mod calibration;
+pub mod cell_check;
 mod convention;
 mod euler;
 pub mod frame_poses;

@@ -3,6 +3,7 @@
 mod align;
 mod bench;
 mod calibrate;
+mod cell;
 mod docs;
 mod errors_and_help;
 mod evaluate;

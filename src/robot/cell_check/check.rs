@@ -1,0 +1,115 @@
+//! What a check found.
+
+use jiff::Timestamp;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    error::Advice,
+    units::{Metres, Radians},
+};
+
+/// What a check found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CellCheck {
+    /// When.
+    pub at: Timestamp,
+    /// When its baseline was taken.
+    pub baseline: Timestamp,
+    /// Frames that were compared.
+    pub num_frames: usize,
+    /// True if a frame or the baseline was simulated.
+    pub is_simulated: bool,
+    /// What it comes to.
+    pub finding: CellFinding,
+    /// How far the part's middle moved, along x, y and z of the camera, metres.
+    pub shift_m: [f64; 3],
+    /// By how much the part turned, radians.
+    pub turn_rad: f64,
+    /// How far wall and floor moved where they are seen, at most, metres; none if baseline or frames show neither.
+    pub background_shift_m: Option<f64>,
+    /// How well the part lies on the baseline, root mean square, metres.
+    pub rms_m: f64,
+    /// Noise of the camera at 1 m over that of the baseline.
+    pub noise_ratio: f64,
+}
+
+/// What a check comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CellFinding {
+    /// Everything is where it was.
+    InPlace,
+    /// The part is elsewhere; wall and floor are not.
+    PartMoved,
+    /// Part, wall and floor moved together: the camera did.
+    CameraMoved,
+    /// The part is elsewhere; wall and floor cannot say whether the camera moved.
+    PartOrCameraMoved,
+    /// Part, wall and floor moved, and not together.
+    PartAndCameraMoved,
+    /// Nothing moved, but the readings scatter more.
+    Noisier,
+}
+
+impl CellCheck {
+    /// How far the part's middle moved.
+    pub fn shift(&self) -> Metres {
+        Metres(Vector3::from(self.shift_m).norm())
+    }
+
+    /// By how much the part turned.
+    pub fn turn(&self) -> Radians {
+        Radians(self.turn_rad)
+    }
+}
+
+impl CellFinding {
+    /// As it is written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::InPlace => "in_place",
+            Self::PartMoved => "part_moved",
+            Self::CameraMoved => "camera_moved",
+            Self::PartOrCameraMoved => "part_or_camera_moved",
+            Self::PartAndCameraMoved => "part_and_camera_moved",
+            Self::Noisier => "noisier",
+        }
+    }
+
+    /// For people.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::InPlace => "camera and part are in place",
+            Self::PartMoved => "the part moved; the camera did not",
+            Self::CameraMoved => "the camera moved",
+            Self::PartOrCameraMoved => "the part or the camera moved",
+            Self::PartAndCameraMoved => "the part and the camera moved",
+            Self::Noisier => "camera and part are in place, but the readings are noisier",
+        }
+    }
+}
+
+impl Advice for CellFinding {
+    fn advice(&self) -> String {
+        match self {
+            Self::InPlace => "Nothing",
+            Self::PartMoved => {
+                "Hang the part as it was, or check what holds it, and check again; if it is to stay, take a new baseline"
+            }
+            Self::CameraMoved => {
+                "Fix the camera, calibrate it again (partsight calibrate hand-eye), then take a new baseline (partsight cell baseline)"
+            }
+            Self::PartOrCameraMoved => {
+                "Hang the part as it was and check again; if that does not help, the camera moved: calibrate it and take a new baseline"
+            }
+            Self::PartAndCameraMoved => {
+                "Fix the camera, calibrate it again, hang the part as it was, and take a new baseline"
+            }
+            Self::Noisier => {
+                "Clean the camera's window, look for light or mist before it, and check again"
+            }
+        }
+        .into()
+    }
+}

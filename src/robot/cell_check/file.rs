@@ -1,0 +1,319 @@
+//! Where the baseline and what came of every check are kept: a folder of three kinds of files.
+//!
+//! `baseline.toml` names the points' file, `part-CHECKSUM.pcd`, which is written before it: a power cut leaves the old
+//! baseline or the new one. `checks.jsonl` has a line for each check, the newest last.
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{CellBaseline, CellCheck, CellLimits, CellView, view::PlanePatch};
+use crate::{
+    error::Advice,
+    files::{
+        FileContent, FileError, crc32, disk, open, open_lock, read_text, user_folders,
+        write_atomically, write_pcd,
+    },
+    geometry::cloud::is_finite,
+    units::{Metres, Radians},
+};
+
+/// The version of the baseline's file that this program writes, and the newest that it reads.
+const SCHEMA_VERSION: u32 = 1;
+const BASELINE: &str = "baseline.toml";
+const CHECKS: &str = "checks.jsonl";
+const LOCK: &str = ".lock";
+/// A larger file is no baseline.
+const MAX_BASELINE_BYTES: u64 = 1 << 16;
+/// Nothing of a cell is farther away; NaN is not nearer.
+const MOST_METRES: f64 = 1000.0;
+/// Some 100 000 checks.
+const MAX_CHECK_BYTES: u64 = 1 << 26;
+
+/// The folder of a cell's baseline and checks; it need not be there before the first baseline.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CellCheckFolder {
+    path: PathBuf,
+}
+
+/// Why a baseline or the checks cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum CellCheckError {
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// There is no baseline yet.
+    #[error("{}: there is no baseline to compare with", path.display())]
+    NoBaseline {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Made by a newer version of this program.
+    #[error("{}: made by a newer version of Partsight (schema {found}, this one reads up to {SCHEMA_VERSION})", path.display())]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: u32,
+    },
+    /// Something in a file cannot be understood.
+    #[error("{}: {found}", path.display())]
+    Bad {
+        /// The file.
+        path: PathBuf,
+        /// The first thing wrong.
+        found: String,
+    },
+    /// The system does not say where a user's data belong.
+    #[error("this system names no folder for a user's data")]
+    NoUserFolder,
+}
+
+impl Advice for CellCheckError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::NoBaseline { .. } => {
+                "Take one while the cell is right: partsight cell baseline FILE, or --source kinect"
+                    .into()
+            }
+            Self::Newer { .. } => {
+                "Update Partsight, or take a new baseline with this version".into()
+            }
+            Self::Bad { path, .. } if path.ends_with(CHECKS) => {
+                "Move the file away: the next check begins a new one".into()
+            }
+            Self::Bad { .. } => "Take a new baseline: partsight cell baseline FILE".into(),
+            Self::NoUserFolder => "Name a folder with --folder".into(),
+        }
+    }
+}
+
+/// The baseline's file.
+#[derive(Debug, Serialize, Deserialize)]
+struct Text {
+    schema_version: u32,
+    made_at: Timestamp,
+    num_frames: usize,
+    simulated: bool,
+    /// Beside it.
+    part: String,
+    noise_at_1m_m: f64,
+    max_shift_m: f64,
+    max_turn_rad: f64,
+    /// Of each plane the ends of the two axes of what is seen of it, camera space, metres.
+    #[serde(default)]
+    background: Vec<[[f64; 3]; 4]>,
+}
+
+impl CellCheckFolder {
+    /// The folder at this path.
+    pub fn at(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// The user's own, beside the calibration in the folder that the system keeps for a user's data.
+    pub fn of_user() -> Result<Self, CellCheckError> {
+        let folders = user_folders().ok_or(CellCheckError::NoUserFolder)?;
+        Ok(Self::at(folders.data_dir().join("cell-check")))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Keeps a baseline in place of the one before.
+    pub fn save(&self, baseline: &CellBaseline) -> Result<(), CellCheckError> {
+        let CellView {
+            part,
+            background,
+            noise_at_1m,
+        } = &baseline.view;
+        let mut points = Vec::new();
+        // Writing to memory does not fail.
+        let _ = write_pcd(&mut points, part);
+        let name = format!("part-{:08x}.pcd", crc32(&points));
+        let text = Text {
+            schema_version: SCHEMA_VERSION,
+            made_at: baseline.made_at,
+            num_frames: baseline.num_frames,
+            simulated: baseline.is_simulated,
+            part: name.clone(),
+            noise_at_1m_m: noise_at_1m.0,
+            max_shift_m: baseline.limits.shift.0,
+            max_turn_rad: baseline.limits.turn.0,
+            background: background
+                .iter()
+                .map(|patch| patch.ends.map(Into::into))
+                .collect(),
+        };
+        let text = toml::to_string(&text).expect("numbers and text have a TOML form");
+        self.writing(|| {
+            write_atomically(&self.path.join(&name), |writer| writer.write_all(&points))?;
+            write_atomically(&self.path.join(BASELINE), |writer| {
+                writer.write_all(text.as_bytes())
+            })?;
+            self.remove_points_but(&name);
+            Ok(())
+        })
+    }
+
+    /// The points of former baselines; one that cannot be removed does no harm.
+    fn remove_points_but(&self, name: &str) {
+        for entry in std::fs::read_dir(&self.path)
+            .into_iter()
+            .flatten()
+            .flatten()
+        {
+            let file = entry.file_name();
+            let file = file.to_string_lossy();
+            let is_points = file.starts_with("part-") && file.ends_with(".pcd");
+            if is_points && file != name {
+                let _ = disk::remove_file(entry.path());
+            }
+        }
+    }
+
+    /// The baseline.
+    pub fn baseline(&self) -> Result<CellBaseline, CellCheckError> {
+        let path = self.path.join(BASELINE);
+        let bad = |found: String| CellCheckError::Bad {
+            path: path.clone(),
+            found,
+        };
+        let text = match read_text(&path, MAX_BASELINE_BYTES) {
+            Err(FileError::NotFound { .. }) => {
+                return Err(CellCheckError::NoBaseline {
+                    path: self.path.clone(),
+                });
+            }
+            text => text?,
+        };
+        let first_line = |error: toml::de::Error| {
+            bad(error
+                .message()
+                .lines()
+                .next()
+                .unwrap_or("no TOML")
+                .to_owned())
+        };
+        /// The one line that every version has.
+        #[derive(Deserialize)]
+        struct Versioned {
+            schema_version: u32,
+        }
+        let Versioned { schema_version } = toml::from_str(&text).map_err(first_line)?;
+        if schema_version > SCHEMA_VERSION {
+            return Err(CellCheckError::Newer {
+                path,
+                found: schema_version,
+            });
+        }
+        let read: Text = toml::from_str(&text).map_err(first_line)?;
+        if Path::new(&read.part).file_name() != Some(read.part.as_ref()) {
+            return Err(bad("the file of the points is not beside it".into()));
+        }
+        let limits = CellLimits {
+            shift: Metres(read.max_shift_m),
+            turn: Radians(read.max_turn_rad),
+        };
+        let is_positive = |x: f64| x.is_finite() && x > 0.0;
+        if ![read.max_shift_m, read.max_turn_rad, read.noise_at_1m_m]
+            .into_iter()
+            .all(is_positive)
+        {
+            return Err(bad("a limit or the noise is not above 0".into()));
+        }
+        let background = read.background.iter().map(|ends| {
+            let is_near = ends.iter().flatten().all(|x| x.abs() < MOST_METRES);
+            PlanePatch::through(ends.map(Into::into)).filter(|_| is_near)
+        });
+        let background: Option<Vec<PlanePatch>> = background.collect();
+        let background = background.ok_or_else(|| bad("wall or floor is no plane".into()))?;
+        let points = self.path.join(&read.part);
+        let part = match open(&points)? {
+            FileContent::Cloud(cloud) if cloud.points.iter().all(is_finite) => cloud,
+            _ => {
+                return Err(CellCheckError::Bad {
+                    path: points,
+                    found: "no points of a baseline".into(),
+                });
+            }
+        };
+        Ok(CellBaseline {
+            made_at: read.made_at,
+            num_frames: read.num_frames,
+            is_simulated: read.simulated,
+            limits,
+            view: CellView {
+                part,
+                background,
+                noise_at_1m: Metres(read.noise_at_1m_m),
+            },
+        })
+    }
+
+    /// Writes a check behind those before.
+    pub fn add(&self, check: &CellCheck) -> Result<(), CellCheckError> {
+        let path = self.path.join(CHECKS);
+        let line = serde_json::to_string(check).expect("numbers and text have a JSON form");
+        self.writing(|| {
+            let mut text = match read_text(&path, MAX_CHECK_BYTES) {
+                Err(FileError::NotFound { .. } | FileError::Empty { .. }) => String::new(),
+                text => text?,
+            };
+            if !text.is_empty() && !text.ends_with('\n') {
+                text.push('\n');
+            }
+            text += &line;
+            text.push('\n');
+            write_atomically(&path, |writer| writer.write_all(text.as_bytes()))?;
+            Ok(())
+        })
+    }
+
+    /// All checks, the oldest first.
+    pub fn checks(&self) -> Result<Vec<CellCheck>, CellCheckError> {
+        let path = self.path.join(CHECKS);
+        let text = match read_text(&path, MAX_CHECK_BYTES) {
+            Err(FileError::NotFound { .. } | FileError::Empty { .. }) => return Ok(Vec::new()),
+            text => text?,
+        };
+        let lines = text
+            .lines()
+            .enumerate()
+            .filter(|(_, line)| !line.trim().is_empty());
+        lines
+            .map(|(i, line)| {
+                serde_json::from_str(line).map_err(|error| CellCheckError::Bad {
+                    path: path.clone(),
+                    found: format!("line {}: no check: {error}", i + 1),
+                })
+            })
+            .collect()
+    }
+
+    /// Runs one change while no other writer is at work; the folder is made where it is missing.
+    fn writing<T>(
+        &self,
+        change: impl FnOnce() -> Result<T, CellCheckError>,
+    ) -> Result<T, CellCheckError> {
+        let failed = |source: io::Error| FileError::Write {
+            path: self.path.clone(),
+            source,
+        };
+        disk::create_dir_all(&self.path).map_err(failed)?;
+        let lock = open_lock(&self.path.join(LOCK)).map_err(failed)?;
+        match lock.lock() {
+            // Some network file systems have no locks; a cell with one writer needs none.
+            Err(error) if error.kind() == io::ErrorKind::Unsupported => {}
+            taken => taken.map_err(failed)?,
+        }
+        change()
+    }
+}

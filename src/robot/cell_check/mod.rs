@@ -1,0 +1,346 @@
+//! Whether camera and cell still stand where they stood: the same part, hung in the same place, is compared with what the
+//! camera saw of it before.
+//!
+//! The part's points are aligned with those of the [`CellBaseline`], and wall and floor are compared with it, too. A camera
+//! that moved carries everything in its picture along; a part that hangs elsewhere leaves wall and floor where they were.
+//! Nothing need be enrolled: any rigid thing with edges serves.
+
+mod check;
+mod file;
+#[cfg(test)]
+mod tests;
+mod view;
+
+use jiff::Timestamp;
+use nalgebra::{Point3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use self::view::PlanePatch;
+pub use self::{
+    check::{CellCheck, CellFinding},
+    file::{CellCheckError, CellCheckFolder},
+    view::CellView,
+};
+use crate::{
+    error::Advice,
+    geometry::{
+        cloud::PointCloud,
+        plane::Plane,
+        rigid::{PoseDelta, RigidTransform, pose_error},
+        voxel::downsample,
+    },
+    stages::pose::{PoseError, PoseEstimate, PoseMethod, PreparedTarget, align_to},
+    units::{Metres, Radians},
+};
+
+/// Frames of one check at most: more say nothing new.
+pub const MAX_FRAMES: usize = 16;
+/// Points of the baseline are this far apart; several frames are averaged to it.
+const SPACING: Metres = Metres(0.003);
+/// Less of the part than this lies on the baseline: it is another one, or half hidden.
+const LEAST_OVERLAP: f64 = 0.9;
+/// Wall and floor are found again within this distance and angle.
+const SAME_PLANE: (Metres, Radians) = (Metres(0.3), Radians(0.25));
+/// Noise that grew by more than this factor has a cause.
+const NOISIER: f64 = 1.5;
+
+/// What is too far.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CellLimits {
+    /// Of the part's middle, and of what is seen of wall and floor.
+    pub shift: Metres,
+    /// Of the part.
+    pub turn: Radians,
+}
+
+impl Default for CellLimits {
+    /// 5 mm and 0.5°: frames of a part that stands still, with a Kinect's noise, differed by at most 3.1 mm and 0.4°.
+    fn default() -> Self {
+        Self {
+            shift: Metres::from_mm(5.0),
+            turn: Radians::from_degrees(0.5),
+        }
+    }
+}
+
+impl CellLimits {
+    fn allow(&self, moved: &PoseDelta) -> bool {
+        moved.shift <= self.shift && moved.rotation <= self.turn
+    }
+}
+
+/// What the camera saw when the cell was right.
+#[derive(Clone, Debug)]
+pub struct CellBaseline {
+    /// When it was taken.
+    pub made_at: Timestamp,
+    /// Frames that it was taken from.
+    pub num_frames: usize,
+    /// True if a frame was simulated.
+    pub is_simulated: bool,
+    /// What is too far.
+    pub limits: CellLimits,
+    view: CellView,
+}
+
+/// Why frames are no baseline, or cannot be compared with it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CellViewError {
+    /// None was given.
+    #[error("no frame")]
+    NoFrame,
+    /// Something moves.
+    #[error(
+        "the frames do not agree: the part is {} and {} elsewhere in frame {frame} than in the first",
+        moved.shift, moved.rotation
+    )]
+    Moving {
+        /// Counted from 1.
+        frame: usize,
+        /// By how much.
+        moved: PoseDelta,
+    },
+    /// Too little of the part is there.
+    #[error("only {:.0} % of what is seen in frame {frame} lies on the part of the baseline", 100.0 * overlap)]
+    OtherPart {
+        /// Counted from 1.
+        frame: usize,
+        /// Share that lies on it, 0..1.
+        overlap: f64,
+    },
+    /// The part cannot be aligned.
+    #[error("frame {frame}: {error}")]
+    Pose {
+        /// Counted from 1.
+        frame: usize,
+        /// Why.
+        error: PoseError,
+    },
+}
+
+impl Advice for CellViewError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoFrame => "Capture the part that checks the cell, and give the file".into(),
+            Self::Moving { .. } => {
+                "Let the part hang still, keep the camera where it is, and capture again".into()
+            }
+            Self::OtherPart { .. } => {
+                "Hang the part that the baseline was taken of, in its usual place, with nothing before it; if it does hang there, camera or part moved by several centimetres"
+                    .into()
+            }
+            Self::Pose { error, .. } => error.advice(),
+        }
+    }
+}
+
+impl CellBaseline {
+    /// Frames of a part and a camera that stand still.
+    pub fn new(
+        views: &[CellView],
+        limits: CellLimits,
+        is_simulated: bool,
+        made_at: Timestamp,
+    ) -> Result<Self, CellViewError> {
+        let [first, others @ ..] = views else {
+            return Err(CellViewError::NoFrame);
+        };
+        let alone = Self {
+            made_at,
+            num_frames: views.len(),
+            is_simulated,
+            limits,
+            view: first.clone(),
+        };
+        let target = alone.prepared()?;
+        for (i, view) in others.iter().enumerate() {
+            let (moved, _) = alone.moved(view, &target, i + 2)?;
+            let moved = pose_error(&moved, &RigidTransform::identity(), &alone.middle());
+            if !limits.allow(&moved) {
+                return Err(CellViewError::Moving {
+                    frame: i + 2,
+                    moved,
+                });
+            }
+        }
+        let all = views.iter().flat_map(|view| view.part.points.iter());
+        let all = PointCloud::from_points(all.copied());
+        let mut noise: Vec<f64> = views.iter().map(|view| view.noise_at_1m.0).collect();
+        Ok(Self {
+            view: CellView {
+                part: downsample(&all, SPACING),
+                noise_at_1m: Metres(median(&mut noise)),
+                ..alone.view
+            },
+            ..alone
+        })
+    }
+
+    /// How many of wall and floor it shows.
+    pub fn num_planes(&self) -> usize {
+        self.view.background.len()
+    }
+
+    /// The middle of the part's box, camera space.
+    fn middle(&self) -> Point3<f64> {
+        let bounds = self.view.part.bounds();
+        bounds.map_or_else(Point3::origin, |(low, high)| {
+            nalgebra::center(&low, &high).cast()
+        })
+    }
+
+    fn prepared(&self) -> Result<PreparedTarget, CellViewError> {
+        PreparedTarget::new(&self.view.part)
+            .map_err(|error| CellViewError::Pose { frame: 1, error })
+    }
+
+    /// Takes the baseline's part to where it is in a view, and how well it lies there.
+    fn moved(
+        &self,
+        view: &CellView,
+        target: &PreparedTarget,
+        frame: usize,
+    ) -> Result<(RigidTransform, PoseEstimate), CellViewError> {
+        let align = |method: PoseMethod, start| {
+            align_to(&view.part, target, &method.into(), Some(start), &|| false)
+        };
+        let overlap = |pose: &PoseEstimate| pose.fit.overlap;
+        let still = RigidTransform::identity();
+        let mut found = align(PoseMethod::Global, still);
+        if !found
+            .as_ref()
+            .is_ok_and(|found| overlap(found) >= LEAST_OVERLAP)
+        {
+            // A grid that moved by several centimetres: plain ICP comes near, and the search goes on from there.
+            let again = align(PoseMethod::Icp, still)
+                .and_then(|near| align(PoseMethod::Global, near.target_from_source));
+            let least = found.as_ref().map_or(0.0, overlap);
+            if again.as_ref().is_ok_and(|again| overlap(again) > least) {
+                found = again;
+            }
+        }
+        let found = found.map_err(|error| match error {
+            PoseError::NoOverlap { .. } | PoseError::SizesDiffer { .. } => {
+                CellViewError::OtherPart {
+                    frame,
+                    overlap: 0.0,
+                }
+            }
+            error => CellViewError::Pose { frame, error },
+        })?;
+        let overlap = overlap(&found);
+        if overlap < LEAST_OVERLAP {
+            return Err(CellViewError::OtherPart { frame, overlap });
+        }
+        Ok((found.target_from_source.inverse(), found))
+    }
+
+    /// Compares frames with the baseline. Of several frames the median counts: one alone is off by some millimetres now
+    /// and then.
+    pub fn check(
+        &self,
+        views: &[CellView],
+        is_simulated: bool,
+        at: Timestamp,
+    ) -> Result<CellCheck, CellViewError> {
+        if views.is_empty() {
+            return Err(CellViewError::NoFrame);
+        }
+        let middle = self.middle();
+        let target = self.prepared()?;
+        let mut found: Vec<(f64, RigidTransform, f64)> = Vec::with_capacity(views.len());
+        for (i, view) in views.iter().enumerate() {
+            let (moved, found_there) = self.moved(view, &target, i + 1)?;
+            let off = pose_error(&moved, &RigidTransform::identity(), &middle);
+            found.push((self.share_of_limits(&off), moved, found_there.fit.rms_m));
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // The lower of the two in the middle.
+        let (_, moved, rms_m) = found[(found.len() - 1) / 2];
+        let off = pose_error(&moved, &RigidTransform::identity(), &middle);
+        let shift: Vector3<f64> = moved * middle - middle;
+        let background = self.background_shift(views);
+        let mut noise: Vec<f64> = views.iter().map(|view| view.noise_at_1m.0).collect();
+        let noise_ratio = median(&mut noise) / self.view.noise_at_1m.0;
+        let stays = background.is_none_or(|shift| shift <= self.limits.shift);
+        let together = self.moved_together(views, &moved);
+        let finding = match (self.limits.allow(&off), stays, together) {
+            (true, ..) if noise_ratio > NOISIER => CellFinding::Noisier,
+            (true, ..) => CellFinding::InPlace,
+            (false, true, true) => CellFinding::PartOrCameraMoved,
+            (false, true, false) => CellFinding::PartMoved,
+            (false, false, true) => CellFinding::CameraMoved,
+            (false, false, false) => CellFinding::PartAndCameraMoved,
+        };
+        Ok(CellCheck {
+            at,
+            baseline: self.made_at,
+            num_frames: views.len(),
+            is_simulated: is_simulated || self.is_simulated,
+            finding,
+            shift_m: shift.into(),
+            turn_rad: off.rotation.0,
+            background_shift_m: background.map(|shift| shift.0),
+            rms_m,
+            noise_ratio,
+        })
+    }
+
+    fn share_of_limits(&self, off: &PoseDelta) -> f64 {
+        (off.shift.0 / self.limits.shift.0).max(off.rotation.0 / self.limits.turn.0)
+    }
+
+    /// Wall and floor where they are expected once the camera sees everything moved so, each with what the view shows.
+    fn background(&self, view: &CellView, moved: &RigidTransform) -> Vec<(PlanePatch, Plane)> {
+        let pairs = self.view.background.iter().filter_map(|before| {
+            let expected = before.carried(moved);
+            let planes = view.background.iter().map(|now| now.plane);
+            let off = |plane: &Plane| expected.distance_to(plane).0;
+            let nearest = planes.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+            Some((expected, nearest))
+        });
+        let pairs: Vec<(PlanePatch, Plane)> = pairs.collect();
+        let is_same = |(expected, now): &&(PlanePatch, Plane)| {
+            expected.distance_to(now) < SAME_PLANE.0
+                && expected.plane.normal.angle(&now.normal) < SAME_PLANE.1.0
+        };
+        // A floor that one of them does not show is no floor that moved.
+        let same: Vec<(PlanePatch, Plane)> = pairs.iter().filter(is_same).copied().collect();
+        if same.is_empty() { pairs } else { same }
+    }
+
+    /// How far wall and floor moved where they are seen; of several views the median. `None` without a plane to compare.
+    fn background_shift(&self, views: &[CellView]) -> Option<Metres> {
+        let still = RigidTransform::identity();
+        let shifts = views.iter().filter_map(|view| {
+            let pairs = self.background(view, &still).into_iter();
+            let shifts = pairs.map(|(expected, now)| expected.distance_to(&now).0);
+            shifts.max_by(f64::total_cmp)
+        });
+        let mut shifts: Vec<f64> = shifts.collect();
+        (!shifts.is_empty()).then(|| Metres(median(&mut shifts)))
+    }
+
+    /// True if wall and floor of most views can have moved with the part. How far that went is known to within the limits:
+    /// where the part is, a plane may be off by as much, and far from it by what the turn makes of it there.
+    fn moved_together(&self, views: &[CellView], moved: &RigidTransform) -> bool {
+        let at = moved * self.middle();
+        let with_part = |(expected, now): &(PlanePatch, Plane)| {
+            let there = expected.plane.signed_distance(&at) - now.signed_distance(&at);
+            let turn = Radians(expected.plane.normal.angle(&now.normal));
+            let off = PoseDelta {
+                shift: Metres(there.abs()),
+                rotation: turn,
+            };
+            self.limits.allow(&off) || expected.distance_to(now) <= self.limits.shift
+        };
+        let together = |view: &&CellView| self.background(view, moved).iter().all(with_part);
+        2 * views.iter().filter(together).count() > views.len()
+    }
+}
+
+/// The lower of the two in the middle, if their number is even.
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[(values.len() - 1) / 2]
+}

@@ -1,0 +1,89 @@
+//! What one frame shows of the cell: a part before wall and floor.
+
+use nalgebra::Point3;
+
+use crate::{
+    geometry::{cloud::PointCloud, plane::Plane, principal::principal_axes, rigid::RigidTransform},
+    stages::{
+        scene::SceneCloud,
+        segment::{NoPart, PointLabel, SegmentParams, segment},
+    },
+    units::Metres,
+};
+
+/// How far a patch reaches from its middle, in standard deviations of its points: to the edge if they are evenly spread.
+const PATCH_REACH: f64 = 1.7;
+
+/// What one frame shows: a part before wall and floor.
+#[derive(Clone, Debug)]
+pub struct CellView {
+    /// The part, camera space.
+    pub(super) part: PointCloud,
+    /// Wall and floor, as far as they were found.
+    pub(super) background: Vec<PlanePatch>,
+    pub(super) noise_at_1m: Metres,
+}
+
+/// What is seen of a plane. Far from there its direction is uncertain: of a floor there is often but a strip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct PlanePatch {
+    pub(super) plane: Plane,
+    /// The ends of its two axes, camera space.
+    pub(super) ends: [Point3<f64>; 4],
+}
+
+impl PlanePatch {
+    /// Of points on a plane; `None` of fewer than three.
+    fn new(points: impl Iterator<Item = (Point3<f64>, f64)> + Clone) -> Option<Self> {
+        let principal = principal_axes(points)?;
+        let ends = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)].map(|(axis, sign)| {
+            let reach = sign * PATCH_REACH * principal.variances[axis].sqrt();
+            principal.mean + reach * principal.axes.column(axis)
+        });
+        Self::through(ends)
+    }
+
+    /// With these ends of its axes; `None` if they lie on one line.
+    pub(super) fn through(ends: [Point3<f64>; 4]) -> Option<Self> {
+        let plane = Plane::through(&ends[0], &ends[1], &ends[2])?.facing(&Point3::origin());
+        Some(Self { plane, ends })
+    }
+
+    /// Where it is once the camera sees everything moved so.
+    pub(super) fn carried(&self, moved: &RigidTransform) -> Self {
+        let normal = moved.rotation * self.plane.normal;
+        Self {
+            plane: Plane {
+                normal,
+                offset: self.plane.offset - normal.dot(&moved.translation.vector),
+            },
+            ends: self.ends.map(|end| moved * end),
+        }
+    }
+
+    /// How far another plane is off it where it was seen.
+    pub(super) fn distance_to(&self, other: &Plane) -> Metres {
+        let distances = self.ends.iter().map(|end| other.signed_distance(end).abs());
+        Metres(distances.fold(0.0, f64::max))
+    }
+}
+
+impl CellView {
+    /// Looks for the part in a frame.
+    pub fn of(scene: &SceneCloud, params: &SegmentParams) -> Result<Self, NoPart> {
+        let segmentation = segment(scene, params);
+        let part = segmentation.part?;
+        let points = scene.cloud.points.iter().zip(&segmentation.labels);
+        let background = (0..segmentation.planes.len()).filter_map(|plane| {
+            let on_it = points.clone().filter(|&(_, label)| {
+                matches!(label, PointLabel::Background(number) if usize::from(*number) == plane)
+            });
+            PlanePatch::new(on_it.map(|(point, _)| (point.cast(), 1.0)))
+        });
+        Ok(Self {
+            background: background.collect(),
+            part: part.cloud,
+            noise_at_1m: part.noise_at_1m,
+        })
+    }
+}
