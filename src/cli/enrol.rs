@@ -7,6 +7,7 @@ use clap::Args;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
+    input::ImportChoice,
     recipe::RecipeSource,
     scan::{PosesChoice, open_scan},
 };
@@ -34,6 +35,7 @@ Examples:
   partsight enrol other_make.pcd --name front_door_b --as front_door
   partsight enrol booth.png --name fender --segment 2
   partsight enrol --scan frames/ --poses poses.json --name fender
+  partsight enrol door.stl --name door_left --units mm --up z
   partsight enrol car.gltf#Door_FL --name door_left --library /media/stick/parts
 
 An organised cloud or a depth image is a captured scene: the part before the wall is taken out of it. Anything
@@ -41,12 +43,14 @@ else is taken whole. A part of the same name is replaced; the previous version i
 With --scan the frames are put together as partsight scan does it. The part's frame is then that of the camera at the
 first frame that was used, and it can be recognised from every side that most of its surface was seen from.")]
 pub(super) struct EnrolArgs {
-    /// A captured scene, a cloud, or a mesh (one of a glTF by #NAME); metres
+    /// A captured scene, a cloud, or a mesh (one of a glTF by #NAME)
     #[arg(value_name = "FILE", required_unless_present = "scan")]
     file: Option<PathBuf>,
     /// Instead of a file: several frames of the part, each with the pose of its camera; a folder, a recording or files
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["file", "whole", "segment"])]
     scan: Vec<PathBuf>,
+    #[command(flatten)]
+    import: ImportChoice,
     #[command(flatten)]
     poses: PosesChoice,
     /// Name of the part: lowercase letters, digits, _ and -
@@ -76,7 +80,9 @@ pub(super) struct EnrolArgs {
     simulated: bool,
 }
 
-pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    args.import.write_behind(&mut args.file);
+    let args = &args;
     let of = part_of(args)?;
     let mut enrolled = enrolled_from(args, console)?;
     enrolled.part.meta.part = of;

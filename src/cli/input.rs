@@ -6,11 +6,16 @@ use std::{
     thread,
 };
 
+use clap::{Args, builder::PossibleValuesParser};
+
 use super::console::{Advised as _, Console, with_advice};
 use crate::{
     capture::Image,
     error::Advice,
-    files::{self, FileContent, FileError, FileWarning},
+    files::{
+        self, FileContent, FileError, FileWarning,
+        import::{ImportOptions, LengthUnit, UpAxis},
+    },
     geometry::cloud::PointCloud,
     robot::{Convention, WrittenPose, parse_written_pose},
     stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image},
@@ -35,6 +40,34 @@ impl Advice for InputError {
                 format!("Enrol it as a reference: partsight enrol {path} --name NAME")
             }
             Self::EmptyMesh { .. } => "Export the mesh again with its faces".into(),
+        }
+    }
+}
+
+/// How the numbers of clouds and meshes are meant.
+#[derive(Debug, Args)]
+pub(super) struct ImportChoice {
+    /// The unit of clouds and meshes; a depth image says its own
+    #[arg(long, value_name = "UNIT", default_value = "m", value_parser = one_of(LengthUnit::ALL.map(LengthUnit::name)))]
+    units: String,
+    /// The axis of clouds and meshes that points up: -y in a camera's space, y in OpenGL's, z in CAD and robots'
+    #[arg(long, value_name = "AXIS", default_value = "-y", allow_hyphen_values = true, value_parser = one_of(UpAxis::ALL.map(UpAxis::name)))]
+    up: String,
+}
+
+fn one_of<const N: usize>(names: [&'static str; N]) -> PossibleValuesParser {
+    PossibleValuesParser::new(names)
+}
+
+impl ImportChoice {
+    /// Writes it behind the paths, from where it is read.
+    pub(super) fn write_behind<'a>(&self, paths: impl IntoIterator<Item = &'a mut PathBuf>) {
+        let options = ImportOptions {
+            unit: LengthUnit::named(&self.units).unwrap_or_default(),
+            up: UpAxis::named(&self.up).unwrap_or_default(),
+        };
+        for path in paths {
+            path.as_mut_os_string().push(options.suffix());
         }
     }
 }

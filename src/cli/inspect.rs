@@ -19,7 +19,7 @@ use super::{
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, marked_simulated},
     follow::{follow, parse_source},
-    input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell},
+    input::{ImportChoice, OpenedScene, Scenes, before, open_ahead, open_empty_cell},
     output::{Columns, OutputFormat},
     recipe::{RecipeChoice, show_recipe},
     record::{HistoryChoice, HistoryRecorder, SceneOrigin},
@@ -49,6 +49,7 @@ Examples:
   partsight inspect captures/*.png --library /media/stick/reference_parts
   partsight inspect door.pcd --json | jq .part
   partsight inspect misread.pcd --report why/
+  partsight inspect scan.ply --units mm --up z
   partsight inspect door.pcd --empty-cell cell.pcd
   partsight inspect door.pcd --matcher paper --pose icp-ga
   partsight inspect door.pcd --json --calibration cell.toml
@@ -57,8 +58,8 @@ Examples:
   partsight inspect --source simulated
   partsight inspect --source watch:/mnt/scanner --json
 
-Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
-The JSON has width, height, fx, fy, cx, cy and metres_per_unit, and may have k1 k2 p1 p2 k3 k4 k5 k6 (OpenCV's lens
+Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it.
+Clouds are in metres, or --units says in what. The JSON has width, height, fx, fy, cx, cy and metres_per_unit, and may have k1 k2 p1 p2 k3 k4 k5 k6 (OpenCV's lens
 distortion), \"mirrored\": true (left and right are exchanged in the image) and \"rotated\": 90, 180 or 270 (degrees clockwise
 to turn the image by). All of it is about the image as it is stored.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.
@@ -81,6 +82,8 @@ pub(super) struct InspectArgs {
     /// folder, a recording or files
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "source", "empty_cell", "spray", "report"])]
     scan: Vec<PathBuf>,
+    #[command(flatten)]
+    import: ImportChoice,
     #[command(flatten)]
     poses: PosesChoice,
     /// Instead of files: the frames of a camera, a recording or a watched folder as they arrive
@@ -115,7 +118,9 @@ pub(super) struct InspectArgs {
     no_history: bool,
 }
 
-pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+pub(super) fn run(mut args: InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    args.import.write_behind(&mut args.files);
+    let args = &args;
     if !args.scan.is_empty() {
         return scan::inspect(args, console);
     }

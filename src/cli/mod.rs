@@ -134,11 +134,11 @@ pub fn run(cli: Cli) -> Outcome {
             let library = cli.library;
             window(&LibraryChoice { library }, cli.open, &mut console)
         }
-        Some(Command::Inspect(args)) => inspect::run(&args, &mut console),
+        Some(Command::Inspect(args)) => inspect::run(args, &mut console),
         Some(Command::Report(args)) => report::run(&args, &mut console),
         Some(Command::Capture(args)) => capture::run(&args, &mut console),
         Some(Command::Scan(args)) => scan::run(&args, &mut console),
-        Some(Command::Enrol(args)) => enrol::run(&args, &mut console),
+        Some(Command::Enrol(args)) => enrol::run(args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),
         Some(Command::Recipe(args)) => recipes::run(&args, &mut console),
         Some(Command::Align(args)) => align::run(&args, &mut console),

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::cause::{advice_on, words_of};
+use super::import::BadImportOption;
 use super::names::{listed, nearest_name};
 use crate::error::{Advice, Fault};
 
@@ -165,6 +166,14 @@ pub enum FileError {
         wanted: String,
         /// The names there are, in the file's order; empty for a format without named meshes.
         available: Vec<String>,
+    },
+    /// The words behind a path ask for something that there is not.
+    #[error("{}: {bad}", path.display())]
+    ImportOption {
+        /// The file, without the words.
+        path: PathBuf,
+        /// What they ask for.
+        bad: BadImportOption,
     },
     /// The file has several meshes and none was named.
     #[error("{}: {} meshes, expected one name after '#'; it has {}", path.display(), available.len(), listed(available, ""))]
@@ -357,6 +366,7 @@ impl Advice for FileError {
                 ),
                 None => format!("Open {} without a name after '#'", path.display()),
             },
+            Self::ImportOption { bad, .. } => bad.advice(),
             Self::NeedsMeshName { path, available } => format!(
                 "Add the name of one mesh after '#', for example {}#{}",
                 path.display(),

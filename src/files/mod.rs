@@ -34,6 +34,7 @@ pub(crate) mod disk;
 mod error;
 mod folders;
 mod gltf;
+pub mod import;
 mod names;
 mod obj;
 mod open;

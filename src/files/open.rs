@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::error::FileError;
+use super::import::ImportOptions;
 use super::source::{Source, read_bytes};
 use super::{depth_png, gltf, obj, pcd, ply, stl, xyz};
 use crate::error::{Advice, guarded};
@@ -56,7 +57,7 @@ pub enum FileWarning {
 impl Advice for FileWarning {
     fn advice(&self) -> String {
         match self {
-            Self::TooWideForMetres { .. } => "Export the file again with metres as its unit".into(),
+            Self::TooWideForMetres { .. } => "Read it as millimetres: --units mm, or #units=mm behind its path".into(),
             Self::SurplusBytes { .. } => {
                 "Copy or export the file again from the program that made it".into()
             }
@@ -119,12 +120,26 @@ impl FileContent {
 
 /// Reads the file at `path`, whose format is told by its content, never by its name.
 ///
-/// One mesh of a glTF or GLB file is chosen by `#` and its name after the path: `car.gltf#Door_FL`. A file whose own
-/// name has a `#` in it is found first.
+/// One mesh of a glTF or GLB file is chosen by `#` and its name after the path: `car.gltf#Door_FL`. In the same way
+/// [`ImportOptions`] say how the numbers of a cloud or a mesh are meant: `door.stl#units=mm#up=z`. A file whose own name has
+/// a `#` in it is found first.
 pub fn open(path: &Path) -> Result<FileContent, FileError> {
-    let (file, mesh_name) = split_mesh_name(path);
+    let (file, words) = split_words(path);
+    let mut options = ImportOptions::default();
+    let mut mesh_name: Option<String> = None;
+    for word in words.iter().flat_map(|words| words.split('#')) {
+        let is_option = options.take(word).map_err(|bad| FileError::ImportOption {
+            path: file.clone(),
+            bad,
+        })?;
+        if !is_option {
+            // A name may have a # in it.
+            mesh_name = Some(mesh_name.map_or_else(|| word.to_owned(), |name| name + "#" + word));
+        }
+    }
     let bytes = read_bytes(&file)?;
-    read(&file, &bytes, mesh_name.as_deref())
+    let content = read(&file, &bytes, mesh_name.as_deref())?;
+    Ok(options.applied(content))
 }
 
 /// As [`open`], for bytes that are in memory already; `path` is for the errors about them, and where a depth image's
@@ -162,8 +177,8 @@ fn read_known(source: Source<'_>, mesh_name: Option<&str>) -> Result<FileContent
     }
 }
 
-/// The file and the mesh name in `path`: the longest part before a `#` that is a file wins.
-fn split_mesh_name(path: &Path) -> (PathBuf, Option<String>) {
+/// The file in `path` and the words behind it: the longest part before a `#` that is a file wins.
+fn split_words(path: &Path) -> (PathBuf, Option<String>) {
     let whole = (path.to_owned(), None);
     if path.exists() {
         return whole;
