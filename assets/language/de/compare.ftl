@@ -218,14 +218,14 @@ compare-threshold-words = Schwelle: bei { $threshold } akzeptiert der Score alle
 compare-threshold-hint = Was jeder Mindestscore von allen Fällen fälschlich akzeptieren und von den eingelernten Teilen abweisen würde, allein nach dem Score. Die senkrechte Linie ist die des Rezepts
 compare-plot-false-accepts = Falschakzeptanz
 compare-plot-refused = abgewiesene Teile
-compare-scaling-says = Vergleicht eine Szene mit 8 bis 2048 simulierten Referenzen auf 1, 2, 4 und 8 Threads; dauert einige Sekunden
+compare-scaling-says = Ordnet 8 bis 2048 simulierte Referenzen nach Ähnlichkeit zu einer Szene, mit 1, 2, 4 und 8 Threads; dauert einige Sekunden
 compare-measure = Messen
 compare-measure-label = Skalierung messen
 compare-scaling-cores = { $cores } Kerne
 compare-scaling-cores-shared = { $cores } Kerne; ab { $workers } Threads werden sie geteilt
 compare-scaling-from = { $cores }: mehrere lohnen sich ab { $count } Referenzen
 compare-scaling-never = { $cores }: mehrere lohnten sich nie
-compare-scaling-plot = Zeit eines Vergleichs über der Zahl der Referenzen; { $words }
+compare-scaling-plot = Dauer der Rangliste über der Zahl der Referenzen; { $words }
 compare-one-worker = 1 Thread
 
 ## Keys
@@ -246,7 +246,7 @@ compare-keeping-case = Fall wird gespeichert
 compare-removing-case = Fall wird entfernt
 compare-restoring-case = Fall wird zurückgeholt
 compare-running-cases = Gespeicherte Fälle werden geprüft
-compare-measuring = Vergleichszeit wird gemessen
+compare-measuring = Dauer der Rangliste wird gemessen
 compare-comparing-earlier = Vergleich mit einem früheren Lauf
 compare-changing-recipes = Rezepte werden geändert
 compare-inspecting = Prüfung mit einem anderen Rezept
