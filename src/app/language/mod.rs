@@ -114,6 +114,14 @@ impl fmt::Display for Language {
     }
 }
 
+/// A title as it stands within a sentence: German nouns keep their capital letters.
+pub(in crate::app) fn within_sentence(title: &str) -> String {
+    match Language::current() {
+        Language::German => title.to_owned(),
+        Language::English | Language::Spanish | Language::Chinese => title.to_lowercase(),
+    }
+}
+
 /// A shortcut such as `Ctrl Shift Z` as the keyboards of this language name its keys.
 pub(in crate::app) fn keys(shortcut: &str) -> String {
     let named = |key: &str| match key {

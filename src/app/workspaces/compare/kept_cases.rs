@@ -9,7 +9,7 @@ use egui::{
 
 use super::{
     CaseRun, CompareAction, CompareFile, CompareState, changes_list,
-    matrix::{Matrix, MatrixCell, part_title, truth_title},
+    matrix::{Matrix, MatrixCell, answer_title, part_title, truth_title},
     score_plots,
 };
 use crate::{
@@ -241,16 +241,8 @@ fn of_cell(
         return;
     };
     let (truth, answer) = &cell.cell;
-    let (truth, num) = (truth_title(truth, shown), cell.results.len());
-    let text = match answer {
-        CaseAnswer::Part(part) => text!(
-            "compare-cell-taken-for",
-            truth = truth,
-            part = part_title(part, shown),
-            count = num,
-        ),
-        CaseAnswer::NotAccepted => text!("compare-cell-not-accepted", truth = truth, count = num),
-    };
+    let (truth, title) = (truth_title(truth, shown), answer_title(answer, shown));
+    let text = cell_text(answer, truth, title, cell.results.len());
     ui.label(RichText::new(text).color(theme.weak_text));
     for result in cell
         .results
@@ -268,6 +260,19 @@ fn of_cell(
         };
         let what = format!("{what}{}", difficulty_words(result.difficulty.as_deref()));
         case_row(ui, &result.name, &what, theme, acts);
+    }
+}
+
+/// What a cell counts, in words.
+fn cell_text(answer: &CaseAnswer, truth: String, title: String, num: usize) -> String {
+    match answer {
+        CaseAnswer::Part(_) => text!(
+            "compare-cell-taken-for",
+            truth = truth,
+            part = title,
+            count = num,
+        ),
+        CaseAnswer::NotAccepted => text!("compare-cell-not-accepted", truth = truth, count = num),
     }
 }
 
@@ -360,19 +365,7 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAct
             CaseOutcome::WrongAccepted => (theme.rejected, text!("compare-cell-false-accept")),
             CaseOutcome::Refused => (theme.warning, text!("compare-cell-refused")),
         };
-        let label = match &cell.cell.1 {
-            CaseAnswer::Part(_) => {
-                text!(
-                    "compare-cell-taken-for",
-                    truth = truth,
-                    part = answer,
-                    count = num
-                )
-            }
-            CaseAnswer::NotAccepted => {
-                text!("compare-cell-not-accepted", truth = truth, count = num)
-            }
-        };
+        let label = cell_text(&cell.cell.1, truth, answer, num);
         let label = format!("{label}, {word}");
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
         painter.rect_filled(rect, ROUNDING, colour.gamma_multiply(0.28));

@@ -10,7 +10,7 @@ use egui::{
 use super::{CompareAction, CompareState, case_bar::judged, recipe_menu, scaling_plot};
 use crate::{
     app::{
-        language::{Language, parameters, text},
+        language::{parameters, text, within_sentence},
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -121,14 +121,6 @@ fn fold(ui: &Ui, title: String, colour: Color32) -> CollapsingHeader {
     let spacing = ui.spacing();
     let width = ui.available_width() - spacing.indent - 2.0 * spacing.button_padding.x;
     CollapsingHeader::new(ui.painter().layout(title, font, colour, width))
-}
-
-/// A title within a sentence: German nouns keep their capital letters.
-fn within_sentence(title: &str) -> String {
-    match Language::current() {
-        Language::German => title.to_owned(),
-        Language::English | Language::Spanish | Language::Chinese => title.to_lowercase(),
-    }
 }
 
 /// Width of the number beside a slider.
