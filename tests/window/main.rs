@@ -8,6 +8,7 @@ mod history;
 mod inspect;
 #[path = "../kit/mod.rs"]
 mod kit;
+mod language;
 mod live;
 mod operator;
 mod pictures;

@@ -17,7 +17,7 @@ inspect-looking = Suche läuft
 inspect-not-long-enough = noch nicht lange genug gesehen
 inspect-it-is-steady = das Teil hängt still
 inspect-wait = Einen Moment warten
-inspect-not-accepted-yet = Noch nicht akzeptiert
+inspect-not-accepted-yet = Noch offen
 inspect-nearest = Am nächsten: { $part }
 
 ## The card
@@ -30,7 +30,7 @@ inspect-export = Export…
 inspect-export-says = Ein Bericht: JSON, eine PDF-Seite, eine Zeile in einer Posentabelle und die Bilder aller Stufen (Strg E)
 inspect-wrong-part = Falsches Teil?
 inspect-wrong-part-says = Im Vergleich ansehen, warum es als dieses Teil erkannt wurde
-inspect-copy-pose = Pose kopieren
+inspect-copy-pose = Kopieren
 inspect-copy-pose-says = In der Konvention des Roboters, in der ersten Zeile genannt (Strg Umschalt C)
 inspect-score = Score
 inspect-next = Nächstes: { $part } { $score }
@@ -59,7 +59,6 @@ inspect-order = Auftrag
 inspect-operator = Bediener
 inspect-recipe = Rezept
 inspect-recipe-modified = { $name } (geändert)
-inspect-recipe-built-in = eingebaut
 
 ## Stand-off
 
@@ -181,4 +180,3 @@ inspect-path-written = { $path } geschrieben: { $inside } von { $num } Punkten i
 inspect-report-written = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben
 inspect-report-set-aside = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben; die letzte Zeile war unvollständig und liegt jetzt in { $aside }
 inspect-watching-folder = Ordner wird überwacht
-inspect-poses-of-scan = die Posen des Scans

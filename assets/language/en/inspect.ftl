@@ -59,7 +59,6 @@ inspect-order = order
 inspect-operator = operator
 inspect-recipe = recipe
 inspect-recipe-modified = { $name } (modified)
-inspect-recipe-built-in = built-in
 
 ## Stand-off
 
@@ -181,4 +180,3 @@ inspect-path-written = Wrote { $path }: { $inside } of { $num } points within th
 inspect-report-written = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }
 inspect-report-set-aside = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }; its last row had no end and was set aside in { $aside }
 inspect-watching-folder = Watching a folder
-inspect-poses-of-scan = the poses of the scan

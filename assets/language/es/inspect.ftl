@@ -59,7 +59,6 @@ inspect-order = orden
 inspect-operator = operador
 inspect-recipe = receta
 inspect-recipe-modified = { $name } (modificada)
-inspect-recipe-built-in = integrada
 
 ## Stand-off
 
@@ -181,4 +180,3 @@ inspect-path-written = { $path } escrito: { $inside } de { $num } puntos en la b
 inspect-report-written = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }
 inspect-report-set-aside = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }; su última fila estaba incompleta y se apartó en { $aside }
 inspect-watching-folder = Vigilando una carpeta
-inspect-poses-of-scan = las poses del escaneo

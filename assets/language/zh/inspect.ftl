@@ -59,7 +59,6 @@ inspect-order = 订单
 inspect-operator = 操作员
 inspect-recipe = 配方
 inspect-recipe-modified = { $name }（已修改）
-inspect-recipe-built-in = 内置
 
 ## Stand-off
 
@@ -178,4 +177,3 @@ inspect-path-written = 已写入 { $path }：{ $num } 点中 { $inside } 点在�
 inspect-report-written = 已将 { $files }、各步骤图片和 { $table } 中的一行写入 { $folder }
 inspect-report-set-aside = 已将 { $files }、各步骤图片和 { $table } 中的一行写入 { $folder }；其最后一行不完整，已移至 { $aside }
 inspect-watching-folder = 正在监视文件夹
-inspect-poses-of-scan = 扫描的位姿

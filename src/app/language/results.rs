@@ -5,7 +5,7 @@
 use crate::{
     error::Advice as _,
     history::{KeepFrames, StoredVerdict, Summary},
-    pipeline::{BUILT_IN, RecipeLabel, Rejection, Unrecognisable},
+    pipeline::{RecipeLabel, Rejection, Unrecognisable},
     scan::Excluded,
     simulate::ObjectKind,
     stages::{
@@ -468,16 +468,12 @@ pub(in crate::app) fn traced(name: &str) -> String {
     }
 }
 
-/// The name of a recipe. A name that a person has given stays as it is.
+/// By which name a recipe goes; the name itself is what a person or the program calls it everywhere.
 pub(in crate::app) fn recipe_label(label: &RecipeLabel) -> String {
-    let name = match label.name.as_str() {
-        BUILT_IN => text!("inspect-recipe-built-in"),
-        name => name.to_owned(),
-    };
     if label.is_changed {
-        text!("inspect-recipe-modified", name = name)
+        text!("inspect-recipe-modified", name = &label.name)
     } else {
-        name
+        label.name.clone()
     }
 }
 

@@ -1,6 +1,6 @@
 //! The rail on the left: the workspaces.
 
-use egui::{Frame, Painter, Panel, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
+use egui::{Color32, Frame, Painter, Panel, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 
 use super::{
     action::Action,
@@ -36,13 +36,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
                 };
                 let icon = rect.center() - vec2(0.0, 9.0);
                 sign(painter, workspace, icon, Stroke::new(1.6, colour));
-                painter.text(
-                    rect.center() + vec2(0.0, 14.0),
-                    egui::Align2::CENTER_CENTER,
-                    workspace.title(),
-                    font::small(),
-                    colour,
-                );
+                label(painter, rect, workspace.title(), colour);
                 focus_ring(ui, rect, &response, theme);
                 response.widget_info(|| {
                     let label = workspace.title();
@@ -59,6 +53,17 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
             }
             chip(ui, state, theme, actions);
         });
+}
+
+/// The name below a sign, smaller where it is long in a language.
+pub(super) fn label(painter: &Painter, rect: Rect, name: String, colour: Color32) {
+    let laid_out = |font| painter.layout_no_wrap(name.clone(), font, colour);
+    let mut galley = laid_out(font::small());
+    if galley.size().x > rect.width() - space::SMALL {
+        galley = laid_out(font::scale());
+    }
+    let at = rect.center() + vec2(0.0, 14.0) - galley.size() / 2.0;
+    painter.galley(at, galley, colour);
 }
 
 /// The workspace's sign.

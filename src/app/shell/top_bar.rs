@@ -1,6 +1,6 @@
 //! Above the workspaces: the top bar.
 
-use egui::{Align, Button, Frame, Layout, Margin, Panel, RichText, Ui, Vec2};
+use egui::{Align, Button, Color32, Frame, Layout, Margin, Panel, RichText, Ui, Vec2};
 
 use super::{
     action::{Action, DialogRequest},
@@ -54,22 +54,19 @@ pub(in crate::app) fn ui(
                 robot_button(ui, state, robot, theme, actions);
                 let name = text!("shell-capture");
                 let capture = RichText::new(&name).font(font::body_strong());
-                let key = RichText::new(keys("Space")).font(font::small());
                 // The accent is for what is pressed next: while frames are followed, nothing is.
                 let capture = if state.session.is_live() {
-                    Button::new(capture).shortcut_text(key.color(theme.weak_text))
+                    with_key(ui, Button::new(capture), "Space", theme.weak_text)
                 } else {
-                    Button::new(capture.color(theme.on_accent))
-                        .shortcut_text(key.color(theme.on_accent))
-                        .fill(theme.accent)
+                    let capture = Button::new(capture.color(theme.on_accent));
+                    with_key(ui, capture, "Space", theme.on_accent).fill(theme.accent)
                 };
                 if labelled(ui, capture, &name).clicked() {
                     actions.push(Action::Capture);
                 }
                 live_button(ui, state, theme, actions);
-                let key = RichText::new(keys("Ctrl O")).font(font::small());
                 let name = text!("shell-open");
-                let open = Button::new(&*name).shortcut_text(key.color(theme.weak_text));
+                let open = with_key(ui, Button::new(&*name), "Ctrl O", theme.weak_text);
                 if labelled(ui, open, &name).clicked() {
                     actions.push(Action::Ask(DialogRequest::Scene));
                 }
@@ -81,6 +78,15 @@ pub(in crate::app) fn ui(
                 });
             });
         });
+}
+
+/// The button with the key that presses it, where there is room for that.
+fn with_key<'a>(ui: &Ui, button: Button<'a>, key: &str, colour: Color32) -> Button<'a> {
+    if ui.ctx().content_rect().width() < NARROW {
+        return button;
+    }
+    let key = RichText::new(keys(key)).font(font::small());
+    button.shortcut_text(key.color(colour))
 }
 
 /// Follows the source, or stops.
@@ -120,11 +126,7 @@ fn robot_button(
     actions: &mut Vec<Action>,
 ) {
     let name = text!("shell-robot");
-    let mut button = Button::new(&*name);
-    if ui.ctx().content_rect().width() > NARROW {
-        let key = RichText::new("B").font(font::small());
-        button = button.shortcut_text(key.color(theme.weak_text));
-    }
+    let button = with_key(ui, Button::new(&*name), "B", theme.weak_text);
     let says = match (&state.session.robot, robot.in_use()) {
         (Some(frame), _) => text!("shell-calibrated-by", name = &frame.name),
         (None, Some(_)) => text!("shell-no-flange-pose"),
@@ -143,9 +145,8 @@ fn settings(
     theme: &Theme,
     actions: &mut Vec<Action>,
 ) {
-    let key = RichText::new("F1").font(font::small());
     let name = text!("shell-help");
-    let help = Button::new(&*name).shortcut_text(key.color(theme.weak_text));
+    let help = with_key(ui, Button::new(&*name), "F1", theme.weak_text);
     if labelled(ui, help, &name).clicked() {
         actions.push(Action::ToggleHelp);
     }

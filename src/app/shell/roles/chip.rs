@@ -7,7 +7,7 @@ use egui::{
 use super::{LOCK_AFTER, RoleAction, UserRole};
 use crate::app::{
     language::text,
-    shell::{action::Action, state::State, top_bar::focus_ring},
+    shell::{action::Action, rail, state::State, top_bar::focus_ring},
     ui::theme::{Theme, font, space},
 };
 
@@ -25,13 +25,7 @@ pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &
         let painter = ui.painter();
         let stroke = Stroke::new(1.6, colour);
         lock(painter, rect.center() - vec2(0.0, 9.0), role, stroke);
-        painter.text(
-            rect.center() + vec2(0.0, 14.0),
-            egui::Align2::CENTER_CENTER,
-            role.title(),
-            font::small(),
-            colour,
-        );
+        rail::label(painter, rect, role.title(), colour);
         focus_ring(ui, rect, &response, theme);
         let says = match role {
             UserRole::Operator => text!("shell-operators-view"),

@@ -1,0 +1,295 @@
+//! The language of the window: how it is chosen, and that everything fits in each.
+
+use egui::{
+    Rect, Shape, Vec2,
+    epaint::{ClippedShape, TextShape},
+    vec2,
+};
+use egui_kittest::kittest::Queryable as _;
+use partsight::app::{
+    WindowOptions,
+    language::Language,
+    shell::{
+        action::Action, live::LiveAction, robot::RobotAction, roles::RoleAction,
+        session::WorkspaceKind,
+    },
+};
+
+use super::set_up::{SMALL, USUAL, WindowHarness, act, open_with, plain_options, press, settle};
+
+fn open_in(language: Language, size: Vec2) -> WindowHarness {
+    let options = WindowOptions {
+        language: Some(language),
+        ..plain_options()
+    };
+    open_with(size, options)
+}
+
+#[test]
+fn the_language_is_the_systems_until_one_is_chosen_and_is_remembered() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let options = || WindowOptions {
+        settings: Some(folder.path().join("settings.toml")),
+        language: Some(Language::Spanish),
+        ..plain_options()
+    };
+    let mut harness = open_with(USUAL, options());
+    harness.get_by_label("Capturar");
+    press(&mut harness, "Idioma: Español");
+    press(&mut harness, "Deutsch");
+    // At once, with the same result in front.
+    harness.get_by_label("Aufnehmen");
+    harness.get_by_label("Akzeptiert");
+    harness.get_by_label("Simuliertes Bild 1");
+    harness.key_press(egui::Key::Space);
+    settle(&mut harness);
+    harness.get_by_label("Simuliertes Bild 2");
+    drop(harness);
+    let harness = open_with(USUAL, options());
+    harness.get_by_label("Aufnehmen");
+}
+
+#[test]
+fn the_operator_chooses_a_language_too() {
+    let mut harness = open_in(Language::English, SMALL);
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    press(&mut harness, "Language: English");
+    press(&mut harness, "中文");
+    harness.get_by_label("采集");
+    press(&mut harness, "语言：中文");
+    press(&mut harness, "English");
+    harness.get_by_label("Capture");
+}
+
+/// A text as it is drawn, in logical pixels.
+#[derive(Clone, Debug)]
+struct Drawn {
+    text: String,
+    /// Where its letters are.
+    rect: Rect,
+    /// Its lines.
+    lines: Vec<Rect>,
+    /// What of them is seen.
+    clip: Rect,
+    is_elided: bool,
+}
+
+/// What is wrong with a text.
+#[derive(Clone, Debug)]
+struct Misfit {
+    what: &'static str,
+    text: String,
+    rect: Rect,
+}
+
+fn texts(harness: &WindowHarness) -> Vec<Drawn> {
+    fn collect(shape: &Shape, clip: Rect, found: &mut Vec<Drawn>) {
+        match shape {
+            Shape::Text(text) if !text.galley.text().trim().is_empty() => found.push(Drawn {
+                text: text.galley.text().to_owned(),
+                rect: text.visual_bounding_rect(),
+                lines: lines_of(text),
+                clip,
+                is_elided: text.galley.elided,
+            }),
+            Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, found)),
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    for ClippedShape {
+        clip_rect, shape, ..
+    } in &harness.output().shapes
+    {
+        collect(shape, *clip_rect, &mut found);
+    }
+    // What is scrolled away altogether is seen by scrolling.
+    found.retain(|drawn| drawn.rect.intersects(drawn.clip));
+    found
+}
+
+/// Where the lines of a text are; what lies between them is free.
+fn lines_of(text: &TextShape) -> Vec<Rect> {
+    let rows = text.galley.rows.iter();
+    let lines = rows.map(|row| row.rect().translate(text.pos.to_vec2()));
+    lines
+        .map(|line| line.shrink2(vec2(0.0, 0.2 * line.height())))
+        .collect()
+}
+
+/// Where the controls of the bar above are that lie over one another.
+fn overlapping_controls(harness: &WindowHarness) -> Vec<Rect> {
+    let buttons = harness.query_all_by_role(egui::Role::Button);
+    let rects: Vec<Rect> = buttons
+        .map(|node| node.rect())
+        .filter(|rect| rect.bottom() < 60.0)
+        .collect();
+    let pairs = (0..rects.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let both = pairs.map(|(i, j)| rects[i].intersect(rects[j]));
+    both.filter(|both| both.width() > 1.0 && both.height() > 1.0)
+        .collect()
+}
+
+/// Texts that end in an ellipsis, are cut at a side, or run into each other.
+fn misfits(harness: &WindowHarness) -> Vec<Misfit> {
+    let texts = texts(harness);
+    let mut found = Vec::new();
+    let window = harness.ctx.content_rect();
+    for (place, drawn) in texts.iter().enumerate() {
+        let Drawn {
+            text, rect, clip, ..
+        } = drawn;
+        let mut report = |what| {
+            found.push(Misfit {
+                what,
+                text: text.clone(),
+                rect: *rect,
+            });
+        };
+        if drawn.is_elided {
+            report("ends in an ellipsis");
+        }
+        let seen = clip.intersect(window);
+        if rect.left() < seen.left() - 2.0 || rect.right() > seen.right() + 2.0 {
+            report("is cut at a side");
+        }
+        if rect.top() < window.top() - 2.0 || rect.bottom() > window.bottom() + 2.0 {
+            report("leaves the window");
+        }
+        let runs_into = |other: &&Drawn| {
+            let overlaps = |own: &Rect, other: &Rect| {
+                let both = own.intersect(*other).intersect(*clip);
+                both.width() > 3.0 && both.height() > 3.0
+            };
+            // What lies over all else, as a dialog does, has a background.
+            let mut lines = drawn.lines.iter();
+            other.clip == *clip
+                && lines.any(|own| other.lines.iter().any(|line| overlaps(own, line)))
+        };
+        if let Some(other) = texts[..place].iter().find(runs_into) {
+            found.push(Misfit {
+                what: "runs into another text",
+                text: format!("{text} | {}", other.text),
+                rect: *rect,
+            });
+        }
+    }
+    found.extend(
+        overlapping_controls(harness)
+            .into_iter()
+            .map(|rect| Misfit {
+                what: "is a control over another",
+                text: String::new(),
+                rect,
+            }),
+    );
+    found
+}
+
+/// What can be in front.
+#[derive(Clone, Copy, Debug)]
+enum Scenery {
+    Workspace(WorkspaceKind),
+    Draft,
+    Live,
+    Operator,
+    Help,
+    Robot,
+    Cell,
+    Source,
+    Library,
+}
+
+const SCENERIES: [Scenery; 13] = [
+    Scenery::Workspace(WorkspaceKind::Inspect),
+    Scenery::Workspace(WorkspaceKind::Enrol),
+    Scenery::Draft,
+    Scenery::Workspace(WorkspaceKind::Compare),
+    Scenery::Workspace(WorkspaceKind::Align),
+    Scenery::Workspace(WorkspaceKind::History),
+    Scenery::Live,
+    Scenery::Operator,
+    Scenery::Help,
+    Scenery::Robot,
+    Scenery::Cell,
+    Scenery::Source,
+    Scenery::Library,
+];
+
+/// A window of this size with this in front.
+fn shown(language: Language, size: Vec2, scenery: Scenery) -> WindowHarness {
+    let mut harness = open_in(language, size);
+    arrange(&mut harness, scenery);
+    harness
+}
+
+/// Brings this to the front.
+fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
+    let go = |harness: &mut WindowHarness, to| act(harness, Action::GoTo(to));
+    let menu = |harness: &mut WindowHarness, place: usize| {
+        let menus = harness.query_all_by_label_contains("▼");
+        menus.into_iter().nth(place).expect("a menu").click();
+        harness.run_steps(8);
+    };
+    match scenery {
+        Scenery::Workspace(workspace) => go(harness, workspace),
+        Scenery::Draft => {
+            go(harness, WorkspaceKind::Enrol);
+            act(harness, Action::Capture);
+        }
+        Scenery::Live => {
+            let context = harness.ctx.clone();
+            let toggle = Action::Live(LiveAction::Toggle);
+            harness.state_mut().act(toggle, &context);
+            for _ in 0..40 {
+                std::thread::sleep(std::time::Duration::from_millis(10));
+                harness.step();
+            }
+        }
+        Scenery::Operator => act(harness, Action::Role(RoleAction::Switch)),
+        Scenery::Help => act(harness, Action::ToggleHelp),
+        Scenery::Robot => act(harness, Action::Robot(RobotAction::Toggle)),
+        Scenery::Cell => {
+            let spec = partsight::capture::SimulatedSpec::default();
+            act(harness, Action::Live(LiveAction::SetUp(Some(spec))));
+        }
+        Scenery::Source => menu(harness, 0),
+        Scenery::Library => menu(harness, 1),
+    }
+}
+
+#[test]
+fn in_every_language_everything_fits_where_it_does_in_english() {
+    let languages = [Language::German, Language::Spanish, Language::Chinese];
+    let mut wrong = Vec::new();
+    for scenery in SCENERIES {
+        let usual = misfits(&shown(Language::English, SMALL, scenery));
+        for language in languages {
+            for misfit in misfits(&shown(language, SMALL, scenery)) {
+                let is_known = usual.iter().any(|known| {
+                    known.what == misfit.what && known.rect.expand(24.0).intersects(misfit.rect)
+                });
+                if !is_known {
+                    let Misfit { what, text, rect } = misfit;
+                    wrong.push(format!(
+                        "{language}, {scenery:?}: {text:?} {what} at {rect:?}"
+                    ));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn what_does_not_fit_is_found() {
+    let fitting = Scenery::Workspace(WorkspaceKind::Inspect);
+    let narrow = Vec2::new(560.0, 768.0);
+    let found = misfits(&shown(Language::German, narrow, fitting));
+    let is_found = |what: &str| found.iter().any(|misfit| misfit.what == what);
+    assert!(
+        is_found("is cut at a side") || is_found("runs into another text"),
+        "{found:?}"
+    );
+    assert!(is_found("ends in an ellipsis"), "{found:?}");
+}
