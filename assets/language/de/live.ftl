@@ -21,7 +21,7 @@ live-looking = sucht
 live-moving = Bewegung
 live-steady-for = ruhig seit { $seconds } s
 live-file-by-file = Jede neue Datei wird einzeln geprüft
-live-no-verdict = Kein Urteil, bis das Teil still hängt
+live-no-verdict = Kein Ergebnis, bis das Teil still hängt
 live-frames-of = { $num } von { $needed ->
         [one] { $needed } Bild
        *[other] { $needed } Bildern

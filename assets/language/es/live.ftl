@@ -21,7 +21,7 @@ live-looking = buscando
 live-moving = en movimiento
 live-steady-for = inmóvil desde hace { $seconds } s
 live-file-by-file = Cada archivo nuevo se inspecciona por separado
-live-no-verdict = Sin dictamen hasta que la pieza cuelgue inmóvil
+live-no-verdict = Sin resultado hasta que la pieza cuelgue inmóvil
 live-frames-of = { $num } de { $needed ->
         [one] { $needed } imagen
        *[other] { $needed } imágenes

@@ -1,6 +1,6 @@
 //! The texts of the window in every language, as Mozilla's Fluent: `assets/language/<language>/<area>.ftl`.
 //!
-//! [`text!`] names a message and its variables. Which language it answers in is a property of the thread: the window sets it
+//! `text!` names a message and its variables. Which language it answers in is a property of the thread: the window sets it
 //! at the start of each frame, and a task's thread inherits it from whoever starts the task. A message that a language lacks
 //! is shown in English; a test finds it.
 
