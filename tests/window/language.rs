@@ -111,7 +111,10 @@ fn texts(harness: &WindowHarness) -> Vec<Drawn> {
 /// Where the lines of a text are; what lies between them is free.
 fn lines_of(text: &TextShape) -> Vec<Rect> {
     let rows = text.galley.rows.iter();
-    let lines = rows.map(|row| row.rect().translate(text.pos.to_vec2()));
+    let lines = rows.map(|row| {
+        row.rect_without_leading_space()
+            .translate(text.pos.to_vec2())
+    });
     lines
         .map(|line| line.shrink2(vec2(0.0, 0.2 * line.height())))
         .collect()

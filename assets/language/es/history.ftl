@@ -28,7 +28,7 @@ history-statistics-hint = OK y NOK por turno, por pieza y por motivo, de lo que 
 history-frames-button = Imágenes…
 history-frames-button-hint = Qué imágenes se conservan y cuánto tiempo
 history-find = Buscar
-history-find-hint = Pieza, escena u observación
+history-find-hint = Pieza, escena, nota
 history-filter-days = Días
 history-filter-verdict = Resultado
 history-filter-part = Pieza
@@ -93,7 +93,7 @@ history-truth-not-set = Sin indicar
 history-truth-not-enrolled = No registrada
 history-truth-nothing = Nada (celda vacía)
 history-remark = Observación
-history-remark-hint = Cualquier dato que convenga recordar
+history-remark-hint = Lo que convenga recordar
 history-your-remark = Observación propia
 
 ## What differs

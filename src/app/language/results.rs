@@ -675,6 +675,17 @@ mod tests {
     }
 
     #[test]
+    fn titles_of_the_history_are_read_as_they_are_written() {
+        let written = include_str!("../../history/entry.rs");
+        for title in [
+            "Not recognised · nearest {name}",
+            "Unknown · nearest {name}",
+        ] {
+            assert!(written.contains(title), "{title}");
+        }
+    }
+
+    #[test]
     fn in_english_the_window_says_what_the_library_says() {
         for why in rejections() {
             assert_eq!(rejection(&why), why.to_string());

@@ -49,7 +49,12 @@ pub(in crate::app) fn ui(
             ui.horizontal_centered(|ui| {
                 let name = RichText::new("Partsight").font(font::body_strong());
                 ui.label(name);
-                ui.add_space(space::LARGE);
+                let is_narrow = ui.ctx().content_rect().width() < NARROW;
+                ui.add_space(if is_narrow {
+                    space::SMALL
+                } else {
+                    space::LARGE
+                });
                 source_menu::ui(ui, state, actions);
                 robot_button(ui, state, robot, theme, actions);
                 let name = text!("shell-capture");
