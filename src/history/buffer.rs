@@ -16,6 +16,7 @@ use std::{
 use jiff::Timestamp;
 
 use super::{
+    drift::{MAX_POSES, PoseRecord},
     entry::{NewEntry, Record, Summary, png_of},
     error::HistoryError,
     filter::Filter,
@@ -313,6 +314,22 @@ impl HistoryBuffer {
         let waiting = waiting.filter(|(row, _)| filter.passes(row));
         outcomes.extend(waiting.map(|(_, entry)| PartOutcome::from(&entry.record)));
         Ok(outcomes)
+    }
+
+    /// As [`History::poses`], with those that are not written yet.
+    pub fn poses(&self, filter: &Filter) -> Result<Vec<PoseRecord>, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        let mut poses = match &inner.history {
+            Some(history) => history.poses(filter)?,
+            None => Vec::new(),
+        };
+        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
+        let waiting = rows.iter().zip(&inner.waiting);
+        let waiting = waiting.filter(|(row, _)| filter.passes(row));
+        poses.extend(waiting.filter_map(|(_, entry)| PoseRecord::of_record(&entry.record)));
+        poses.drain(..poses.len().saturating_sub(MAX_POSES));
+        Ok(poses)
     }
 
     /// Opens it to be read, if nobody has yet.

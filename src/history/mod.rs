@@ -16,6 +16,7 @@
 
 mod buffer;
 mod differences;
+mod drift;
 mod entry;
 mod error;
 mod filter;
@@ -39,6 +40,7 @@ mod writer;
 pub use self::{
     buffer::HistoryBuffer,
     differences::{Differences, InspectionSummary, ParameterChange},
+    drift::{MAX_POSES, PoseRecord},
     entry::{InspectionContext, InspectionDetail, NewEntry, Record, StoredVerdict, Summary},
     error::HistoryError,
     filter::Filter,

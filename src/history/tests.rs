@@ -666,3 +666,46 @@ fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at
     }
     .fails_at_every_call();
 }
+
+#[test]
+fn poses_of_accepted_parts_come_in_the_order_of_time() {
+    let (_folder, mut history) = new_history();
+    for seconds in [3, 1, 2] {
+        let verdict = match seconds {
+            2 => StoredVerdict::NotAccepted,
+            _ => StoredVerdict::Accepted,
+        };
+        let entry = history_entry(seconds, verdict, "fender");
+        history.add(&entry, &ALL).expect("written");
+    }
+    let mut older = history_entry(4, StoredVerdict::Accepted, "fender");
+    older.record.detail.line = r#"{"schema":1,"pose":null}"#.into();
+    history.add(&older, &ALL).expect("written");
+    let other = history_entry(5, StoredVerdict::Accepted, "grille");
+    history.add(&other, &ALL).expect("written");
+    let found = |filter: &Filter| {
+        let poses = history.poses(filter).expect("asked");
+        let figures = poses
+            .iter()
+            .map(|pose| (pose.at, pose.reference.clone(), pose.rms_m));
+        figures.collect::<Vec<_>>()
+    };
+    let fender = |seconds: i64| {
+        (
+            moment(seconds),
+            "fender".to_owned(),
+            0.001 + 1e-4 * seconds as f64,
+        )
+    };
+    let of_fender = Filter {
+        part: Some("fender".into()),
+        ..Filter::default()
+    };
+    assert_eq!(found(&of_fender), [fender(1), fender(3)]);
+    assert_eq!(found(&Filter::default()).len(), 3);
+    let until = Filter {
+        until: Some(moment(3)),
+        ..of_fender
+    };
+    assert_eq!(found(&until), [fender(1)]);
+}

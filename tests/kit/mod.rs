@@ -14,7 +14,7 @@ use partsight::{
         cloud::PointCloud,
         depth_frame::{DepthFrame, Intrinsics},
         mesh::TriangleMesh,
-        rigid::{RigidTransform, from_euler_zyx},
+        rigid::{RigidTransform, from_euler_zyx, row_major},
     },
     history::{
         History, HungId, InspectionDetail, NewEntry, Record, StoredVerdict, Summary, Traceability,
@@ -138,6 +138,12 @@ pub(crate) fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) ->
         StoredVerdict::Accepted | StoredVerdict::NotAccepted
     );
     let recipe = Recipe::default();
+    let camera_from_part = from_euler_zyx([0.1, 0.2, 0.3, 0.01, 0.02, 1.4]);
+    let line = format!(
+        r#"{{"schema":1,"pose":{{"reference":"{part}","camera_from_part":{:?},"rms_m":{}}},"timings_ms":{{"pose":20.5,"total":31.5,"segment":8.0}}}}"#,
+        row_major(&camera_from_part),
+        0.001 + 1e-4 * seconds as f64,
+    );
     NewEntry {
         record: Record {
             summary: Summary {
@@ -163,14 +169,13 @@ pub(crate) fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) ->
                 nearest: Some(part.to_owned()),
                 complaint: Some(["too low".into(), "look again".into()])
                     .filter(|_| verdict != StoredVerdict::Accepted),
-                camera_from_part: Some(from_euler_zyx([0.1, 0.2, 0.3, 0.01, 0.02, 1.4])),
+                camera_from_part: Some(camera_from_part),
                 recipe_label: Some(RecipeLabel::default()),
                 recipe_identity: recipe.identity(),
                 recipe: Some(Arc::new(recipe)),
                 library_identity: "0badcafe".into(),
                 program: "0.1.0".into(),
-                line: r#"{"schema":1,"timings_ms":{"pose":20.5,"total":31.5,"segment":8.0}}"#
-                    .into(),
+                line,
                 thumbnail: Vec::new(),
                 origin: Some("{}".into()),
                 frame: None,

@@ -582,6 +582,10 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     harness.get_by_label("Fender, left");
     harness.get_by_label("75.0 %");
     harness.get_by_label("3 × Too low");
+    harness.get_by_label("Drift: Fender, left");
+    harness.get_by_label("Score: 0.97 at first, 0.97 at last");
+    harness.get_by_label("Fit to the reference, rms: 1.1 mm at first, 2.0 mm at last");
+    harness.get_by_label("Place of the part: moved by x 0.0 mm, y 0.0 mm, z 0.0 mm");
     // Of what is listed.
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: Accepted");

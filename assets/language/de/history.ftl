@@ -137,6 +137,11 @@ history-shift = Schicht vom { $start }: { $ok } IO, { $nok } NIO
 history-by-shift = Teile nach Schicht
 history-not-ok-on-top = NIO, oben
 history-total = { $count } Teile, { $share } IO
+history-drift = Verlauf der Messwerte: { $part }
+history-drift-score = Score
+history-drift-fit = Abweichung von der Referenz, RMS
+history-drift-ends = anfangs { $first }, zuletzt { $last }
+history-drift-place = Lage des Teils: verschoben um x { $x }, y { $y }, z { $z }
 
 ## Work and notices
 history-looking = Verlauf wird gelesen

@@ -137,6 +137,11 @@ history-shift = Shift of { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Parts by shift
 history-not-ok-on-top = NOK, on top
 history-total = { $count } parts, { $share } OK
+history-drift = Drift: { $part }
+history-drift-score = Score
+history-drift-fit = Fit to the reference, rms
+history-drift-ends = { $first } at first, { $last } at last
+history-drift-place = Place of the part: moved by x { $x }, y { $y }, z { $z }
 
 ## Work and notices
 history-looking = Looking into the history

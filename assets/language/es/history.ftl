@@ -137,6 +137,11 @@ history-shift = Turno del { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Piezas por turno
 history-not-ok-on-top = NOK, encima
 history-total = { $count } piezas, { $share } OK
+history-drift = Deriva: { $part }
+history-drift-score = Puntuación
+history-drift-fit = Ajuste a la referencia, RMS
+history-drift-ends = al principio { $first }, al final { $last }
+history-drift-place = Posición de la pieza: desplazada x { $x }, y { $y }, z { $z }
 
 ## Work and notices
 history-looking = Consultando el historial

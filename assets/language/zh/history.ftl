@@ -132,6 +132,11 @@ history-shift = { $start } 的班次：{ $ok } OK，{ $nok } NG
 history-by-shift = 各班次零件数
 history-not-ok-on-top = NG（上方）
 history-total = { $count } 个零件，{ $share } OK
+history-drift = 漂移：{ $part }
+history-drift-score = 得分
+history-drift-fit = 与参考的偏差（RMS）
+history-drift-ends = 起初 { $first }，最近 { $last }
+history-drift-place = 零件位置：移动 x { $x }，y { $y }，z { $z }
 
 ## Work and notices
 history-looking = 正在读取历史记录

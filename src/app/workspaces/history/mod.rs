@@ -4,6 +4,7 @@ mod apply;
 mod bar;
 mod details;
 mod differences;
+mod drift;
 mod export;
 mod filter;
 mod keeping;
@@ -164,7 +165,7 @@ impl Workspace for HistoryWorkspace {
                 if state.statistics.is_open() {
                     bar::ui(ui, state, session, theme, &mut actions);
                     ui.add_space(space::SMALL);
-                    statistics::ui(ui, &state.statistics, theme);
+                    statistics::ui(ui, &state.statistics, session.units, theme);
                 } else {
                     list.ui(ui, state, session, theme, &mut actions);
                 }

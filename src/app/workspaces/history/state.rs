@@ -9,8 +9,9 @@ use std::{
 
 use super::{
     apply::{HistoryAction, HistoryFile, HistoryJob},
+    drift::Drift,
     filter::ListFilter,
-    statistics::{self, Statistics, StatisticsView},
+    statistics::{self, Statistics, StatisticsView, most_accepted},
     work::{self, HistoryQuery, HistoryResult, OpenedInspection},
 };
 use jiff::Zoned;
@@ -362,6 +363,7 @@ impl HistoryState {
         let filter = self.filter.clone();
         let keeper = Arc::clone(cx.services.library_cache.history());
         let (starts, library) = (cx.session.shift_starts.clone(), cx.session.library.clone());
+        let libraries = cx.services.library_cache.clone();
         self.counting
             .start(text!("history-counting-parts"), move |_| {
                 let now = Zoned::now();
@@ -371,7 +373,20 @@ impl HistoryState {
                     Some(library) => library.title_of(name).to_owned(),
                     None => name.to_owned(),
                 };
-                let found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
+                let mut found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
+                let part = filter.part.clone().or_else(|| most_accepted(&outcomes));
+                if let Some(part) = part {
+                    let mut of_part = filter.at(&now);
+                    of_part.part = Some(part.clone());
+                    let poses = keeper.poses(&of_part);
+                    let poses = poses.map_err(|error| UserError::of(&error))?;
+                    let loaded = libraries.get();
+                    let middle_of = |name: &str| {
+                        let mut references = loaded.library.references.iter();
+                        references.find(|of| of.enrolled_as == name)?.middle()
+                    };
+                    found.drift = Drift::new(title_of(&part), &poses, now.time_zone(), middle_of);
+                }
                 Ok(Box::new(found))
             });
     }

@@ -8,8 +8,10 @@ use egui::{Align2, Grid, RichText, ScrollArea, Sense, Ui, WidgetInfo, vec2};
 use egui_plot::{Bar, BarChart, LineStyle};
 use jiff::{Zoned, tz::TimeZone};
 
+use super::drift::{self, Drift};
 use crate::{
     app::{
+        inspection::unit_system::UnitSystem,
         language::{results::stored_verdict, text},
         shell::shift::ShiftStarts,
         ui::{
@@ -65,6 +67,8 @@ pub struct Statistics {
     pub parts: Vec<(String, Tally)>,
     /// By reason of a refusal, the most frequent first.
     pub reasons: Vec<(String, usize)>,
+    /// How the part drifts that the filter names, or the one that was accepted most often.
+    pub drift: Option<Drift>,
 }
 
 /// Whether statistics take the place of the list.
@@ -132,6 +136,21 @@ pub(super) fn count(
     found
 }
 
+/// The part that was accepted most often.
+pub(super) fn most_accepted(outcomes: &[PartOutcome]) -> Option<String> {
+    let accepted = outcomes
+        .iter()
+        .filter(|outcome| outcome.verdict == StoredVerdict::Accepted);
+    let mut parts: BTreeMap<&str, usize> = BTreeMap::new();
+    for part in accepted.filter_map(|outcome| outcome.nearest.as_deref()) {
+        *parts.entry(part).or_default() += 1;
+    }
+    let most = parts
+        .into_iter()
+        .max_by_key(|(part, num)| (*num, Reverse(*part)));
+    most.map(|(part, _)| part.to_owned())
+}
+
 /// A reason without what differs from part to part: names, figures and what stands in brackets.
 fn kind(reason: &str, names: &[&str]) -> String {
     let mut text = String::new();
@@ -156,7 +175,7 @@ fn kind(reason: &str, names: &[&str]) -> String {
 }
 
 /// Draws them.
-pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, theme: &Theme) {
+pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem, theme: &Theme) {
     let StatisticsView::Counted(found) = view else {
         ui.label(RichText::new(text!("history-counting")).color(theme.weak_text));
         return;
@@ -201,13 +220,15 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, theme: &Theme) {
                     ui.end_row();
                 }
             });
-        if found.reasons.is_empty() {
-            return;
+        if !found.reasons.is_empty() {
+            heading(ui, theme, &text!("history-by-reason"));
         }
-        heading(ui, theme, &text!("history-by-reason"));
         for (reason, num) in &found.reasons {
             let text = format!("{num} × {reason}");
             ui.add(egui::Label::new(RichText::new(text).color(theme.text)).wrap());
+        }
+        if let Some(drift) = &found.drift {
+            drift::ui(ui, drift, units, theme);
         }
     });
 }

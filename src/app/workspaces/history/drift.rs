@@ -1,0 +1,278 @@
+//! How score, fit and place of one part drift: a point for each accepted one, in the order of time.
+
+use egui::{Sense, Ui, WidgetInfo, vec2};
+use egui_plot::{Line, LineStyle, PlotPoints};
+use jiff::{Zoned, tz::TimeZone};
+use nalgebra::Point3;
+
+use crate::{
+    app::{
+        inspection::unit_system::UnitSystem,
+        language::text,
+        ui::{
+            plot::{Axes, Axis, legend, range_of},
+            theme::{ROUNDING, Theme, font, space},
+            widgets::heading,
+        },
+    },
+    history::PoseRecord,
+};
+
+/// Height of a plot, logical pixels.
+const HEIGHT: f32 = 150.0;
+/// More parts than this are drawn in groups, by their medians.
+const MOST_DRAWN: usize = 240;
+/// Fewer parts than this show no drift.
+const LEAST: usize = 3;
+/// What the beginning and the end are, as a share of all parts.
+const END: usize = 5;
+
+/// The accepted parts of one kind, or groups of them, the oldest first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drift {
+    /// The part's title.
+    pub title: String,
+    /// Parts.
+    pub num_parts: usize,
+    /// When the first part of each group was inspected.
+    at: Vec<Zoned>,
+    score: Vec<f32>,
+    /// Root mean square distance from the reference, metres.
+    rms_m: Vec<f32>,
+    /// Where the part's middle was, beside its median over all, along x, y and z of the camera, metres. None of groups
+    /// whose reference is not enrolled any more.
+    offset_m: [Vec<f32>; 3],
+}
+
+impl Drift {
+    /// Of parts that come in the order of time; `None` of too few.
+    pub(super) fn new(
+        title: String,
+        poses: &[PoseRecord],
+        zone: &TimeZone,
+        middle_of: impl Fn(&str) -> Option<Point3<f64>>,
+    ) -> Option<Self> {
+        if poses.len() < LEAST {
+            return None;
+        }
+        let mut drift = Self {
+            title,
+            num_parts: poses.len(),
+            at: Vec::new(),
+            score: Vec::new(),
+            rms_m: Vec::new(),
+            offset_m: Default::default(),
+        };
+        let middle = |pose: &PoseRecord| Some(pose.camera_from_part * middle_of(&pose.reference)?);
+        let middles: Vec<Option<Point3<f64>>> = poses.iter().map(middle).collect();
+        let usual: [Option<f64>; 3] =
+            std::array::from_fn(|axis| median(middles.iter().flatten().map(|at| at[axis])));
+        let size = poses.len().div_ceil(MOST_DRAWN);
+        for (group, middles) in poses.chunks(size).zip(middles.chunks(size)) {
+            let of = |value: fn(&PoseRecord) -> f64| {
+                median(group.iter().map(value)).unwrap_or_default() as f32
+            };
+            drift.at.push(group[0].at.to_zoned(zone.clone()));
+            drift.score.push(of(|pose| pose.score));
+            drift.rms_m.push(of(|pose| pose.rms_m));
+            for (axis, offsets) in drift.offset_m.iter_mut().enumerate() {
+                let here = median(middles.iter().flatten().map(|at| at[axis]));
+                let offset = here.zip(usual[axis]).map(|(here, usual)| here - usual);
+                offsets.push(offset.map_or(f32::NAN, |offset| offset as f32));
+            }
+        }
+        Some(drift)
+    }
+
+    /// What a series was at the beginning and at the end: the medians of the first fifth and of the last.
+    fn ends(values: &[f32]) -> Option<[f64; 2]> {
+        let known: Vec<f64> = values
+            .iter()
+            .filter(|x| x.is_finite())
+            .map(|x| f64::from(*x))
+            .collect();
+        let num = known.len().div_ceil(END);
+        let first = median(known.iter().take(num).copied())?;
+        let last = median(known.iter().rev().take(num).copied())?;
+        Some([first, last])
+    }
+}
+
+/// The middle value, the lower of two; `None` of nothing.
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len().checked_sub(1)? / 2).copied()
+}
+
+/// Draws score, fit and place one below the other.
+pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem, theme: &Theme) {
+    heading(
+        ui,
+        theme,
+        &text!("history-drift", part = drift.title.as_str()),
+    );
+    let score = |value: f64| format!("{value:.2}");
+    let length = |value: f64| units.length(value);
+    let [x, y, z] = &drift.offset_m;
+    let colours = [
+        theme.first_series,
+        theme.second_series,
+        theme.reference_series,
+    ];
+    let ends = |values: &[f32], written: &dyn Fn(f64) -> String| {
+        let [first, last] = Drift::ends(values).unwrap_or_default().map(written);
+        text!("history-drift-ends", first = first, last = last)
+    };
+    let name = text!("history-drift-score");
+    let title = format!("{name}: {}", ends(&drift.score, &score));
+    plot(
+        ui,
+        drift,
+        &title,
+        &[("", &drift.score, colours[0])],
+        &score,
+        theme,
+    );
+    let name = text!("history-drift-fit");
+    let title = format!("{name}: {}", ends(&drift.rms_m, &length));
+    plot(
+        ui,
+        drift,
+        &title,
+        &[("", &drift.rms_m, colours[0])],
+        &length,
+        theme,
+    );
+    if x.iter().any(|x| x.is_finite()) {
+        let offset = |value: f64| units.signed_length(value);
+        let moved = [x, y, z].map(|values| {
+            let [first, last] = Drift::ends(values).unwrap_or_default();
+            offset(last - first)
+        });
+        let [dx, dy, dz] = moved;
+        let title = text!("history-drift-place", x = dx, y = dy, z = dz);
+        let curves = [
+            ("x", x, colours[0]),
+            ("y", y, colours[1]),
+            ("z", z, colours[2]),
+        ];
+        let curves = curves.map(|(name, values, colour)| (name, values.as_slice(), colour));
+        plot(ui, drift, &title, &curves, &offset, theme);
+    }
+}
+
+/// A plot over the parts in their order, with dates along it.
+fn plot(
+    ui: &mut Ui,
+    drift: &Drift,
+    title: &str,
+    curves: &[(&str, &[f32], egui::Color32)],
+    written: &dyn Fn(f64) -> String,
+    theme: &Theme,
+) {
+    let size = vec2(ui.available_width(), HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, title));
+    ui.painter().rect_filled(rect, ROUNDING, theme.panel);
+    ui.add_space(space::SMALL);
+    let last = drift.at.len().saturating_sub(1).max(1);
+    let room = (size.x / 110.0).max(1.0) as usize;
+    let step = drift.at.len().div_ceil(room).max(1);
+    let dates = drift.at.iter().enumerate().step_by(step);
+    let dates = dates.map(|(place, at)| (place as f64, at.strftime("%m-%d %H:%M").to_string()));
+    let known = curves.iter().flat_map(|(_, values, _)| *values);
+    let [low, high] = range_of(known.filter(|value| value.is_finite()));
+    // A series that stays the same has a height, too.
+    let spread = (high - low).max(1e-3 * high.abs()).max(1e-6);
+    let [low, high] = [low - 0.05 * spread, high + 0.05 * spread];
+    let axes = Axes {
+        title: vec![(title.to_owned(), theme.text)],
+        across: Axis::new([0.0, last as f64], dates.collect()),
+        up: Axis::new(
+            [low, high],
+            [low, high].map(|value| (value, written(value))).to_vec(),
+        ),
+        font: font::small(),
+        read: Some(Box::new(|across| {
+            let place = (across.round().max(0.0) as usize).min(drift.at.len() - 1);
+            let at = drift.at[place].strftime("%Y-%m-%d %H:%M");
+            let values = curves.iter().map(|(name, values, _)| {
+                let value = f64::from(values[place]);
+                let value = if value.is_finite() {
+                    written(value)
+                } else {
+                    "–".into()
+                };
+                format!("{name} {value}").trim_start().to_owned()
+            });
+            let values: Vec<String> = values.collect();
+            format!("{at}: {}", values.join(", "))
+        })),
+    };
+    let shown = axes.show(ui, rect.shrink(space::MEDIUM), theme, |plot| {
+        for (_, values, colour) in curves {
+            let points = values
+                .iter()
+                .enumerate()
+                .filter(|(_, value)| value.is_finite());
+            let points: PlotPoints<'_> = points
+                .map(|(place, value)| [place as f64, f64::from(*value)])
+                .collect();
+            plot.line(Line::new("", points).color(*colour).width(1.4));
+        }
+    });
+    if curves.len() > 1 {
+        let names = curves
+            .iter()
+            .map(|(name, _, colour)| (*name, *colour, LineStyle::Solid));
+        legend(ui.painter(), &shown, names);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use jiff::{SignedDuration, Timestamp};
+
+    use super::*;
+    use crate::geometry::rigid::from_euler_zyx;
+
+    /// Parts that move away by a tenth of a millimetre each, as seen by a camera that becomes noisier.
+    fn poses(num: usize) -> Vec<PoseRecord> {
+        let pose = |i: usize| PoseRecord {
+            at: Timestamp::UNIX_EPOCH + SignedDuration::from_mins(i as i64),
+            score: 0.99 - 1e-4 * i as f64,
+            reference: if i % 7 == 3 { "gone" } else { "door" }.into(),
+            camera_from_part: from_euler_zyx([0.0, 0.0, 0.0, 0.0, 0.0, 1e-4 * i as f64]),
+            rms_m: 0.001 + 1e-5 * i as f64,
+        };
+        (0..num).map(pose).collect()
+    }
+
+    fn drift(num: usize) -> Option<Drift> {
+        let middle_of = |name: &str| (name == "door").then(|| Point3::new(0.1, 0.2, 1.4));
+        Drift::new("Door".into(), &poses(num), &TimeZone::UTC, middle_of)
+    }
+
+    #[test]
+    fn a_part_that_moves_away_and_a_camera_that_becomes_noisier_show() {
+        let found = drift(100).expect("a drift");
+        assert_eq!((found.num_parts, found.at.len()), (100, 100));
+        let [first, last] = Drift::ends(&found.offset_m[2]).expect("known");
+        // From the median of the first fifth to that of the last.
+        assert!((last - first - 0.008).abs() < 3e-4, "{first} {last}");
+        assert_eq!(Drift::ends(&found.offset_m[0]), Some([0.0, 0.0]));
+        let [first, last] = Drift::ends(&found.rms_m).expect("known");
+        assert!((last - first - 0.0008).abs() < 1e-6, "{first} {last}");
+        // Of a reference that is not enrolled any more nobody knows the middle.
+        assert!(found.offset_m[2][3].is_nan() && found.offset_m[2][4].is_finite());
+    }
+
+    #[test]
+    fn many_parts_are_drawn_in_groups_and_few_are_no_drift() {
+        let found = drift(1000).expect("a drift");
+        assert_eq!((found.num_parts, found.at.len()), (1000, 200));
+        assert!(found.offset_m[2].iter().all(|z| z.is_finite()));
+        assert_eq!(drift(2), None);
+    }
+}
