@@ -45,6 +45,7 @@ use super::{
 };
 use crate::{
     app::language::{Language, text},
+    files::file_of,
     history::{HistoryBuffer, Writer},
     pipeline::{RecipeFolder, open_recipe},
     robot::frame_poses::FRAME_POSES,
@@ -216,6 +217,7 @@ impl Window {
                     workspace.take_scene(scene, title, cx);
                 });
             }
+            Effect::TakeFile(path) => self.take_file(path, ctx),
             Effect::Robot(action) => self.with_robot(ctx, |robot, cx| robot.apply(action, cx)),
             Effect::Tell(event) => self.tell(&event, ctx),
             Effect::EngineerIn(kind) => {
@@ -282,7 +284,7 @@ impl Window {
             Source::Cell(_) | Source::Camera(_) => None,
         };
         if let Some(path) = path
-            && !path.exists()
+            && !file_of(path).exists()
         {
             let gone = UserError {
                 what: text!("shell-gone", path = path.display().to_string()),
@@ -309,23 +311,27 @@ impl Window {
             first.map(|file| file.path().to_owned())
         });
         if let Some(path) = dropped {
-            let is_scan = path.join(FRAME_POSES).is_file();
-            // What is opened elsewhere is inspected.
-            let taker = match self.state.session.workspace {
-                WorkspaceKind::Enrol => WorkspaceKind::Enrol,
-                _ => WorkspaceKind::Inspect,
-            };
-            let is_taken = self.lend(taker, ctx, |workspace, cx| workspace.take_file(&path, cx));
-            if is_taken == Some(true) {
-                return;
-            }
-            let opened = if path.is_dir() && !is_scan {
-                Action::Chosen(DialogRequest::Recording, path)
-            } else {
-                Action::Open(path)
-            };
-            self.act(opened, ctx);
+            self.take_file(path, ctx);
         }
+    }
+
+    /// Enrols it where that is in front; what is opened elsewhere is inspected.
+    fn take_file(&mut self, path: PathBuf, ctx: &egui::Context) {
+        let is_scan = path.join(FRAME_POSES).is_file();
+        let taker = match self.state.session.workspace {
+            WorkspaceKind::Enrol => WorkspaceKind::Enrol,
+            _ => WorkspaceKind::Inspect,
+        };
+        let is_taken = self.lend(taker, ctx, |workspace, cx| workspace.take_file(&path, cx));
+        if is_taken == Some(true) {
+            return;
+        }
+        let opened = if path.is_dir() && !is_scan {
+            Action::Chosen(DialogRequest::Recording, path)
+        } else {
+            Action::Open(path)
+        };
+        self.act(opened, ctx);
     }
 
     /// Takes in what the threads, the dialog and the desktop have to tell.

@@ -117,6 +117,12 @@ impl Advice for BadImportOption {
 }
 
 impl ImportOptions {
+    /// Lengths in millimetres, axes as a camera has them.
+    pub const MILLIMETRES: Self = Self {
+        unit: LengthUnit::Millimetres,
+        up: UpAxis::MinusY,
+    };
+
     /// Takes what stands between two `#` behind a path: false if it is no option but the name of a mesh.
     pub(super) fn take(&mut self, word: &str) -> Result<bool, BadImportOption> {
         let bad = || BadImportOption(word.to_owned());

@@ -177,6 +177,11 @@ fn read_known(source: Source<'_>, mesh_name: Option<&str>) -> Result<FileContent
     }
 }
 
+/// The file that [`open`] reads at `path`, without the words behind it.
+pub fn file_of(path: &Path) -> PathBuf {
+    split_words(path).0
+}
+
 /// The file in `path` and the words behind it: the longest part before a `#` that is a file wins.
 fn split_words(path: &Path) -> (PathBuf, Option<String>) {
     let whole = (path.to_owned(), None);

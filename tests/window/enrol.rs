@@ -1,6 +1,6 @@
 //! The Enrol workspace, by what a person reads and presses. No graphics adapter is needed.
 
-use std::path::Path;
+use std::{fs, path::Path};
 
 use egui::{Key, Modifiers, Pos2, Role, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -394,6 +394,41 @@ fn a_dropped_mesh_is_enrolled_whole() {
     let saved = state(&harness).session.library.as_ref().expect("loaded");
     assert_eq!(saved.parts[0].enrolled.from, "grille.obj");
     assert!(!saved.parts[0].simulated);
+}
+
+#[test]
+fn a_mesh_in_millimetres_is_read_again_as_the_notice_offers() {
+    let library = library();
+    let files = tempfile::tempdir().expect("a folder");
+    let path = files.path().join("grille.obj");
+    write_mesh(&path, PartKind::Grille);
+    let in_metres = fs::read_to_string(&path).expect("written");
+    let thousandfold = |line: &str| match line.strip_prefix("v ") {
+        Some(numbers) => {
+            let numbers = numbers
+                .split_whitespace()
+                .map(|x| x.parse::<f64>().expect("a number"));
+            let numbers: Vec<String> = numbers.map(|x| (1000.0 * x).to_string()).collect();
+            format!("v {}\n", numbers.join(" "))
+        }
+        None => format!("{line}\n"),
+    };
+    let in_millimetres: String = in_metres.lines().map(thousandfold).collect();
+    fs::write(&path, in_millimetres).expect("written");
+    let mut harness = open(library.path());
+    drop_file(&mut harness, &path);
+    assert!(notices(&harness)[0].contains("may be in millimetres"));
+    press(&mut harness, "Read as millimetres");
+    assert!(
+        notices(&harness)
+            .iter()
+            .all(|notice| !notice.contains("millimetres"))
+    );
+    harness.get_by_label("Seen from all around");
+    write(&mut harness, "Title", "Grille of the maker");
+    press(&mut harness, "Save");
+    let saved = state(&harness).session.library.as_ref().expect("loaded");
+    assert_eq!(saved.parts[0].enrolled.from, "grille.obj#units=mm");
 }
 
 #[cfg(target_os = "linux")]

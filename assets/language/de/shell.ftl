@@ -164,6 +164,7 @@ shell-ok = OK
 ## Notices and closing
 
 shell-dismiss = Ausblenden
+shell-read-in-millimetres = Als Millimeter lesen
 shell-undo = Rückgängig
 shell-close-without-saving = Ohne Speichern schließen?
 shell-keep-open = Fenster offen lassen

@@ -164,6 +164,7 @@ shell-ok = OK
 ## Notices and closing
 
 shell-dismiss = Dismiss
+shell-read-in-millimetres = Read as millimetres
 shell-undo = Undo
 shell-close-without-saving = Close without saving?
 shell-keep-open = Keep the window open

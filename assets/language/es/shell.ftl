@@ -164,6 +164,7 @@ shell-ok = Aceptar
 ## Notices and closing
 
 shell-dismiss = Descartar
+shell-read-in-millimetres = Leer como milímetros
 shell-undo = Deshacer
 shell-close-without-saving = ¿Cerrar sin guardar?
 shell-keep-open = Mantener la ventana abierta

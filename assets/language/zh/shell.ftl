@@ -152,6 +152,7 @@ shell-ok = 确定
 ## Notices and closing
 
 shell-dismiss = 忽略
+shell-read-in-millimetres = 按毫米读取
 shell-undo = 撤销
 shell-close-without-saving = 不保存就关闭？
 shell-keep-open = 保持窗口打开

@@ -58,6 +58,8 @@ pub enum Action {
     ToggleHelp,
     /// Take a notice away.
     Dismiss(usize),
+    /// Open the file of this notice again, read as it offers.
+    Reread(usize),
     /// Show a notice.
     Notify(Notice),
     /// Close the window.
@@ -114,6 +116,8 @@ pub enum Effect {
     CancelTask(WorkspaceKind),
     /// Have the workspace in front take this.
     Take(SceneOrScan, String),
+    /// Have this file inspected, or enrolled while that is in front.
+    TakeFile(PathBuf),
     /// Have this done about the robot's cell.
     Robot(RobotAction),
     /// Tell every workspace.
@@ -176,6 +180,12 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Dismiss(place) => {
             if place < state.notices.len() {
                 state.notices.remove(place);
+            }
+        }
+        Action::Reread(place) => {
+            if place < state.notices.len() {
+                let notice = state.notices.remove(place);
+                return notice.in_millimetres.map(Effect::TakeFile);
             }
         }
         Action::Notify(notice) => notify(state, notice),

@@ -29,7 +29,7 @@ use crate::{
         task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
         user_error::UserError,
     },
-    capture::SourceSpec,
+    capture::{CaptureWarning, SourceSpec},
     history::{HungId, StoredVerdict, Traceability},
     stages::scene::EmptyCell,
 };
@@ -424,7 +424,13 @@ pub(in crate::app) fn show_made(state: &mut State, inspected: Arc<Inspected>) ->
 
 fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
     for warning in &inspected.warnings {
-        notify(state, UserError::of(warning).into());
+        let notice = match (warning, &inspected.origin) {
+            (CaptureWarning::File(warning), Origin::File { path, .. }) => {
+                Notice::of_file(path, warning)
+            }
+            _ => UserError::of(warning).into(),
+        };
+        notify(state, notice);
     }
     state.use_library(&inspected.library);
     let shots = inspected.scan.as_ref();

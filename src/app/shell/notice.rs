@@ -1,6 +1,11 @@
 //! What a person should know: the notices in the strip below the work.
 
-use crate::app::user_error::UserError;
+use std::path::{Path, PathBuf};
+
+use crate::{
+    app::user_error::UserError,
+    files::{FileWarning, import::ImportOptions},
+};
 
 /// What a notice is about.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,6 +28,8 @@ pub struct Notice {
     pub what: String,
     /// What to do about it; may be empty.
     pub advice: String,
+    /// The file that it is about, as it can be read in millimetres instead.
+    pub in_millimetres: Option<PathBuf>,
 }
 
 impl Notice {
@@ -32,7 +39,19 @@ impl Notice {
             kind: NoticeKind::Look,
             what: what.into(),
             advice: advice.into(),
+            in_millimetres: None,
         }
+    }
+
+    /// What is odd about a file.
+    pub fn of_file(path: &Path, warning: &FileWarning) -> Self {
+        let mut notice = Self::from(UserError::of(warning));
+        if matches!(warning, FileWarning::TooWideForMetres { .. }) {
+            let mut again = path.as_os_str().to_owned();
+            again.push(ImportOptions::MILLIMETRES.suffix());
+            notice.in_millimetres = Some(again.into());
+        }
+        notice
     }
 
     /// Something was done.
@@ -41,6 +60,7 @@ impl Notice {
             kind: NoticeKind::Done,
             what: what.into(),
             advice: String::new(),
+            in_millimetres: None,
         }
     }
 
@@ -59,6 +79,7 @@ impl From<UserError> for Notice {
             kind: NoticeKind::Look,
             what,
             advice,
+            in_millimetres: None,
         }
     }
 }

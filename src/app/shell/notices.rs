@@ -131,6 +131,7 @@ fn plate(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mu
 
 fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut Vec<Action>) {
     let (dismiss, undo) = (text!("shell-dismiss"), text!("shell-undo"));
+    let reread = text!("shell-read-in-millimetres");
     ui.horizontal(|ui| {
         ui.set_min_height(space::TARGET);
         let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
@@ -142,6 +143,10 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if labelled(ui, Button::new(&*dismiss), &dismiss).clicked() {
                 actions.push(Action::Dismiss(place));
+            }
+            let is_offered = notice.in_millimetres.is_some();
+            if is_offered && labelled(ui, Button::new(&*reread), &reread).clicked() {
+                actions.push(Action::Reread(place));
             }
             let is_undoable = notice.kind == NoticeKind::Undoable;
             if is_undoable && labelled(ui, Button::new(&*undo), &undo).clicked() {

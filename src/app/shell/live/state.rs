@@ -13,7 +13,7 @@ use crate::{
         shell::{
             action::{DialogRequest, Effect, notify},
             message::{Event, ReinspectionPurpose},
-            notice::{Notice, NoticeKind},
+            notice::Notice,
             session::{Session, Shown, Source, WorkspaceKind},
             state::State,
         },
@@ -165,12 +165,7 @@ fn start(state: &mut State) {
             Source::Scan(_) => text!("live-scan-cannot"),
             _ => text!("live-file-cannot"),
         };
-        let notice = Notice {
-            kind: NoticeKind::Look,
-            what,
-            advice: text!("live-cannot-advice"),
-        };
-        notify(state, notice);
+        notify(state, Notice::look(what, text!("live-cannot-advice")));
         return;
     }
     state.follower.session += 1;

@@ -43,6 +43,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::Speak(_)
         | Action::ToggleHelp
         | Action::Dismiss(_)
+        | Action::Reread(_)
         | Action::Notify(_)
         | Action::Quit
         | Action::CloseAnyway

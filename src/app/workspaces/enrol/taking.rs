@@ -12,9 +12,13 @@ use super::{
     work,
 };
 use crate::app::{
-    inspection::{inspected::SceneOrScan, scan_choice::ScanOrder, source::SceneSource},
+    inspection::{
+        inspected::SceneOrScan,
+        scan_choice::ScanOrder,
+        source::{Origin, SceneSource},
+    },
     language::text,
-    shell::{context::ShellContext, message::Message, session::Source},
+    shell::{context::ShellContext, message::Message, notice::Notice, session::Source},
     shots::{Asked, ShotsAction, ShotsFile, source_of},
     user_error::UserError,
 };
@@ -105,7 +109,10 @@ impl EnrolState {
         cx: &mut ShellContext<'_>,
     ) {
         for warning in &subject.warnings {
-            cx.notify(UserError::of(warning));
+            cx.notify(match &subject.origin {
+                Origin::File { path, .. } => Notice::of_file(path, warning),
+                _ => UserError::of(warning).into(),
+            });
         }
         for warning in subject.scan().map_or(&[][..], |fused| &fused.warnings) {
             cx.notify(warning.clone());
