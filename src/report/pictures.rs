@@ -36,7 +36,13 @@ pub(super) const DIM: Rgb<u8> = Rgb([96, 104, 116]);
 pub(super) const FAINT: Rgb<u8> = Rgb([52, 60, 72]);
 /// Told apart by brightness as well as by hue, for those who see few colours.
 pub(super) const PART: Rgb<u8> = Rgb([255, 196, 61]);
-const OUTLINE: Rgb<u8> = Rgb([255, 196, 61]);
+/// Of what is also printed: dark on white.
+const PAPER: Rgb<u8> = Rgb([255; 3]);
+const INK: Rgb<u8> = Rgb([24, 27, 32]);
+const PAPER_OUTLINE: Rgb<u8> = Rgb([170, 96, 0]);
+const PAPER_OPENING: Rgb<u8> = Rgb([16, 88, 176]);
+const PAPER_RAY: Rgb<u8> = Rgb([176, 182, 190]);
+const PAPER_RULE: Rgb<u8> = Rgb([222, 226, 231]);
 pub(super) const OPENING: Rgb<u8> = Rgb([96, 176, 255]);
 const PLANES: [Rgb<u8>; 4] = [
     Rgb([44, 82, 130]),
@@ -44,6 +50,38 @@ const PLANES: [Rgb<u8>; 4] = [
     Rgb([104, 70, 120]),
     Rgb([120, 84, 60]),
 ];
+
+/// What a picture of the segmentation is coloured with.
+struct Palette {
+    no_reading: Rgb<u8>,
+    planes: [Rgb<u8>; 4],
+    rest: Rgb<u8>,
+    part: Rgb<u8>,
+    /// How bright the farthest is beside the nearest, 0..1.
+    farthest: f32,
+}
+
+const ON_SCREEN: Palette = Palette {
+    no_reading: Rgb([0; 3]),
+    planes: PLANES,
+    rest: Rgb([190; 3]),
+    part: PART,
+    farthest: 0.55,
+};
+
+/// Large areas are pale: they take little ink, and the part stands out.
+const ON_PAPER: Palette = Palette {
+    no_reading: PAPER,
+    planes: [
+        Rgb([206, 219, 237]),
+        Rgb([204, 229, 222]),
+        Rgb([228, 216, 234]),
+        Rgb([236, 224, 212]),
+    ],
+    rest: Rgb([160; 3]),
+    part: Rgb([222, 140, 0]),
+    farthest: 0.8,
+};
 
 /// Writes a picture, all of it or nothing.
 pub fn write_png(path: &Path, picture: &RgbImage) -> Result<(), FileError> {
@@ -56,7 +94,8 @@ pub fn write_png(path: &Path, picture: &RgbImage) -> Result<(), FileError> {
     })
 }
 
-/// Pictures of the stages that ran: segmentation (of an organised scene), binary image, contour, signature.
+/// Pictures of the stages that ran, to be printed, too: segmentation (of an organised scene), binary image, contour,
+/// signature.
 pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Picture> {
     let picture = |stage, image: Option<RgbImage>| image.map(|image| Picture { stage, image });
     let plane = inspection.plane.as_ref();
@@ -64,7 +103,7 @@ pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Pictur
     [
         picture(
             "segmentation",
-            segmentation_picture(scene, &inspection.segmentation),
+            coloured(scene, &inspection.segmentation, &ON_PAPER),
         ),
         picture("binary", plane.map(binary_picture)),
         picture(
@@ -96,7 +135,7 @@ pub fn strip(pictures: &[Picture]) -> RgbImage {
         .map(|s| s.width() + GAP)
         .sum::<u32>()
         .saturating_sub(GAP);
-    let mut strip = RgbImage::from_pixel(width, HEIGHT, DARK);
+    let mut strip = RgbImage::from_pixel(width, HEIGHT, PAPER);
     let mut left = 0;
     for picture in &scaled {
         replace(&mut strip, picture, i64::from(left), 0);
@@ -107,6 +146,14 @@ pub fn strip(pictures: &[Picture]) -> RgbImage {
 
 /// What every pixel was taken for; nearer is brighter. `None` for a scene without rows and columns.
 pub fn segmentation_picture(scene: &SceneCloud, segmentation: &Segmentation) -> Option<RgbImage> {
+    coloured(scene, segmentation, &ON_SCREEN)
+}
+
+fn coloured(
+    scene: &SceneCloud,
+    segmentation: &Segmentation,
+    palette: &Palette,
+) -> Option<RgbImage> {
     let grid = scene.cloud.grid?;
     let depths = || scene.cloud.finite().map(|(_, p)| p.z);
     let (nearest, farthest) = (
@@ -117,18 +164,20 @@ pub fn segmentation_picture(scene: &SceneCloud, segmentation: &Segmentation) -> 
     let colour_of = |i: usize| {
         let Rgb(base) = match segmentation.labels.get(i)? {
             PointLabel::NoReading => return None,
-            PointLabel::Background(plane) => PLANES[usize::from(*plane) % PLANES.len()],
-            PointLabel::Rest => Rgb([190, 190, 190]),
-            PointLabel::Part => PART,
+            PointLabel::Background(plane) => {
+                palette.planes[usize::from(*plane) % palette.planes.len()]
+            }
+            PointLabel::Rest => palette.rest,
+            PointLabel::Part => palette.part,
         };
         let nearness = 1.0 - (scene.cloud.points[i].z - nearest) / range;
-        let brightness = 0.55 + 0.45 * nearness;
+        let brightness = palette.farthest + (1.0 - palette.farthest) * nearness;
         Some(Rgb(base.map(|c| (f32::from(c) * brightness) as u8)))
     };
     Some(RgbImage::from_fn(
         grid.width as u32,
         grid.height as u32,
-        |u, v| colour_of(v as usize * grid.width + u as usize).unwrap_or(Rgb([0; 3])),
+        |u, v| colour_of(v as usize * grid.width + u as usize).unwrap_or(palette.no_reading),
     ))
 }
 
@@ -158,7 +207,7 @@ fn scale_of(plane: &PlaneImage) -> usize {
 /// The outline, the openings, the centroid and every fourth ray.
 fn fan(plane: &PlaneImage, contour: &Contour, signature: Option<&FanSignature>) -> RgbImage {
     let scale = scale_of(plane);
-    let mut canvas = Canvas::new(plane.image.width * scale, plane.image.height * scale, DARK);
+    let mut canvas = Canvas::new(plane.image.width * scale, plane.image.height * scale, PAPER);
     let place = |p: &Point2<f64>| {
         let (u, v) = plane.pixel_of(p);
         [(u + 0.5) * scale as f64, (v + 0.5) * scale as f64]
@@ -166,7 +215,7 @@ fn fan(plane: &PlaneImage, contour: &Contour, signature: Option<&FanSignature>) 
     if let Some(signature) = signature {
         let centroid = place(&signature.centroid);
         for ray in signature.rays.iter().step_by(4) {
-            canvas.line(centroid, place(&(signature.centroid + ray)), DIM);
+            canvas.line(centroid, place(&(signature.centroid + ray)), PAPER_RAY);
         }
     }
     let closed = |border: &[Point2<f64>]| {
@@ -174,17 +223,17 @@ fn fan(plane: &PlaneImage, contour: &Contour, signature: Option<&FanSignature>) 
         border.iter().copied().chain(again).collect::<Vec<_>>()
     };
     for opening in &contour.openings {
-        canvas.polyline(closed(opening).iter().map(place), (1.5, &[]), OPENING);
+        canvas.polyline(closed(opening).iter().map(place), (1.5, &[]), PAPER_OPENING);
     }
     canvas.polyline(
         closed(&contour.outline).iter().map(place),
-        (1.5, &[]),
-        OUTLINE,
+        (2.0, &[]),
+        PAPER_OUTLINE,
     );
     if let Some(signature) = signature {
-        canvas.dot(place(&signature.centroid), 5.0, LIGHT);
+        canvas.dot(place(&signature.centroid), 5.0, INK);
         if let Some(first) = signature.rays.first() {
-            canvas.dot(place(&(signature.centroid + first)), 4.0, LIGHT);
+            canvas.dot(place(&(signature.centroid + first)), 4.0, INK);
         }
     }
     canvas.finish()
@@ -196,7 +245,7 @@ const CURVE: [usize; 2] = [800, 200];
 /// L above, Θ below, each over the rays in their order; the faint lines are quarters of the range.
 fn curves(signature: &FanSignature) -> RgbImage {
     let [width, height] = CURVE;
-    let mut canvas = Canvas::new(width, 2 * height, DARK);
+    let mut canvas = Canvas::new(width, 2 * height, PAPER);
     let halves = [
         (0, signature.lengths(), true),
         (1, signature.angles(), false),
@@ -213,7 +262,7 @@ fn curves(signature: &FanSignature) -> RgbImage {
         let room = height as f64 - 16.0;
         for quarter in 0..=4 {
             let y = top + room * f64::from(quarter) / 4.0;
-            canvas.line([0.0, y], [width as f64, y], FAINT);
+            canvas.line([0.0, y], [width as f64, y], PAPER_RULE);
         }
         let last = values.len().saturating_sub(1).max(1) as f64;
         let place = |(i, value): (usize, &f64)| {
@@ -222,8 +271,12 @@ fn curves(signature: &FanSignature) -> RgbImage {
                 top + room * (1.0 - (value - low) / range),
             ]
         };
-        let colour = if from_zero { OUTLINE } else { OPENING };
-        canvas.polyline(values.iter().enumerate().map(place), (1.5, &[]), colour);
+        let colour = if from_zero {
+            PAPER_OUTLINE
+        } else {
+            PAPER_OPENING
+        };
+        canvas.polyline(values.iter().enumerate().map(place), (2.0, &[]), colour);
     }
     canvas.finish()
 }

@@ -27,7 +27,7 @@ const GAP: f32 = 20.0;
 const RIGHT: f32 = WIDTH - LEFT - GAP;
 
 const BLACK: Ink = [24, 27, 32];
-const GREY: Ink = [96, 104, 116];
+const GREY: Ink = [72, 80, 92];
 const RULE: Ink = [205, 210, 217];
 const PALE: Ink = [241, 243, 246];
 const GREEN: Ink = [22, 120, 62];
@@ -39,10 +39,15 @@ const fn style(size: f32, weight: Weight, ink: Ink) -> Style {
     Style { size, weight, ink }
 }
 
-const SMALL: Style = style(7.5, Weight::Regular, GREY);
+const SMALL: Style = style(8.0, Weight::Regular, GREY);
 const BODY: Style = style(9.0, Weight::Regular, BLACK);
 const STRONG: Style = style(9.0, Weight::Bold, BLACK);
 const HEADING: Style = style(10.5, Weight::Bold, BLACK);
+
+/// A number with a true minus: it is read here, and taken over by machines from JSON or CSV.
+fn typeset(number: &str) -> String {
+    number.replace('-', "\u{2212}")
+}
 
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]

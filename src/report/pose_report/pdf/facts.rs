@@ -1,8 +1,8 @@
 //! The right column: the picture of the scene and the figures; and the foot of the page.
 
 use super::{
-    Anchor, Area, BLACK, BODY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RED, RULE, SMALL, STRONG,
-    Sheet, WIDTH, Weight, style,
+    Anchor, Area, BLACK, BODY, GREY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RED, RULE, SMALL,
+    STRONG, Sheet, WIDTH, Weight, style, typeset,
 };
 use crate::report::pose_report::{
     FitBlock, MiddleBlock, PoseBlock, PoseReport, SeenBy, StandOffBlock,
@@ -130,7 +130,7 @@ impl Rows<'_, '_> {
         self.heading("Off its standard position");
         let axes = ["x, to the right", "y, down", "z, away"];
         for (axis, metres) in axes.into_iter().zip(middle.moved_m) {
-            self.row(axis, &format!("{:+.1} mm", metres * 1000.0));
+            self.row(axis, &typeset(&format!("{:+.1} mm", metres * 1000.0)));
         }
         self.row("turned", &format!("{:.2}°", middle.turned_in_all_deg));
         self.note("The part's middle as the camera sees it; for people, not for a robot.");
@@ -160,7 +160,7 @@ impl Rows<'_, '_> {
     }
 
     fn stand_off(&mut self, found: &StandOffBlock) {
-        let mm = |metres: f64| format!("{:.0}", metres * 1000.0);
+        let mm = |metres: f64| typeset(&format!("{:.0}", metres * 1000.0));
         self.heading("Stand-off of the taught path");
         self.row(
             "mean, worst",
@@ -254,8 +254,8 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
         for (name, value) in facts {
             let style = style(8.0, Weight::Regular, BLACK);
             sheet.text(name, [left, y], SMALL, Anchor::Left);
-            let value = sheet.faces.fitted(value, WIDTH / 2.0 - 72.0, style);
-            sheet.text(&value, [left + 54.0, y], style, Anchor::Left);
+            let value = sheet.faces.fitted(value, WIDTH / 2.0 - 76.0, style);
+            sheet.text(&value, [left + 58.0, y], style, Anchor::Left);
             y += 12.0;
         }
     }
@@ -264,10 +264,17 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
         let y = top + 14.0 + 4.0 * 12.0;
         sheet.text("Part", [MARGIN + 8.0, y], SMALL, Anchor::Left);
         let trace = sheet.faces.fitted(&trace.join(" · "), WIDTH - 72.0, style);
-        sheet.text(&trace, [MARGIN + 62.0, y], style, Anchor::Left);
+        sheet.text(&trace, [MARGIN + 66.0, y], style, Anchor::Left);
     }
     sheet.line(&[[MARGIN, top], [MARGIN + WIDTH, top]], 0.75, RULE);
-    top - 6.0
+    let y = top - 10.0;
+    for (name, left, right) in [("Checked by", 0.0, 300.0), ("Date", 316.0, WIDTH)] {
+        sheet.text(name, [MARGIN + left, y], SMALL, Anchor::Left);
+        let begin = left + sheet.faces.width(name, SMALL) + 6.0;
+        let line = [[MARGIN + begin, y + 2.0], [MARGIN + right, y + 2.0]];
+        sheet.line(&line, 0.5, GREY);
+    }
+    y - 26.0
 }
 
 /// Where the report does not name it.

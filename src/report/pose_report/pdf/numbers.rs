@@ -2,6 +2,7 @@
 
 use super::{
     AMBER, Anchor, Area, BLACK, BODY, GREY, HEADING, RULE, SMALL, STRONG, Sheet, Weight, style,
+    typeset,
 };
 use crate::{
     report::pose_report::{PoseBlock, PoseReport, TransformBlock},
@@ -13,9 +14,12 @@ const LINE: f32 = 12.5;
 /// Everything that the pose is.
 pub(super) fn column(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Area) {
     let y = robot(sheet, report, pose, area);
+    let robot = &report.robot;
+    let is_shown = robot.robot_from_part.is_none() && robot.convention == Convention::Matrix;
     camera(
         sheet,
         pose,
+        is_shown,
         Area {
             top: y + 12.0,
             ..area
@@ -129,7 +133,7 @@ fn table(sheet: &mut Sheet<'_>, shown: &[&TransformBlock], area: Area) -> f32 {
         for (column, block) in shown.iter().enumerate() {
             if let Some(value) = block.in_convention.values.get(row) {
                 sheet.text(
-                    &value.rounded(),
+                    &typeset(&value.rounded()),
                     [right(column), y],
                     style(10.0, Weight::Regular, BLACK),
                     Anchor::Right,
@@ -140,29 +144,34 @@ fn table(sheet: &mut Sheet<'_>, shown: &[&TransformBlock], area: Area) -> f32 {
     y
 }
 
-/// The pose before the camera.
-fn camera(sheet: &mut Sheet<'_>, pose: &PoseBlock, area: Area) {
+/// The pose before the camera; without its matrix where that stands above.
+fn camera(sheet: &mut Sheet<'_>, pose: &PoseBlock, is_shown: bool, area: Area) {
     let block = &pose.camera_from_part;
     let mut y = area.top;
-    sheet.text(block.name, [area.left, y], HEADING, Anchor::Left);
-    y = matrix(
-        sheet,
-        block,
-        Area {
-            top: y + 6.0,
-            ..area
-        },
-    ) + LINE
-        + 1.0;
-    let text = "4×4, row after row; x y z in metres in the fourth column. Takes a point of the enrolled part to where it is \
-                before the camera now: x right, y down, z forward.";
-    y = sheet.paragraph(text, [area.left, y], area.width, SMALL, 3) + 4.0;
+    if is_shown {
+        let text = "x right, y down, z forward. The same as a quaternion:";
+        y = sheet.paragraph(text, [area.left, y - 10.0], area.width, SMALL, 1) + 4.0;
+    } else {
+        sheet.text(block.name, [area.left, y], HEADING, Anchor::Left);
+        y = matrix(
+            sheet,
+            block,
+            Area {
+                top: y + 6.0,
+                ..area
+            },
+        ) + LINE
+            + 1.0;
+        let text = "4×4, row after row; x y z in metres in the fourth column. Takes a point of the enrolled part to where it is \
+                    before the camera now: x right, y down, z forward.";
+        y = sheet.paragraph(text, [area.left, y], area.width, SMALL, 3) + 4.0;
+    }
     let values = &block.quaternion.values;
     let line = |names: &[&str], values: &[f64], decimals: usize| {
         let parts = names
             .iter()
             .zip(values)
-            .map(|(name, value)| format!("{name} {value:.decimals$}"));
+            .map(|(name, value)| typeset(&format!("{name} {value:.decimals$}")));
         parts.collect::<Vec<_>>().join("   ")
     };
     if let ([names_at @ .., _, _, _, _], [at @ .., _, _, _, _]) =
@@ -202,7 +211,8 @@ fn matrix(sheet: &mut Sheet<'_>, block: &TransformBlock, area: Area) -> f32 {
         y += LINE;
         for (column, value) in row.iter().enumerate() {
             let right = area.left + (column + 1) as f32 * area.width / 4.0;
-            sheet.text(&format!("{value:.6}"), [right, y], BODY, Anchor::Right);
+            let number = typeset(&format!("{value:.6}"));
+            sheet.text(&number, [right, y], BODY, Anchor::Right);
         }
     }
     y
