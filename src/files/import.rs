@@ -194,13 +194,18 @@ mod tests {
     #[test]
     fn lengths_come_in_metres_and_axes_as_a_camera_has_them() {
         let text = "100 200 1500\n0 0 1\n0 1 1\n";
-        assert_eq!(first(text, "#units=mm"), Point3::new(0.1, 0.2, 1.5));
-        assert_eq!(first(text, "#units=cm"), Point3::new(1.0, 2.0, 15.0));
-        let inches = first(text, "#units=in");
-        assert!((inches - Point3::new(2.54, 5.08, 38.1)).norm() < 1e-5);
-        assert_eq!(first(text, "#up=y"), Point3::new(100.0, -200.0, -1500.0));
-        assert_eq!(first(text, "#up=z"), Point3::new(100.0, -1500.0, 200.0));
-        assert_eq!(first(text, "#units=mm#up=z"), Point3::new(0.1, -1.5, 0.2));
+        let expected = [
+            ("#units=mm", [0.1, 0.2, 1.5]),
+            ("#units=cm", [1.0, 2.0, 15.0]),
+            ("#units=in", [2.54, 5.08, 38.1]),
+            ("#up=y", [100.0, -200.0, -1500.0]),
+            ("#up=z", [100.0, -1500.0, 200.0]),
+            ("#units=mm#up=z", [0.1, -1.5, 0.2]),
+        ];
+        for (suffix, at) in expected {
+            let off = (first(text, suffix) - Point3::from(at)).norm();
+            assert!(off < 1e-5, "{suffix}: {off}");
+        }
         assert_eq!(first(text, "#up=-y#units=m"), first(text, ""));
     }
 
