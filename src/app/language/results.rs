@@ -62,6 +62,7 @@ pub(in crate::app) fn keep_frames(keep: KeepFrames) -> String {
 }
 
 /// Why a best guess is not accepted.
+#[expect(clippy::too_many_lines, reason = "one text for each reason")]
 pub(in crate::app) fn rejection(why: &Rejection) -> String {
     match why {
         Rejection::LowScore {

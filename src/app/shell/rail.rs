@@ -36,7 +36,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
                 };
                 let icon = rect.center() - vec2(0.0, 9.0);
                 sign(painter, workspace, icon, Stroke::new(1.6, colour));
-                label(painter, rect, workspace.title(), colour);
+                label(painter, rect, &workspace.title(), colour);
                 focus_ring(ui, rect, &response, theme);
                 response.widget_info(|| {
                     let label = workspace.title();
@@ -56,8 +56,8 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
 }
 
 /// The name below a sign, smaller where it is long in a language.
-pub(super) fn label(painter: &Painter, rect: Rect, name: String, colour: Color32) {
-    let laid_out = |font| painter.layout_no_wrap(name.clone(), font, colour);
+pub(super) fn label(painter: &Painter, rect: Rect, name: &str, colour: Color32) {
+    let laid_out = |font| painter.layout_no_wrap(name.to_owned(), font, colour);
     let mut galley = laid_out(font::small());
     if galley.size().x > rect.width() - space::SMALL {
         galley = laid_out(font::scale());

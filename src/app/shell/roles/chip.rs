@@ -25,7 +25,7 @@ pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &
         let painter = ui.painter();
         let stroke = Stroke::new(1.6, colour);
         lock(painter, rect.center() - vec2(0.0, 9.0), role, stroke);
-        rail::label(painter, rect, role.title(), colour);
+        rail::label(painter, rect, &role.title(), colour);
         focus_ring(ui, rect, &response, theme);
         let says = match role {
             UserRole::Operator => text!("shell-operators-view"),
