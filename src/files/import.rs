@@ -136,14 +136,9 @@ impl ImportOptions {
 
     /// What is to be written behind a path; empty for the usual.
     pub fn suffix(self) -> String {
-        let mut suffix = String::new();
-        if self.unit != LengthUnit::default() {
-            suffix += &format!("#units={}", self.unit.name());
-        }
-        if self.up != UpAxis::default() {
-            suffix += &format!("#up={}", self.up.name());
-        }
-        suffix
+        let unit = (self.unit != LengthUnit::default()).then(|| ["#units=", self.unit.name()]);
+        let up = (self.up != UpAxis::default()).then(|| ["#up=", self.up.name()]);
+        [unit, up].into_iter().flatten().flatten().collect()
     }
 
     /// The content in metres and camera space; a depth image is that already.

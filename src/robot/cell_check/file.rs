@@ -181,6 +181,11 @@ impl CellCheckFolder {
 
     /// The baseline.
     pub fn baseline(&self) -> Result<CellBaseline, CellCheckError> {
+        /// The one line that every version has.
+        #[derive(Deserialize)]
+        struct Versioned {
+            schema_version: u32,
+        }
         let path = self.path.join(BASELINE);
         let bad = |found: String| CellCheckError::Bad {
             path: path.clone(),
@@ -202,11 +207,6 @@ impl CellCheckFolder {
                 .unwrap_or("no TOML")
                 .to_owned())
         };
-        /// The one line that every version has.
-        #[derive(Deserialize)]
-        struct Versioned {
-            schema_version: u32,
-        }
         let Versioned { schema_version } = toml::from_str(&text).map_err(first_line)?;
         if schema_version > SCHEMA_VERSION {
             return Err(CellCheckError::Newer {

@@ -154,7 +154,7 @@ impl CellBaseline {
         };
         let target = alone.prepared()?;
         for (i, view) in others.iter().enumerate() {
-            let (moved, _) = alone.moved(view, &target, i + 2)?;
+            let (moved, _) = Self::moved(view, &target, i + 2)?;
             let moved = pose_error(&moved, &RigidTransform::identity(), &alone.middle());
             if !limits.allow(&moved) {
                 return Err(CellViewError::Moving {
@@ -196,7 +196,6 @@ impl CellBaseline {
 
     /// Takes the baseline's part to where it is in a view, and how well it lies there.
     fn moved(
-        &self,
         view: &CellView,
         target: &PreparedTarget,
         frame: usize,
@@ -250,7 +249,7 @@ impl CellBaseline {
         let target = self.prepared()?;
         let mut found: Vec<(f64, RigidTransform, f64)> = Vec::with_capacity(views.len());
         for (i, view) in views.iter().enumerate() {
-            let (moved, found_there) = self.moved(view, &target, i + 1)?;
+            let (moved, found_there) = Self::moved(view, &target, i + 1)?;
             let off = pose_error(&moved, &RigidTransform::identity(), &middle);
             found.push((self.share_of_limits(&off), moved, found_there.fit.rms_m));
         }
