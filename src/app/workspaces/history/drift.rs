@@ -131,7 +131,7 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem, theme: &Theme) {
         drift,
         &title,
         &[("", &drift.score, colours[0])],
-        &score,
+        (&score, 0.1),
         theme,
     );
     let name = text!("history-drift-fit");
@@ -141,7 +141,7 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem, theme: &Theme) {
         drift,
         &title,
         &[("", &drift.rms_m, colours[0])],
-        &length,
+        (&length, 0.002),
         theme,
     );
     if x.iter().any(|x| x.is_finite()) {
@@ -158,17 +158,17 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem, theme: &Theme) {
             ("z", z, colours[2]),
         ];
         let curves = curves.map(|(name, values, colour)| (name, values.as_slice(), colour));
-        plot(ui, drift, &title, &curves, &offset, theme);
+        plot(ui, drift, &title, &curves, (&offset, 0.02), theme);
     }
 }
 
-/// A plot over the parts in their order, with dates along it.
+/// A plot over the parts in their order, with dates along it; its height shows at least this span.
 fn plot(
     ui: &mut Ui,
     drift: &Drift,
     title: &str,
     curves: &[(&str, &[f32], egui::Color32)],
-    written: &dyn Fn(f64) -> String,
+    (written, least_span): (&dyn Fn(f64) -> String, f64),
     theme: &Theme,
 ) {
     let size = vec2(ui.available_width(), HEIGHT);
@@ -183,9 +183,9 @@ fn plot(
     let dates = dates.map(|(place, at)| (place as f64, at.strftime("%m-%d %H:%M").to_string()));
     let known = curves.iter().flat_map(|(_, values, _)| *values);
     let [low, high] = range_of(known.filter(|value| value.is_finite()));
-    // A series that stays the same has a height, too.
-    let spread = (high - low).max(1e-3 * high.abs()).max(1e-6);
-    let [low, high] = [low - 0.05 * spread, high + 0.05 * spread];
+    // Noise alone is not drawn as large as a drift.
+    let spare = 0.5 * (least_span - (high - low)).max(0.1 * (high - low));
+    let [low, high] = [low - spare, high + spare];
     let axes = Axes {
         title: vec![(title.to_owned(), theme.text)],
         across: Axis::new([0.0, last as f64], dates.collect()),
