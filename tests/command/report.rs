@@ -126,6 +126,7 @@ fn one_bad_file_does_not_stop_the_reports_of_the_others() {
             .as_array()
             .expect("values");
         let x = format!("{:.3}", values[0]["value"].as_f64().expect("a number"));
+        let x = x.replace('-', "\u{2212}");
         assert!(text.contains(&x), "{x}\n{text}");
     }
     if let Some(text) = page_text(&place.path("out/other.pose.pdf")) {
