@@ -14,8 +14,8 @@ use super::{
 };
 use crate::{
     files::{
-        disk, in_counting_order, new_folder, open_lock, open_regular, sync_folder, user_folders,
-        words_of, write_file,
+        disk, in_counting_order, lock_exclusively, new_folder, open_regular, sync_folder,
+        user_folders, words_of, write_file,
     },
     history::{FrameRecord, read_frame, write_frame},
     stages::scene::SceneCloud,
@@ -275,12 +275,7 @@ impl CaseFolder {
 
     /// Runs one change while no other writer is at work.
     fn writing<T>(&self, change: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
-        let lock = open_lock(&self.path.join(LOCK))?;
-        match lock.lock() {
-            // Some network file systems have no locks; a shop with one writer needs none.
-            Err(error) if error.kind() == io::ErrorKind::Unsupported => {}
-            taken => taken?,
-        }
+        let _lock = lock_exclusively(&self.path.join(LOCK))?;
         change()
     }
 }

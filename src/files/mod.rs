@@ -65,7 +65,9 @@ pub(crate) use self::names::{nearest_name, stays_inside};
 pub use self::open::{FileContent, FileWarning, file_of, open, open_bytes};
 pub use self::pcd::write_pcd;
 pub use self::ply::{write_ply, write_ply_with};
-pub(crate) use self::source::{open_lock, open_regular, read_bytes, read_limited, shortened};
+pub(crate) use self::source::{
+    lock_exclusively, open_lock, open_regular, read_bytes, read_limited, shortened,
+};
 pub(crate) use self::text::read_text;
 #[cfg(feature = "cli")]
 pub(crate) use self::text::visible;

@@ -36,6 +36,17 @@ pub(crate) fn open_lock(path: &Path) -> io::Result<File> {
     disk::open(File::options().create(true).append(true), path)
 }
 
+/// Opens the file that writers lock, and waits until no other writer holds it: it is held until the answer is dropped.
+pub(crate) fn lock_exclusively(path: &Path) -> io::Result<File> {
+    let lock = open_lock(path)?;
+    match lock.lock() {
+        // Some network file systems have no locks; a shop with one writer needs none.
+        Err(error) if error.kind() == io::ErrorKind::Unsupported => {}
+        taken => taken?,
+    }
+    Ok(lock)
+}
+
 fn refuse_all_but_files(found: &Metadata) -> io::Result<()> {
     if found.is_file() {
         Ok(())

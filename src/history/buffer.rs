@@ -303,33 +303,36 @@ impl HistoryBuffer {
 
     /// How the parts ended that the filter lets through, the oldest first.
     pub fn outcomes(&self, filter: &Filter) -> Result<Vec<PartOutcome>, HistoryError> {
-        let mut inner = self.lock();
-        self.look(&mut inner);
-        let mut outcomes = match &inner.history {
-            Some(history) => history.outcomes(filter)?,
-            None => Vec::new(),
-        };
-        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
-        let waiting = rows.iter().zip(&inner.waiting);
-        let waiting = waiting.filter(|(row, _)| filter.passes(row));
-        outcomes.extend(waiting.map(|(_, entry)| PartOutcome::from(&entry.record)));
-        Ok(outcomes)
+        let of_record = |record: &Record| Some(PartOutcome::from(record));
+        self.with_waiting(filter, |history| history.outcomes(filter), of_record)
     }
 
     /// As [`History::poses`], with those that are not written yet.
     pub fn poses(&self, filter: &Filter) -> Result<Vec<PoseRecord>, HistoryError> {
+        let written = |history: &History| history.poses(filter);
+        let mut poses = self.with_waiting(filter, written, PoseRecord::of_record)?;
+        poses.drain(..poses.len().saturating_sub(MAX_POSES));
+        Ok(poses)
+    }
+
+    /// What is written, then the same of what is waiting and passes the filter.
+    fn with_waiting<T>(
+        &self,
+        filter: &Filter,
+        written: impl FnOnce(&History) -> Result<Vec<T>, HistoryError>,
+        of_record: impl Fn(&Record) -> Option<T>,
+    ) -> Result<Vec<T>, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
-        let mut poses = match &inner.history {
-            Some(history) => history.poses(filter)?,
+        let mut found = match &inner.history {
+            Some(history) => written(history)?,
             None => Vec::new(),
         };
         let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
         let waiting = rows.iter().zip(&inner.waiting);
         let waiting = waiting.filter(|(row, _)| filter.passes(row));
-        poses.extend(waiting.filter_map(|(_, entry)| PoseRecord::of_record(&entry.record)));
-        poses.drain(..poses.len().saturating_sub(MAX_POSES));
-        Ok(poses)
+        found.extend(waiting.filter_map(|(_, entry)| of_record(&entry.record)));
+        Ok(found)
     }
 
     /// Opens it to be read, if nobody has yet.

@@ -22,7 +22,7 @@ use std::{
 };
 
 use super::{entry::NEW_PREFIX, error::LibraryError, name::PartName, store::LibraryFolder, trash};
-use crate::files::{disk, open_lock, sync_folder};
+use crate::files::{disk, lock_exclusively, sync_folder};
 
 const OLD_PREFIX: &str = ".old-";
 const LOCK: &str = ".lock";
@@ -81,12 +81,7 @@ impl LibraryFolder {
         change: impl FnOnce() -> io::Result<T>,
     ) -> Result<T, LibraryError> {
         let locked = || -> io::Result<T> {
-            let lock = open_lock(&self.path().join(LOCK))?;
-            match lock.lock() {
-                // Some network file systems have no locks; a shop with one writer needs none.
-                Err(error) if error.kind() == io::ErrorKind::Unsupported => {}
-                taken => taken?,
-            }
+            let _lock = lock_exclusively(&self.path().join(LOCK))?;
             change()
         };
         locked().map_err(|source| LibraryError::Unwritable {

@@ -15,7 +15,7 @@ use super::{CellBaseline, CellCheck, CellLimits, CellView, view::PlanePatch};
 use crate::{
     error::Advice,
     files::{
-        FileContent, FileError, crc32, disk, open, open_lock, read_text, user_folders,
+        FileContent, FileError, crc32, disk, lock_exclusively, open, read_text, user_folders,
         write_atomically, write_pcd,
     },
     geometry::cloud::is_finite,
@@ -308,12 +308,7 @@ impl CellCheckFolder {
             source,
         };
         disk::create_dir_all(&self.path).map_err(failed)?;
-        let lock = open_lock(&self.path.join(LOCK)).map_err(failed)?;
-        match lock.lock() {
-            // Some network file systems have no locks; a cell with one writer needs none.
-            Err(error) if error.kind() == io::ErrorKind::Unsupported => {}
-            taken => taken.map_err(failed)?,
-        }
+        let _lock = lock_exclusively(&self.path.join(LOCK)).map_err(failed)?;
         change()
     }
 }

@@ -140,7 +140,7 @@ impl Advice for NoPart {
             Self::TooFewPoints { .. } => {
                 "Check that the camera is connected, uncovered and 0.6 to 3 m from the part, then capture again".into()
             }
-            Self::TooWide { .. } => "Export the scene in metres: it looks like millimetres".into(),
+            Self::TooWide { .. } => "Read it as millimetres (--units mm), or export it in metres".into(),
             Self::OnlyBackground {
                 knows_cell: true, ..
             } => {
