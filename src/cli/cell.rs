@@ -75,10 +75,10 @@ struct Views {
 struct BaselineArgs {
     #[command(flatten)]
     views: Views,
-    /// The part's middle, wall and floor may move by so many millimetres, 0.5 to 100
+    /// How far the part's middle, the wall and the floor may move, in millimetres (0.5 to 100)
     #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = within::<500, 100_000>)]
     max_shift: f64,
-    /// The part may turn by so many degrees, 0.05 to 10
+    /// How far the part may turn, in degrees (0.05 to 10)
     #[arg(long, value_name = "DEGREES", default_value_t = 0.5, value_parser = within::<50, 10_000>)]
     max_turn: f64,
 }
@@ -105,7 +105,7 @@ struct ListArgs {
     json: bool,
 }
 
-/// For clap: a number from and up to so many thousandths.
+/// For clap: a number between two limits, which are given in thousandths.
 fn within<const LEAST: i64, const MOST: i64>(text: &str) -> Result<f64, String> {
     let [least, most] = [LEAST, MOST].map(|thousandths| thousandths as f64 / 1000.0);
     let number = text.parse::<f64>().ok();
@@ -172,7 +172,7 @@ fn check(
     } else {
         show(&check, &baseline, console);
     }
-    // What was found is told before anything goes wrong with the list.
+    // Reported first: writing the list may fail.
     if !args.no_list {
         folder.add(&check).advised()?;
     }

@@ -169,7 +169,7 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
-    use crate::files::{FileError, FileWarning, open};
+    use crate::files::{FileError, FileWarning, file_of, open};
 
     /// Opens a text of points as somebody wrote it, read so.
     fn opened(text: &str, suffix: &str) -> Result<FileContent, FileError> {
@@ -202,6 +202,16 @@ mod tests {
             assert!(off < 1e-5, "{suffix}: {off}");
         }
         assert_eq!(first(text, "#up=-y#units=m"), first(text, ""));
+    }
+
+    #[test]
+    fn the_file_is_the_path_without_the_words() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("part#2.xyz");
+        fs::write(&path, "0 0 1\n").unwrap();
+        let with_words = PathBuf::from(format!("{}#units=mm#up=z", path.display()));
+        assert_eq!(file_of(&with_words), path);
+        assert_eq!(file_of(&path), path);
     }
 
     #[test]

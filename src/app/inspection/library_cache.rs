@@ -174,7 +174,7 @@ impl LibraryCache {
     /// Loads it anew if another program has changed it; `None` if it is as before, or cannot be loaded now.
     pub fn refresh(&self) -> Option<Arc<LoadedLibrary>> {
         let given = self.lock().given.clone();
-        // Without the lock, so that nobody waits for the disk.
+        // The lock is not held while loading, so that no one waits for the disk.
         let found = Arc::new(load(given.as_deref()).ok()?);
         let mut choice = self.lock();
         let known = choice.loaded.as_ref();

@@ -5,7 +5,10 @@ use std::fs;
 use jiff::Timestamp;
 
 use super::{inspected::Inspected, source::Origin};
-use crate::history::{Filter, HistoryBuffer, Summary};
+use crate::{
+    files::file_of,
+    history::{Filter, HistoryBuffer, Summary},
+};
 
 /// Rows of one file that are looked through, the newest first.
 const MAX_ROWS: usize = 20;
@@ -19,7 +22,9 @@ pub(in crate::app) fn seen_before(
     let Origin::File { path, .. } = &inspected.origin else {
         return None;
     };
-    let written = fs::metadata(path).and_then(|file| file.modified()).ok()?;
+    let written = fs::metadata(file_of(path))
+        .and_then(|file| file.modified())
+        .ok()?;
     let written = Timestamp::try_from(written).ok()?;
     let now = &inspected.entry.record.summary;
     let filter = Filter {

@@ -46,20 +46,20 @@ fn bundle(language: Language) -> &'static Bundle {
 }
 
 fn parsed(language: Language) -> Bundle {
-    // It chooses the plurals.
+    // Plural rules depend on it.
     let identifier: LanguageIdentifier = language.code().parse().unwrap_or_default();
     let mut bundle = Bundle::new_concurrent(vec![identifier]);
-    // The marks that would keep right-to-left text apart are in no typeface of ours.
+    // Our typefaces lack the isolating marks for right-to-left text.
     bundle.set_use_isolating(false);
     for (_, file) in files(language) {
-        // What is wrong in a file fails a test; the other messages are kept.
+        // A test fails on a message that cannot be parsed; here the others are kept.
         let resource = FluentResource::try_new((*file).to_owned()).unwrap_or_else(|(rest, _)| rest);
         let _ = bundle.add_resource(resource);
     }
     bundle
 }
 
-/// A message without variables. A message of one line is copied from the file as it is.
+/// A message without variables.
 pub(in crate::app) fn plain(id: &str) -> String {
     formatted(id, None)
 }

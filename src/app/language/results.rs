@@ -18,7 +18,7 @@ use crate::{
     },
 };
 
-/// A number with so many decimals.
+/// Formats a number with a fixed number of decimals.
 macro_rules! fixed {
     ($value:expr, $decimals:literal) => {
         format!("{:.*}", $decimals, $value)
@@ -238,7 +238,7 @@ pub(in crate::app) fn rejection_advice(why: &Rejection) -> String {
     }
 }
 
-/// Why nothing could be recognised. A mistake in the program is reported as it is.
+/// Why nothing could be recognised. A fault of the program keeps its own message.
 pub(in crate::app) fn unrecognisable(why: &Unrecognisable) -> String {
     match why {
         Unrecognisable::NoPart(NoPart::TooFewPoints { found, needed }) => {

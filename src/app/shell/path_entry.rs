@@ -11,10 +11,15 @@ use super::{
     file_dialog::{DialogLock, FileChoice, FileRequest},
     top_bar::labelled,
 };
-use crate::app::language::text;
-use crate::app::ui::{
-    theme::{Theme, font, space},
-    widgets,
+use crate::{
+    app::{
+        language::text,
+        ui::{
+            theme::{Theme, font, space},
+            widgets,
+        },
+    },
+    files::file_of,
 };
 
 /// Width of the dialog, logical pixels.
@@ -85,7 +90,7 @@ impl PathEntry {
             FileChoice::File | FileChoice::NewFile(_) if path.is_dir() => {
                 text!("shell-add-a-name")
             }
-            FileChoice::File if !path.is_file() => text!("shell-no-such-file"),
+            FileChoice::File if !file_of(path).is_file() => text!("shell-no-such-file"),
             FileChoice::Folder if !path.is_dir() => text!("shell-no-such-folder"),
             FileChoice::FolderToWrite if path.is_file() => text!("shell-not-a-folder"),
             FileChoice::NewFile(_) if path.exists() && self.replaced.as_deref() != Some(path) => {
@@ -200,6 +205,11 @@ mod tests {
             let said = opened.trouble.as_deref().unwrap_or_default();
             assert!(said.contains(says), "{said}");
         }
+        // How a file is meant may stand behind its path.
+        let with_words = PathBuf::from(format!("{}#units=mm", file.display()));
+        let mut in_millimetres = entry(FileChoice::File, folder.path());
+        let taken = confirmed(&mut in_millimetres, &with_words);
+        assert_eq!(taken, Poll::Ready(Some(with_words)));
         assert_eq!(confirmed(&mut opened, &file), Poll::Ready(Some(file)));
         let mut opened = entry(FileChoice::Folder, folder.path());
         assert!(confirmed(&mut opened, &missing).is_pending());

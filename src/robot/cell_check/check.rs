@@ -107,7 +107,7 @@ impl Advice for CellFinding {
                 "Fix the camera, calibrate it again, hang the part as it was, and take a new baseline"
             }
             Self::Noisier => {
-                "Clean the camera's window, look for light or mist before it, and check again"
+                "Clean the camera's window, look for stray light or mist in front of it, and check again"
             }
         }
         .into()

@@ -33,21 +33,21 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// Frames of one check at most: more say nothing new.
+/// The most frames of one check; more add nothing.
 pub const MAX_FRAMES: usize = 16;
-/// Points of the baseline are this far apart; several frames are averaged to it.
+/// Spacing of the baseline's points; frames are averaged within it.
 const SPACING: Metres = Metres(0.003);
-/// Less of the part than this lies on the baseline: it is another one, or half hidden.
+/// With less overlap than this, it is another part or partly hidden.
 const LEAST_OVERLAP: f64 = 0.9;
-/// Wall and floor are found again within this distance and angle.
+/// Planes further apart than this are different planes.
 const SAME_PLANE: (Metres, Radians) = (Metres(0.3), Radians(0.25));
-/// Noise that grew by more than this factor has a cause.
+/// A larger ratio of noise than this is reported.
 const NOISIER: f64 = 1.5;
 
-/// What is too far.
+/// The largest movement that still counts as in place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CellLimits {
-    /// Of the part's middle, and of what is seen of wall and floor.
+    /// Of the part's middle, and of wall and floor where they are seen.
     pub shift: Metres,
     /// Of the part.
     pub turn: Radians,
@@ -78,7 +78,7 @@ pub struct CellBaseline {
     pub num_frames: usize,
     /// True if a frame was simulated.
     pub is_simulated: bool,
-    /// What is too far.
+    /// The largest movement that still counts as in place.
     pub limits: CellLimits,
     view: CellView,
 }
@@ -89,7 +89,7 @@ pub enum CellViewError {
     /// None was given.
     #[error("no frame")]
     NoFrame,
-    /// Something moves.
+    /// Part or camera moved between the frames.
     #[error(
         "the frames do not agree: the part is {} and {} elsewhere in frame {frame} than in the first",
         moved.shift, moved.rotation
@@ -126,7 +126,7 @@ impl Advice for CellViewError {
                 "Let the part hang still, keep the camera where it is, and capture again".into()
             }
             Self::OtherPart { .. } => {
-                "Hang the part that the baseline was taken of, in its usual place, with nothing before it; if it does hang there, camera or part moved by several centimetres"
+                "Hang the part that the baseline was taken of, in its usual place, with nothing in front of it; if it does hang there, camera or part moved by several centimetres"
                     .into()
             }
             Self::Pose { error, .. } => error.advice(),
@@ -194,12 +194,12 @@ impl CellBaseline {
             .map_err(|error| CellViewError::Pose { frame: 1, error })
     }
 
-    /// Takes the baseline's part to where it is in a view, and how well it lies there.
+    /// Takes the baseline's part to where it is in a view; and the root mean square distance there, metres.
     fn moved(
         view: &CellView,
         target: &PreparedTarget,
         frame: usize,
-    ) -> Result<(RigidTransform, PoseEstimate), CellViewError> {
+    ) -> Result<(RigidTransform, f64), CellViewError> {
         let align = |method: PoseMethod, start| {
             align_to(&view.part, target, &method.into(), Some(start), &|| false)
         };
@@ -231,7 +231,7 @@ impl CellBaseline {
         if overlap < LEAST_OVERLAP {
             return Err(CellViewError::OtherPart { frame, overlap });
         }
-        Ok((found.target_from_source.inverse(), found))
+        Ok((found.target_from_source.inverse(), found.fit.rms_m))
     }
 
     /// Compares frames with the baseline. Of several frames the median counts: one alone is off by some millimetres now
@@ -249,9 +249,9 @@ impl CellBaseline {
         let target = self.prepared()?;
         let mut found: Vec<(f64, RigidTransform, f64)> = Vec::with_capacity(views.len());
         for (i, view) in views.iter().enumerate() {
-            let (moved, found_there) = Self::moved(view, &target, i + 1)?;
+            let (moved, rms_m) = Self::moved(view, &target, i + 1)?;
             let off = pose_error(&moved, &RigidTransform::identity(), &middle);
-            found.push((self.share_of_limits(&off), moved, found_there.fit.rms_m));
+            found.push((self.share_of_limits(&off), moved, rms_m));
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         // The lower of the two in the middle.

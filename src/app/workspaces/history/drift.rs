@@ -20,11 +20,11 @@ use crate::{
 
 /// Height of a plot, logical pixels.
 const HEIGHT: f32 = 150.0;
-/// More parts than this are drawn in groups, by their medians.
+/// Above this number, parts are drawn in groups, by their medians.
 const MOST_DRAWN: usize = 240;
-/// Fewer parts than this show no drift.
+/// Parts needed to show a drift.
 const LEAST: usize = 3;
-/// What the beginning and the end are, as a share of all parts.
+/// The first and the last of this many equal shares are compared.
 const END: usize = 5;
 
 /// The accepted parts of one kind, or groups of them, the oldest first.
@@ -39,8 +39,8 @@ pub struct Drift {
     score: Vec<f32>,
     /// Root mean square distance from the reference, metres.
     rms_m: Vec<f32>,
-    /// Where the part's middle was, beside its median over all, along x, y and z of the camera, metres. None of groups
-    /// whose reference is not enrolled any more.
+    /// Where the part's middle was, beside its median over all, along x, y and z of the camera, metres. NaN for groups
+    /// whose references are no longer enrolled.
     offset_m: [Vec<f32>; 3],
 }
 
@@ -183,7 +183,7 @@ fn plot(
     let dates = dates.map(|(place, at)| (place as f64, at.strftime("%m-%d %H:%M").to_string()));
     let known = curves.iter().flat_map(|(_, values, _)| *values);
     let [low, high] = range_of(known.filter(|value| value.is_finite()));
-    // Noise alone is not drawn as large as a drift.
+    // Noise must not look as large as a drift.
     let spare = 0.5 * (least_span - (high - low)).max(0.1 * (high - low));
     let [low, high] = [low - spare, high + spare];
     let axes = Axes {
@@ -264,7 +264,7 @@ mod tests {
         assert_eq!(Drift::ends(&found.offset_m[0]), Some([0.0, 0.0]));
         let [first, last] = Drift::ends(&found.rms_m).expect("known");
         assert!((last - first - 0.0008).abs() < 1e-6, "{first} {last}");
-        // Of a reference that is not enrolled any more nobody knows the middle.
+        // The middle of a reference that is no longer enrolled is not known.
         assert!(found.offset_m[2][3].is_nan() && found.offset_m[2][4].is_finite());
     }
 
