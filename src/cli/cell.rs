@@ -212,7 +212,7 @@ fn show(check: &CellCheck, baseline: &CellBaseline, console: &mut Console) {
         ),
     );
     let background = check.background_shift_m.map_or_else(
-        || "neither wall nor floor is seen".to_owned(),
+        || "neither wall nor floor was found again".to_owned(),
         |shift| {
             format!(
                 "wall and floor moved by up to {} where they are seen",

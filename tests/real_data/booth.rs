@@ -14,6 +14,7 @@ use partsight::{
         enrol_surface, surfaces_to_enrol,
     },
     pipeline::{Recipe, Unwatched, Verdict, run},
+    robot::cell_check::{CellBaseline, CellFinding, CellLimits, CellView},
     stages::{
         scene::{SceneCloud, scene_from_frame},
         segment::{PointLabel, SegmentParams, SegmentedPart, segment},
@@ -208,4 +209,50 @@ fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
         num_named >= 9 && num_accepted >= 7,
         "{num_named} named, {num_accepted} accepted"
     );
+}
+
+/// Between these frames the camera moved, by decimetres, and the part did not: never is that told as a part that moved.
+#[test]
+fn a_camera_that_moves_before_a_part_is_never_told_as_a_part_that_moved() {
+    let Some(data) = data_folder() else { return };
+    let booth = data.join("booth");
+    let truth = std::fs::read(booth.join("truth.json")).expect("the robot's poses");
+    let truth: Truth = serde_json::from_slice(&truth).expect("the robot's poses");
+    let at = jiff::Timestamp::UNIX_EPOCH;
+    let views: Vec<_> = truth
+        .frames
+        .iter()
+        .filter_map(|(file, frame)| {
+            let view = CellView::of(&scene(&booth.join(file)), &SegmentParams::default());
+            Some((frame, view.ok()?))
+        })
+        .collect();
+    let (mut num_compared, mut num_told) = (0, 0);
+    for (before, before_view) in &views {
+        let one = std::slice::from_ref(before_view);
+        let baseline =
+            CellBaseline::new(one, CellLimits::default(), false, at).expect("a baseline");
+        for (now, now_view) in views.iter().filter(|(now, _)| now.part == before.part) {
+            let Ok(found) = baseline.check(std::slice::from_ref(now_view), false, at) else {
+                continue;
+            };
+            if std::ptr::eq(*now, *before) {
+                assert_eq!(found.finding, CellFinding::InPlace, "{found:?}");
+                continue;
+            }
+            let [before, now] = [before, now].map(|frame| frame.world_from_camera());
+            let turned = before.rotation.angle_to(&now.rotation);
+            assert!(
+                (found.turn_rad - turned).abs() < 0.01,
+                "{found:?}, {turned}"
+            );
+            num_compared += 1;
+            match found.finding {
+                CellFinding::CameraMoved => num_told += 1,
+                finding => assert_eq!(finding, CellFinding::PartOrCameraMoved, "{found:?}"),
+            }
+        }
+    }
+    println!("{num_compared} pairs compared, {num_told} told as a camera that moved");
+    assert!(num_compared >= 4 && num_told >= 2);
 }

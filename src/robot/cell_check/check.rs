@@ -26,7 +26,7 @@ pub struct CellCheck {
     pub shift_m: [f64; 3],
     /// By how much the part turned, radians.
     pub turn_rad: f64,
-    /// How far wall and floor moved where they are seen, at most, metres; none if baseline or frames show neither.
+    /// How far wall and floor moved where they are seen, at most, metres; none if neither was found again.
     pub background_shift_m: Option<f64>,
     /// How well the part lies on the baseline, root mean square, metres.
     pub rms_m: f64,
@@ -42,12 +42,10 @@ pub enum CellFinding {
     InPlace,
     /// The part is elsewhere; wall and floor are not.
     PartMoved,
-    /// Part, wall and floor moved together: the camera did.
+    /// Wall and floor are elsewhere: the camera moved, and perhaps the part as well.
     CameraMoved,
-    /// The part is elsewhere; wall and floor cannot say whether the camera moved.
+    /// The part is elsewhere; wall and floor do not show whether the camera moved.
     PartOrCameraMoved,
-    /// Part, wall and floor moved, and not together.
-    PartAndCameraMoved,
     /// Nothing moved, but the readings scatter more.
     Noisier,
 }
@@ -72,7 +70,6 @@ impl CellFinding {
             Self::PartMoved => "part_moved",
             Self::CameraMoved => "camera_moved",
             Self::PartOrCameraMoved => "part_or_camera_moved",
-            Self::PartAndCameraMoved => "part_and_camera_moved",
             Self::Noisier => "noisier",
         }
     }
@@ -84,7 +81,6 @@ impl CellFinding {
             Self::PartMoved => "the part moved; the camera did not",
             Self::CameraMoved => "the camera moved",
             Self::PartOrCameraMoved => "the part or the camera moved",
-            Self::PartAndCameraMoved => "the part and the camera moved",
             Self::Noisier => "camera and part are in place, but the readings are noisier",
         }
     }
@@ -102,9 +98,6 @@ impl Advice for CellFinding {
             }
             Self::PartOrCameraMoved => {
                 "Hang the part as it was and check again; if that does not help, the camera moved: calibrate it and take a new baseline"
-            }
-            Self::PartAndCameraMoved => {
-                "Fix the camera, calibrate it again, hang the part as it was, and take a new baseline"
             }
             Self::Noisier => {
                 "Clean the camera's window, look for stray light or mist in front of it, and check again"

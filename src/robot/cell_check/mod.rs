@@ -261,15 +261,15 @@ impl CellBaseline {
         let background = self.background_shift(views);
         let mut noise: Vec<f64> = views.iter().map(|view| view.noise_at_1m.0).collect();
         let noise_ratio = median(&mut noise) / self.view.noise_at_1m.0;
-        let stays = background.is_none_or(|shift| shift <= self.limits.shift);
+        let stays = background.map(|shift| shift <= self.limits.shift);
         let together = self.moved_together(views, &moved);
         let finding = match (self.limits.allow(&off), stays, together) {
             (true, ..) if noise_ratio > NOISIER => CellFinding::Noisier,
             (true, ..) => CellFinding::InPlace,
-            (false, true, true) => CellFinding::PartOrCameraMoved,
-            (false, true, false) => CellFinding::PartMoved,
-            (false, false, true) => CellFinding::CameraMoved,
-            (false, false, false) => CellFinding::PartAndCameraMoved,
+            (false, Some(true), false) => CellFinding::PartMoved,
+            // Whether the part moved as well does not matter then: the camera has to be calibrated again.
+            (false, Some(false), _) | (false, None, true) => CellFinding::CameraMoved,
+            (false, Some(true), true) | (false, None, false) => CellFinding::PartOrCameraMoved,
         };
         Ok(CellCheck {
             at,
@@ -289,26 +289,23 @@ impl CellBaseline {
         (off.shift.0 / self.limits.shift.0).max(off.rotation.0 / self.limits.turn.0)
     }
 
-    /// Wall and floor where they are expected once the camera sees everything moved so, each with what the view shows.
+    /// Wall and floor where they are expected once the camera sees everything moved so, each with what the view shows of it;
+    /// none of those that it does not show.
     fn background(&self, view: &CellView, moved: &RigidTransform) -> Vec<(PlanePatch, Plane)> {
         let pairs = self.view.background.iter().filter_map(|before| {
             let expected = before.carried(moved);
             let planes = view.background.iter().map(|now| now.plane);
             let off = |plane: &Plane| expected.distance_to(plane).0;
             let nearest = planes.min_by(|a, b| off(a).total_cmp(&off(b)))?;
-            Some((expected, nearest))
+            let is_same = expected.distance_to(&nearest) < SAME_PLANE.0
+                && expected.plane.normal.angle(&nearest.normal) < SAME_PLANE.1.0;
+            is_same.then_some((expected, nearest))
         });
-        let pairs: Vec<(PlanePatch, Plane)> = pairs.collect();
-        let is_same = |(expected, now): &&(PlanePatch, Plane)| {
-            expected.distance_to(now) < SAME_PLANE.0
-                && expected.plane.normal.angle(&now.normal) < SAME_PLANE.1.0
-        };
-        // A floor that one of them does not show is no floor that moved.
-        let same: Vec<(PlanePatch, Plane)> = pairs.iter().filter(is_same).copied().collect();
-        if same.is_empty() { pairs } else { same }
+        pairs.collect()
     }
 
-    /// How far wall and floor moved where they are seen; of several views the median. `None` without a plane to compare.
+    /// How far wall and floor moved where they are seen; of several views the median. `None` if
+    /// neither was found again.
     fn background_shift(&self, views: &[CellView]) -> Option<Metres> {
         let still = RigidTransform::identity();
         let shifts = views.iter().filter_map(|view| {
@@ -333,7 +330,10 @@ impl CellBaseline {
             };
             self.limits.allow(&off) || expected.distance_to(now) <= self.limits.shift
         };
-        let together = |view: &&CellView| self.background(view, moved).iter().all(with_part);
+        let together = |view: &&CellView| {
+            let pairs = self.background(view, moved);
+            !pairs.is_empty() && pairs.iter().all(with_part)
+        };
         2 * views.iter().filter(together).count() > views.len()
     }
 }

@@ -111,6 +111,16 @@ fn a_part_that_hangs_elsewhere_is_told_from_a_camera_that_moved() {
 }
 
 #[test]
+fn a_camera_that_moved_so_far_that_the_wall_is_another_plane_is_told() {
+    let baseline = baseline(PartKind::Fender);
+    let away = moved([60.0, 0.0, 450.0], 3.0);
+    let views = seen_from_elsewhere(&still(PartKind::Fender, [11, 12, 13]), &away);
+    let found = check(&baseline, &views);
+    assert_eq!(found.finding, CellFinding::CameraMoved, "{found:?}");
+    assert_eq!(found.background_shift_m, None);
+}
+
+#[test]
 fn without_a_wall_nobody_says_who_moved() {
     let baseline = baseline(PartKind::Fender);
     let mut views = views(
