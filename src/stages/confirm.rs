@@ -149,11 +149,10 @@ const HOPELESS: f64 = 2.5;
 /// The ranking by confirmed scores, and the pose of the first.
 type Confirmed = (ConfirmedRanking, Result<PoseEstimate, PoseError>);
 
-/// Draws of the border points of a piece: one in three misses a part that is half hidden and noisy.
-const MOST_DRAWS: u64 = 3;
-/// A best score below this says that a draw may have missed the part.
+/// A best score below this says that the pairs drawn of a piece's border may have missed the part.
 const MISSED_BELOW: f64 = 0.1;
-/// It is drawn again only where a start cost less than this: 0.6 is a good fit, and where nothing is enrolled they cost more.
+/// Others are drawn only for references on which a start cost less than this: 0.6 is a good fit, and where nothing is
+/// enrolled they cost more.
 const NEARLY: f64 = 1.3;
 
 /// Orders the matches by their confirmed scores, and gives the pose of the first.
@@ -166,108 +165,107 @@ pub fn confirm(
     params: &ConfirmParams,
     least_score: f64,
 ) -> Confirmed {
-    let score = |confirmed: &Confirmed| confirmed.0.entries.first().map_or(0.0, |e| e.score);
-    let mut best: Option<Confirmed> = None;
-    for draw in 0..MOST_DRAWS {
-        let params = ConfirmParams {
-            seed: params.seed + draw,
-            ..params.clone()
-        };
-        let (confirmed, least_cost) =
-            confirm_drawn(scene, references, ranking, &params, least_score);
-        let may_be_missed =
-            score(&confirmed) < MISSED_BELOW && least_cost.is_some_and(|cost| cost < NEARLY);
-        if best
-            .as_ref()
-            .is_none_or(|best| score(&confirmed) > score(best))
-        {
-            best = Some(confirmed);
-        }
-        if !may_be_missed {
-            break;
-        }
-    }
-    best.expect("there is a first draw")
-}
-
-/// Confirms with one draw of a piece's border points; also the least cost of a piece on any reference.
-fn confirm_drawn(
-    scene: &Scene<'_>,
-    references: &[Reference],
-    ranking: &MatchRanking,
-    params: &ConfirmParams,
-    least_score: f64,
-) -> (Confirmed, Option<f64>) {
-    let seen = PreparedScene::new(scene, references, params);
+    let mut seen = PreparedScene::new(scene, references, params);
     if seen.source.surface.len() < 20 {
         let error = PoseError::TooFewPoints {
             which: "source",
             found: seen.source.surface.len(),
             needed: 20,
         };
-        return ((ConfirmedRanking::unexamined(ranking), Err(error)), None);
+        return (ConfirmedRanking::unexamined(ranking), Err(error));
     }
     let mut entries: Vec<&MatchEntry> = ranking.entries.iter().collect();
     let num_looked_at = seen.select_entries(&mut entries, references, params);
-    let trials = seen.trials(&entries[..num_looked_at], references, least_score);
-    let costs = trials.iter().flatten().filter(|trial| !trial.is_piece);
-    let least = costs.map(|trial| trial.cost).fold(f64::INFINITY, f64::min);
-    let of_pieces = trials.iter().flatten().filter(|trial| trial.is_piece);
-    let least_of_pieces = of_pieces.map(|trial| trial.cost).min_by(f64::total_cmp);
-    let mut trials = trials.into_iter();
-    let mut tried: Vec<Tried<'_>> = entries
-        .into_iter()
-        .enumerate()
-        .map(|(number, entry)| {
-            let candidate = trials.next().and_then(|trials| {
-                // What is far off already will not win: it is scored where it is.
-                let first = trials.first()?;
-                let is_worth_more = first.is_piece || first.cost < HOPELESS * least;
-                let levels: &[Level] = if is_worth_more { &SECOND } else { &[] };
-                seen.best_candidate(&references[entry.reference], &trials, levels)
-            });
-            let score = match &candidate {
-                Some(candidate) => candidate.evidence.score(),
-                // Whatever a piece was laid onto without success is not it.
-                None => 0.0,
-            };
-            Tried {
-                entry,
-                score,
-                is_examined: number < num_looked_at,
-                candidate,
-            }
-        })
+    let (looked_at, others) = entries.split_at(num_looked_at);
+    let mut tried = seen.examine(looked_at, references, least_score);
+    let nearly: Vec<&MatchEntry> = tried
+        .iter()
+        .filter(|tried| tried.piece_cost < NEARLY)
+        .map(|tried| tried.entry)
         .collect();
-    // Those that were not looked at stay behind those that were.
-    sort_by_score(&mut tried[..num_looked_at]);
     let best = tried.first().map_or(0.0, |first| first.score);
-    for (place, tried) in tried[..num_looked_at].iter_mut().enumerate() {
-        let least = match place {
-            0 => (least_score / MOST_GAINED).max(HOPELESS_SCORE),
-            _ => (CONTENDS * best).max(NO_RUNNER_UP),
-        };
-        if let Some(candidate) = tried.candidate.as_mut().filter(|_| tried.score > least) {
-            seen.finish(&references[tried.entry.reference], candidate);
-            tried.score = candidate.evidence.score();
+    if best < MISSED_BELOW && !nearly.is_empty() {
+        seen.draw_other_pairs(params.seed + 1);
+        for again in seen.examine(&nearly, references, least_score) {
+            let mut before = tried.iter_mut();
+            let before = before.find(|before| before.entry.reference == again.entry.reference);
+            if let Some(before) = before.filter(|before| before.score < again.score) {
+                *before = again;
+            }
         }
+        sort_by_score(&mut tried);
     }
-    sort_by_score(&mut tried[..num_looked_at]);
-    let entries: Vec<ConfirmedMatch> = tried.into_iter().map(Tried::confirmed).collect();
+    // Those that were not looked at stay behind those that were.
+    let others = others.iter().map(|entry| ConfirmedMatch {
+        score: 0.0,
+        ..ConfirmedMatch::unexamined(entry)
+    });
+    let tried = tried.into_iter().map(Tried::confirmed);
+    let entries: Vec<ConfirmedMatch> = tried.chain(others).collect();
     let pose = entries.first().and_then(|first| first.pose.clone());
-    let confirmed = (
+    (
         ConfirmedRanking { entries },
         pose.ok_or(PoseError::NoReferenceCloud),
-    );
-    (confirmed, least_of_pieces)
+    )
 }
 
-/// A match on its way through the confirmation.
+impl PreparedScene<'_> {
+    /// Looks for some references in the scene; the best comes first.
+    fn examine<'a>(
+        &self,
+        entries: &[&'a MatchEntry],
+        references: &[Reference],
+        least_score: f64,
+    ) -> Vec<Tried<'a>> {
+        let trials = self.trials(entries, references, least_score);
+        let costs = trials.iter().flatten().filter(|trial| !trial.is_piece);
+        let least = costs.map(|trial| trial.cost).fold(f64::INFINITY, f64::min);
+        let mut tried: Vec<Tried<'a>> = entries
+            .iter()
+            .zip(trials)
+            .map(|(entry, trials)| {
+                let candidate = trials.first().and_then(|first| {
+                    // What is far off already will not win: it is scored where it is.
+                    let is_worth_more = first.is_piece || first.cost < HOPELESS * least;
+                    let levels: &[Level] = if is_worth_more { &SECOND } else { &[] };
+                    self.best_candidate(&references[entry.reference], &trials, levels)
+                });
+                let of_piece = trials.iter().filter(|trial| trial.is_piece);
+                Tried {
+                    entry,
+                    // Whatever a piece was laid onto without success is not it.
+                    score: candidate.as_ref().map_or(0.0, |c| c.evidence.score()),
+                    piece_cost: of_piece
+                        .map(|trial| trial.cost)
+                        .fold(f64::INFINITY, f64::min),
+                    candidate,
+                }
+            })
+            .collect();
+        sort_by_score(&mut tried);
+        let best = tried.first().map_or(0.0, |first| first.score);
+        for (place, tried) in tried.iter_mut().enumerate() {
+            let least = match place {
+                0 => (least_score / MOST_GAINED).max(HOPELESS_SCORE),
+                _ => (CONTENDS * best).max(NO_RUNNER_UP),
+            };
+            if let Some(candidate) = tried.candidate.as_mut().filter(|_| tried.score > least) {
+                self.finish(&references[tried.entry.reference], candidate);
+                tried.score = candidate.evidence.score();
+            }
+        }
+        sort_by_score(&mut tried);
+        tried
+    }
+}
+
+/// A match that was looked for in the scene.
 struct Tried<'a> {
     entry: &'a MatchEntry,
     score: f64,
-    is_examined: bool,
-    /// `None` if it was not tried, or has no cloud.
+    /// Least cost of a piece on the reference; infinite without one.
+    piece_cost: f64,
+    /// `None` if it has no cloud, or no start was worth a refinement.
     candidate: Option<ReferenceCandidate>,
 }
 
@@ -276,12 +274,12 @@ impl Tried<'_> {
         let Self {
             entry,
             score,
-            is_examined,
             candidate,
+            ..
         } = self;
         ConfirmedMatch {
             score,
-            is_examined,
+            is_examined: true,
             pose: candidate.as_ref().map(ReferenceCandidate::estimate),
             evidence: candidate.map(|candidate| Evidence {
                 shape: entry.score,

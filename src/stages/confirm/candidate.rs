@@ -78,7 +78,7 @@ const MOST_REFINED: usize = 16;
 const HOPELESS_START: f64 = 1.3;
 const FEW_REFINED: usize = 3;
 /// A start of a piece that costs this much more than the best one is not refined; nor is a pose weighed.
-const WORSE_START: f64 = 0.5;
+pub(super) const WORSE_START: f64 = 0.5;
 const WORSE_POSE: f64 = 0.35;
 /// Points of the part and of the reference on which the first figures are taken.
 const NUM_MEASURED: usize = 500;

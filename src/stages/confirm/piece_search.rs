@@ -10,7 +10,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaterni
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
-use super::PreparedScene;
+use super::{PreparedScene, candidate::WORSE_START};
 use crate::{
     geometry::{cloud::is_finite, rigid::RigidTransform},
     stages::reference::{
@@ -43,7 +43,7 @@ const MOST_OFF: f32 = 0.4;
 /// Share of the border tried first that must find the reference's.
 const LEAST_BORDER: f32 = 0.3;
 /// Poses of a reference that are scored.
-const MOST_SCORED: usize = 100;
+const MOST_SCORED: usize = 40;
 /// Poses kept of a reference.
 const MOST_KEPT: usize = 6;
 /// Poses that lie this close, turn (degrees) and shift (millimetres), lead to the same one.
@@ -77,7 +77,7 @@ pub(super) struct Start {
 /// What of a piece is laid onto references, camera space.
 pub(super) struct PieceSample {
     surface: Vec<Point3<f32>>,
-    border: Vec<BorderPoint>,
+    pub(super) border: Vec<BorderPoint>,
     pairs: Vec<OrientedPair>,
 }
 
@@ -131,22 +131,24 @@ impl PreparedScene<'_> {
         others: impl Iterator<Item = RigidTransform>,
         limit: f64,
     ) -> Vec<Start> {
-        let mut poses: Vec<(f32, Isometry3<f32>)> = Vec::new();
+        let mut poses = RoughPoses::default();
         for border in reference.borders() {
             for pair in &piece.pairs {
                 Self::align_border_pair(piece, reference, border, pair, &mut poses);
             }
         }
-        if poses.len() > MOST_SCORED {
-            poses.select_nth_unstable_by(MOST_SCORED, |a, b| a.0.total_cmp(&b.0));
-            poses.truncate(MOST_SCORED);
-        }
+        poses.keep_best();
+        // The best first: the others need not come near its cost.
+        poses.all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut limit = limit;
         let starts: Vec<Start> = poses
+            .all
             .iter()
             .map(|(_, pose)| pose.cast())
             .chain(others)
             .filter_map(|target_from_source| {
                 let cost = self.coarse_cost(piece, reference, &target_from_source, limit)?;
+                limit = limit.min(cost + WORSE_START);
                 Some(Start {
                     cost,
                     target_from_source,
@@ -203,14 +205,16 @@ impl PreparedScene<'_> {
         reference: &Reference,
         border: &ReferenceBorder,
         pair: &OrientedPair,
-        poses: &mut Vec<(f32, Isometry3<f32>)>,
+        poses: &mut RoughPoses,
     ) {
         let OrientedPair { pair, middle, axes } = pair;
         let ours = pair.of.map(|i| &piece.border[usize::from(i)]);
-        for theirs in border.pairs_like(*pair, DISTANCE_OFF, ANGLE_OFF) {
+        // Nested iterators are quicker from within, by for_each, than around a loop.
+        let alike = border.pairs_like(*pair, DISTANCE_OFF, ANGLE_OFF);
+        alike.for_each(|theirs| {
             let points = theirs.of.map(|i| &border.points[usize::from(i)]);
             let Some((onto, their_axes)) = frame_of(points) else {
-                continue;
+                return;
             };
             let turn: Matrix3<f32> = their_axes * axes.transpose();
             let are_turned_alike = ours
@@ -218,15 +222,14 @@ impl PreparedScene<'_> {
                 .zip(points)
                 .all(|(a, b)| (turn * a.normal).dot(&b.normal) > NORMAL_OFF);
             if !are_turned_alike {
-                continue;
+                return;
             }
-            let shift = onto - turn * middle.coords;
-            if let Some(off) = early_out_cost(piece, reference, border, &turn, &shift.coords) {
-                let turn =
-                    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
-                poses.push((off, Isometry3::from_parts(shift.coords.into(), turn)));
+            let shift = (onto - turn * middle.coords).coords;
+            if let Some(off) = early_out_cost(piece, reference, border, &turn, &shift, poses.limit)
+            {
+                poses.push(off, &turn, &shift);
             }
-        }
+        });
     }
 
     /// How badly a pose fits, 0 for a perfect fit: the part on the reference, its border on the reference's, and the
@@ -330,14 +333,54 @@ impl PreparedScene<'_> {
     }
 }
 
-/// Mean squared distance of the first points at a pose, or `None` as soon as too many of them are off.
+/// The poses of a reference that pairs led to, by how far off the first points are.
+struct RoughPoses {
+    all: Vec<(f32, Isometry3<f32>)>,
+    /// What is further off is not among the best.
+    limit: f32,
+}
+
+impl Default for RoughPoses {
+    fn default() -> Self {
+        Self {
+            all: Vec::with_capacity(2 * MOST_SCORED),
+            limit: f32::INFINITY,
+        }
+    }
+}
+
+impl RoughPoses {
+    fn push(&mut self, off: f32, turn: &Matrix3<f32>, shift: &Vector3<f32>) {
+        let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*turn));
+        self.all
+            .push((off, Isometry3::from_parts((*shift).into(), turn)));
+        if self.all.len() == 2 * MOST_SCORED {
+            self.keep_best();
+        }
+    }
+
+    fn keep_best(&mut self) {
+        if self.all.len() > MOST_SCORED {
+            let by_off = |a: &(f32, _), b: &(f32, _)| a.0.total_cmp(&b.0);
+            self.all.select_nth_unstable_by(MOST_SCORED - 1, by_off);
+            self.all.truncate(MOST_SCORED);
+            self.limit = self.all[MOST_SCORED - 1].0;
+        }
+    }
+}
+
+/// Mean squared distance of the first points at a pose, in squares of [`FAR`], surface and border added; `None` as soon
+/// as too many of them are off, or the sum is beyond `limit`.
 fn early_out_cost(
     piece: &PieceSample,
     reference: &Reference,
     border: &ReferenceBorder,
     turn: &Matrix3<f32>,
     shift: &Vector3<f32>,
+    limit: f32,
 ) -> Option<f32> {
+    // Of fewer points the mean is larger.
+    const PER_POINT: f32 = 1.0 / NUM_TRIED as f32;
     let is_cut = !reference.cut.is_nothing();
     let is_beyond = |at: &Point3<f32>| is_cut && reference.cut.depth_inside(&at.cast()) < AT_CUT;
     let (mut num, mut num_off, mut sum) = (0_usize, 0_usize, 0.0_f32);
@@ -353,7 +396,7 @@ fn early_out_cost(
             .map_or(1.0, |n| clipped(n.distance_sq));
         num_off += usize::from(off >= 1.0);
         sum += off;
-        if num_off as f32 > 1.0 + MOST_OFF * num as f32 {
+        if num_off as f32 > 1.0 + MOST_OFF * num as f32 || sum * PER_POINT > limit {
             return None;
         }
     }
@@ -374,6 +417,9 @@ fn early_out_cost(
             .map_or(1.0, |n| clipped(n.distance_sq));
         num_on += if off < 1.0 { 1.0 } else { 0.0 };
         sum += off;
+        if surface + sum * PER_POINT > limit {
+            return None;
+        }
     }
     (num_on >= LEAST_BORDER * num).then(|| surface + sum / num.max(1.0))
 }

@@ -57,13 +57,8 @@ impl<'a> PreparedScene<'a> {
         };
         let is_piece = scene.part.is_piece || outline.cut_share >= CUT_SHARE;
         let piece = (is_piece || !are_whole()).then(|| {
-            let num_pairs = if scene.part.is_piece {
-                NUM_PAIRS_OF_A_WHOLE
-            } else {
-                NUM_PAIRS
-            };
             let border = oriented_border(scene, &outline);
-            PieceSample::new(&source.surface, border, num_pairs, params.seed)
+            PieceSample::new(&source.surface, border, num_pairs(scene), params.seed)
         });
         Self {
             is_piece,
@@ -77,6 +72,14 @@ impl<'a> PreparedScene<'a> {
                 base: params.tolerance,
                 noise_at_1m: scene.part.noise_at_1m,
             },
+        }
+    }
+
+    /// Draws the pairs of the piece's border anew.
+    pub(super) fn draw_other_pairs(&mut self, seed: u64) {
+        if let Some(piece) = self.piece.take() {
+            let (surface, num_pairs) = (&self.source.surface, num_pairs(self.scene));
+            self.piece = Some(PieceSample::new(surface, piece.border, num_pairs, seed));
         }
     }
 
@@ -139,6 +142,15 @@ impl<'a> PreparedScene<'a> {
             noise,
             &reference.cut,
         );
+    }
+}
+
+/// The border of what looks whole is nearly all there: fewer pairs find it.
+fn num_pairs(scene: &Scene<'_>) -> usize {
+    if scene.part.is_piece {
+        NUM_PAIRS_OF_A_WHOLE
+    } else {
+        NUM_PAIRS
     }
 }
 

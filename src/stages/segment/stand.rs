@@ -170,16 +170,16 @@ impl Mask {
             Bars::OffSurface => (RADIUS, TIP, LEAST_LEFT),
             Bars::All | Bars::AllButSlats => (WIDE * RADIUS, WIDE * TIP, LEAST_BARE),
         };
-        let closed = self.closed();
-        let filled: &[&Vec<bool>] = match bars {
-            Bars::OffSurface | Bars::All => &[&self.is_set, &closed],
-            Bars::AllButSlats => &[&closed],
+        let num = count(&self.is_set);
+        let opened = |filled: &[bool]| {
+            let (core, left) = self.opened(filled, half_width);
+            (count(&left) >= least_left * num).then_some((core, left))
         };
-        let num = self.is_set.iter().filter(|is_set| **is_set).count() as f64;
-        let (core, left) = filled
-            .iter()
-            .map(|filled| self.opened(filled, half_width))
-            .find(|(_, left)| count(left) >= least_left * num)?;
+        let as_it_is = match bars {
+            Bars::OffSurface | Bars::All => opened(&self.is_set),
+            Bars::AllButSlats => None,
+        };
+        let (core, left) = as_it_is.or_else(|| opened(&self.closed()))?;
         let pieces = self.components(&left);
         let largest = pieces.iter().map(Vec::len).max()? as f64;
         let mut body = vec![false; left.len()];
