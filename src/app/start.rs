@@ -1,6 +1,11 @@
 //! Opening the window, or saying in words why it cannot be opened.
 
-use std::{cell::OnceCell, env, rc::Rc};
+use std::{
+    cell::OnceCell,
+    env,
+    rc::Rc,
+    time::{Duration, Instant},
+};
 
 use eframe::NativeOptions;
 
@@ -64,17 +69,37 @@ const SIZE: [f32; 2] = [1440.0, 900.0];
 /// Below this something would be cut off.
 const MIN_SIZE: [f32; 2] = [960.0, 640.0];
 
-/// Opens the window and returns when it is closed.
+/// A window that was open for this long before its device was lost is opened again.
+const WORTH_REOPENING: Duration = Duration::from_secs(30);
+
+/// Opens the window and returns when it is closed by a person. One whose graphics device is lost opens again.
 pub fn run(given: WindowOptions) -> Result<(), WindowError> {
     // Without either nobody would see the window; asking the system only costs a wait.
     if cfg!(all(unix, not(target_os = "macos"))) && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")
     {
         return Err(WindowError::NoDisplay);
     }
-    let given = WindowOptions {
+    let mut given = WindowOptions {
         language: given.language.or_else(|| Some(Language::of_system())),
         ..given
     };
+    let mut is_reopened = false;
+    loop {
+        let opened = Instant::now();
+        let closed = open(given.clone(), is_reopened);
+        // A device that a driver's reset took away is there again; one that is lost at once would be lost for ever.
+        let was_lost = matches!(closed, Err(WindowError::DeviceLost { .. }));
+        if !was_lost || opened.elapsed() < WORTH_REOPENING {
+            return closed;
+        }
+        // What was opened last is remembered, whatever was given at first.
+        given.scene = None;
+        is_reopened = true;
+    }
+}
+
+/// Opens one window and returns when it is closed.
+fn open(given: WindowOptions, is_reopened: bool) -> Result<(), WindowError> {
     let size = given.settings.as_deref().and_then(settings::window_size);
     let options = NativeOptions {
         viewport: egui::ViewportBuilder::default()
@@ -90,16 +115,16 @@ pub fn run(given: WindowOptions) -> Result<(), WindowError> {
     let opened = eframe::run_native(
         "partsight",
         options,
-        Box::new(|cc| {
-            Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), given)
-                .map(|window| {
-                    if let Ok(gpu) = window.gpu() {
-                        // Opened once: the cell is empty.
-                        let _ = of_window.set(gpu.clone());
-                    }
-                    Box::new(window) as Box<dyn eframe::App>
-                })
-                .map_err(Into::into)
+        Box::new(move |cc| {
+            let mut window = Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), given)?;
+            if is_reopened {
+                window.tell_of_lost_device();
+            }
+            if let Ok(gpu) = window.gpu() {
+                // Opened once: the cell is empty.
+                let _ = of_window.set(gpu.clone());
+            }
+            Ok(Box::new(window) as Box<dyn eframe::App>)
         }),
     );
     opened.map_err(|error| match error {

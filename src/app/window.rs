@@ -275,6 +275,15 @@ impl Window {
         inspect.map_or(1.0, InspectWorkspace::detail)
     }
 
+    /// Says why the window is a new one.
+    pub(super) fn tell_of_lost_device(&mut self) {
+        let lost = UserError {
+            what: text!("shell-device-lost"),
+            advice: text!("shell-device-lost-advice"),
+        };
+        self.state.notices.push(lost.into());
+    }
+
     /// A source that is not there any more gives way to the simulated cell.
     fn forget_a_vanished_file(&mut self) {
         let session = &mut self.state.session;

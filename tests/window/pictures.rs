@@ -3,7 +3,7 @@
 //! They hold for software rendering alone, which draws the same everywhere; on another device, or without one, these
 //! tests say that they were skipped. `UPDATE_SNAPSHOTS=1` draws the pictures anew, to be looked at before they are kept.
 
-use std::{sync::Arc, time::Duration};
+use std::{fs, path::PathBuf, sync::Arc, time::Duration};
 
 use eframe::{egui_wgpu::RendererOptions, wgpu::DeviceType};
 use egui::Vec2;
@@ -91,10 +91,10 @@ fn inspected_by(library_cache: &LibraryCache) -> Inspected {
 }
 
 fn open_drawn(size: Vec2) -> WindowHarness {
-    open_with(size, inspected())
+    open_with(size, inspected(), None)
 }
 
-fn open_with(size: Vec2, inspected: Inspected) -> WindowHarness {
+fn open_with(size: Vec2, inspected: Inspected, settings: Option<PathBuf>) -> WindowHarness {
     let inspected = Arc::new(inspected);
     let mut harness = Harness::builder()
         .with_size(size)
@@ -103,6 +103,7 @@ fn open_with(size: Vec2, inspected: Inspected) -> WindowHarness {
             let options = WindowOptions {
                 // Of no machine: its name is in the picture.
                 cases: Some("cases of the pictures".into()),
+                settings,
                 ..plain_options()
             };
             let mut window =
@@ -153,7 +154,10 @@ fn compare_as_it_is(harness: &mut WindowHarness, name: &str) {
         paint_over(&mut picture, rect);
     }
     for node in harness.query_all(By::new().predicate(is_time_of_day)) {
-        paint_over(&mut picture, node.rect());
+        // As wide whatever the digits are.
+        let mut rect = node.rect();
+        rect.min.x = rect.min.x.min(rect.max.x - 48.0);
+        paint_over(&mut picture, rect);
     }
     if harness.state().state().session.is_live() {
         // The strip's times are today's, too: elsewhere a test puts others in their place.
@@ -212,14 +216,17 @@ fn the_operators_view_looks_as_it_did() {
     if !draws_in_software() {
         return;
     }
+    let folder = tempfile::tempdir().expect("a folder");
+    let settings = folder.path().join("settings.toml");
     for (size, is_light, name) in [
         (USUAL, false, "operator"),
         (SMALL, true, "operator_small_light"),
     ] {
         let mut found = inspected();
-        // In this shift, whenever that is.
+        // In this shift, whenever that is; without starts every shift is "since 00:00", which is as wide all day.
         found.entry.record.summary.at = jiff::Timestamp::now();
-        let mut harness = open_with(size, found);
+        fs::write(&settings, "shifts = []").expect("written");
+        let mut harness = open_with(size, found, Some(settings.clone()));
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }
@@ -314,7 +321,7 @@ fn the_robots_cell_looks_as_it_did() {
         (USUAL, false, "spray_path"),
         (SMALL, true, "spray_path_small_light"),
     ] {
-        let mut harness = open_with(size, inspected_by(&library_cache));
+        let mut harness = open_with(size, inspected_by(&library_cache), None);
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }
