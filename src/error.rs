@@ -16,7 +16,7 @@ pub trait Advice {
 }
 
 /// A panic: a mistake in the program, met while it worked on one input.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize)]
 #[error("the program itself failed here: {message}")]
 pub struct Fault {
     /// The message of the panic.

@@ -9,6 +9,7 @@ mod named_recipe;
 pub mod parameters;
 mod recipe_error;
 mod recipe_folder;
+mod refusal;
 mod rejection;
 pub mod scan;
 mod surface;
@@ -46,6 +47,7 @@ pub use self::{
     named_recipe::{BUILT_IN, MAX_NOTES, NamedRecipe, RecipeBlock, RecipeFile, RecipeLabel},
     recipe_error::RecipeError,
     recipe_folder::{RecipeFolder, RecipeList, Replace, open_recipe},
+    refusal::{Refusal, RefusalKind},
     rejection::{Rejection, Unrecognisable},
     verdict::{AcceptParams, Verdict},
     watch::{Cancelled, ProgressObserver, Stage, Timings, Unwatched},

@@ -7,11 +7,12 @@ use serde::Serialize;
 
 use super::quantile;
 use crate::{
+    error::Advice as _,
     history::{
         Filter, History, HistoryError, HungId, InspectionDetail, KeepFrames, NewEntry, Record,
-        Retention, StoredVerdict, Summary,
+        Retention, StoredRefusal, StoredVerdict, Summary,
     },
-    pipeline::{Recipe, RecipeLabel},
+    pipeline::{Recipe, RecipeLabel, Refusal, Rejection},
     simulate::{CellSetup, PartKind, Side, frame},
     stages::scene::{SceneCloud, scene_from_frame},
 };
@@ -116,6 +117,14 @@ pub fn history_times(num_rows: usize) -> Result<Vec<HistoryTime>, HistoryError> 
         }
         times.push(time(what, num, &ms, 50.0));
     }
+    let mut ms = Vec::new();
+    let mut num = 0;
+    for _ in 0..NUM_TIMES {
+        let begun = Instant::now();
+        num = history.outcomes(&everything())?.len();
+        ms.push(begun.elapsed().as_secs_f64() * 1e3);
+    }
+    times.push(time("statistics of all", num, &ms, 500.0));
     let setup = CellSetup::with_part(PartKind::Grille, Side::Left, 0, 3);
     let scene = Arc::new(scene_from_frame(&frame(&setup).frame));
     let all = Retention {
@@ -142,6 +151,19 @@ fn time(what: &'static str, num: usize, ms: &[f64], budget_ms: f64) -> HistoryTi
         median_ms: of(0.5),
         longest_ms: of(1.0),
         budget_ms,
+    }
+}
+
+fn refusal(part: &str) -> StoredRefusal {
+    let why = Rejection::LowScore {
+        part: part.to_owned(),
+        score: 0.81,
+        threshold: 0.9,
+    };
+    StoredRefusal {
+        reason: why.to_string(),
+        advice: why.advice(),
+        why: Some(Refusal::Rejected(why)),
     }
 }
 
@@ -181,7 +203,7 @@ fn entry(
             },
             detail: InspectionDetail {
                 nearest: Some(part.name().into()),
-                complaint: None,
+                refusal: (!is_accepted).then(|| refusal(part.name())),
                 camera_from_part: None,
                 recipe_label: Some(RecipeLabel::default()),
                 recipe_identity: recipe.identity(),

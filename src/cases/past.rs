@@ -99,7 +99,10 @@ impl<'a> PastCases<'a> {
                 score: summary.score.map(|[score, _]| score),
                 margin: summary.score.map(|[_, margin]| margin),
                 accepted: summary.verdict == StoredVerdict::Accepted,
-                reason: detail.complaint.as_ref().map(|[reason, _]| reason.clone()),
+                reason: detail
+                    .refusal
+                    .as_ref()
+                    .map(|refusal| refusal.reason.clone()),
             },
             pose: None,
         };

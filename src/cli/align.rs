@@ -18,7 +18,7 @@ use crate::{
         written_pose::{GivenPose, parse_pose},
     },
     report::SCHEMA,
-    stages::pose::{PoseError, PoseEstimate, PoseMethod, align},
+    stages::pose::{CloudRole, PoseError, PoseEstimate, PoseMethod, align},
     units::Metres,
 };
 
@@ -135,16 +135,20 @@ fn paths_meant(args: &AlignArgs, error: PoseError) -> String {
     let (source, target) = (args.source.display(), args.target.display());
     match error {
         PoseError::TooFewPoints {
-            which: "source", ..
+            which: CloudRole::Source,
+            ..
         }
         | PoseError::Degenerate {
-            which: "source", ..
+            which: CloudRole::Source,
+            ..
         } => source.to_string(),
         PoseError::TooFewPoints {
-            which: "target", ..
+            which: CloudRole::Target,
+            ..
         }
         | PoseError::Degenerate {
-            which: "target", ..
+            which: CloudRole::Target,
+            ..
         } => target.to_string(),
         _ => format!("{source} onto {target}"),
     }

@@ -10,9 +10,10 @@ use jiff::Timestamp;
 
 use super::{frames::FrameRecord, hung::HungId, traceability::Traceability};
 use crate::{
+    error::Advice as _,
     geometry::rigid::{RigidTransform, row_major},
     library::Truth,
-    pipeline::{Inspection, NamedRecipe, Recipe, RecipeLabel, Verdict},
+    pipeline::{Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind, Verdict},
     scan::Shot,
     stages::{pose::PoseEstimate, scene::SceneCloud},
 };
@@ -139,13 +140,41 @@ impl Summary {
     }
 }
 
+/// Why an inspection was not accepted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StoredRefusal {
+    /// In English, with the titles that the parts had.
+    pub reason: String,
+    /// What to do about it, in English.
+    pub advice: String,
+    /// The same with its figures and enrolled names; `None` where an earlier program wrote it, or this one cannot
+    /// read it.
+    pub why: Option<Refusal>,
+}
+
+impl StoredRefusal {
+    fn of(why: Refusal, title_of: impl Fn(&str) -> String) -> Self {
+        let told = why.clone().renamed(title_of);
+        Self {
+            reason: told.to_string(),
+            advice: told.advice(),
+            why: Some(why),
+        }
+    }
+
+    /// What refusals are counted by.
+    pub fn kind(&self) -> Option<RefusalKind> {
+        self.why.as_ref().map(Refusal::kind)
+    }
+}
+
 /// What is known of an inspection beside its row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InspectionDetail {
     /// The best guess, named or not.
     pub nearest: Option<String>,
-    /// Why it was not accepted and what to do, if it was not.
-    pub complaint: Option<[String; 2]>,
+    /// Why it was not accepted, if it was not.
+    pub refusal: Option<StoredRefusal>,
     /// The pose, if there is one.
     pub camera_from_part: Option<RigidTransform>,
     /// By which name the recipe went; `None` of an inspection that an earlier program wrote.
@@ -259,7 +288,10 @@ impl NewEntry {
         };
         let detail = InspectionDetail {
             nearest,
-            complaint: inspection.verdict.complaint_naming(about.title_of),
+            refusal: inspection
+                .verdict
+                .refusal()
+                .map(|why| StoredRefusal::of(why, about.title_of)),
             camera_from_part: pose.map(PoseEstimate::camera_from_part),
             recipe_label: Some(recipe.label.clone()),
             recipe_identity: recipe.identity(),

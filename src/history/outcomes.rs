@@ -1,14 +1,16 @@
 //! How parts ended, as statistics need it: a line a part, without what an inspection can be opened with.
 
 use jiff::Timestamp;
-use rusqlite::params_from_iter;
+use rusqlite::{OptionalExtension as _, params_from_iter, types::Value};
 
 use super::{
-    entry::{Record, StoredVerdict},
+    entry::{InspectionDetail, Record, StoredVerdict},
     error::HistoryError,
     filter::Filter,
+    schema::{WITH_REFUSALS, version},
     store::History,
 };
+use crate::pipeline::RefusalKind;
 
 /// How a part ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,10 +19,37 @@ pub struct PartOutcome {
     pub at: Timestamp,
     /// How.
     pub verdict: StoredVerdict,
-    /// The best guess's name, accepted or not.
-    pub nearest: Option<String>,
-    /// Why it was not accepted, for people.
-    pub reason: Option<String>,
+    /// What it was recognised as, accepted or not; nothing where it is unknown.
+    pub part: Option<String>,
+    /// Why it was not accepted, if it was not.
+    pub reason: Option<RefusalReason>,
+}
+
+/// Why a part was not accepted, as far as refusals are counted by it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RefusalReason {
+    /// The kind of the refusal.
+    Kind(RefusalKind),
+    /// An English sentence, where an earlier program wrote it or this one does not know its kind.
+    Sentence {
+        /// The sentence.
+        text: String,
+        /// The best guess's name.
+        nearest: Option<String>,
+    },
+}
+
+impl RefusalReason {
+    fn of(detail: &InspectionDetail) -> Option<Self> {
+        let refusal = detail.refusal.as_ref()?;
+        Some(match refusal.kind() {
+            Some(kind) => Self::Kind(kind),
+            None => Self::Sentence {
+                text: refusal.reason.clone(),
+                nearest: detail.nearest.clone(),
+            },
+        })
+    }
 }
 
 impl From<&Record> for PartOutcome {
@@ -29,34 +58,67 @@ impl From<&Record> for PartOutcome {
         Self {
             at: summary.at,
             verdict: summary.verdict,
-            nearest: detail.nearest.clone(),
-            reason: detail.complaint.as_ref().map(|[reason, _]| reason.clone()),
+            part: summary.part.clone(),
+            reason: RefusalReason::of(detail),
         }
     }
+}
+
+/// What a file of this version is asked. The index has all but the kind: only the rows of refusals are read themselves.
+pub(super) fn outcomes_query(filter: &Filter, version: u32) -> (String, Vec<Value>) {
+    let (condition, values) = filter.condition();
+    let kind = if version >= WITH_REFUSALS {
+        "reason_kind"
+    } else {
+        "NULL"
+    };
+    let asked = format!(
+        "SELECT number, at, verdict, part, CASE WHEN verdict <> 'accepted' THEN {kind} END
+            FROM inspection WHERE {condition} ORDER BY at, number"
+    );
+    (asked, values)
 }
 
 impl History {
     /// Of all rows that the filter lets through, the oldest first.
     pub fn outcomes(&self, filter: &Filter) -> Result<Vec<PartOutcome>, HistoryError> {
-        let (condition, values) = filter.condition();
-        let asked = format!(
-            "SELECT at, verdict, nearest, reason FROM inspection JOIN detail USING (number)
-                WHERE {condition} ORDER BY at, number"
-        );
-        let read = || -> rusqlite::Result<Vec<PartOutcome>> {
-            let mut asked = self.file.prepare(&asked)?;
-            let outcomes = asked.query_map(params_from_iter(values), |row| {
-                let at = Timestamp::from_microsecond(row.get(0)?);
-                let verdict: String = row.get(1)?;
-                Ok(PartOutcome {
-                    at: at.unwrap_or(Timestamp::UNIX_EPOCH),
-                    verdict: StoredVerdict::named(&verdict).unwrap_or(StoredVerdict::NotAccepted),
-                    nearest: row.get(2)?,
-                    reason: row.get(3)?,
-                })
-            })?;
-            outcomes.collect()
-        };
-        read().map_err(|error| self.error(error))
+        self.read_outcomes(filter)
+            .map_err(|error| self.error(error))
+    }
+
+    fn read_outcomes(&self, filter: &Filter) -> rusqlite::Result<Vec<PartOutcome>> {
+        let (asked, values) = outcomes_query(filter, version(&self.file)?);
+        let mut asked = self.file.prepare(&asked)?;
+        let mut sentence = self.file.prepare(
+            "SELECT reason, nearest FROM detail WHERE number = ? AND reason IS NOT NULL",
+        )?;
+        let mut rows = asked.query(params_from_iter(values))?;
+        let mut outcomes = Vec::new();
+        while let Some(row) = rows.next()? {
+            let number: i64 = row.get(0)?;
+            let at = Timestamp::from_microsecond(row.get(1)?);
+            let verdict: String = row.get(2)?;
+            let verdict = StoredVerdict::named(&verdict).unwrap_or(StoredVerdict::NotAccepted);
+            let kind: Option<String> = row.get(4)?;
+            let reason = match kind.as_deref().and_then(RefusalKind::named) {
+                Some(kind) => Some(RefusalReason::Kind(kind)),
+                None if verdict == StoredVerdict::Accepted => None,
+                None => sentence
+                    .query_row([number], |row| {
+                        Ok(RefusalReason::Sentence {
+                            text: row.get(0)?,
+                            nearest: row.get(1)?,
+                        })
+                    })
+                    .optional()?,
+            };
+            outcomes.push(PartOutcome {
+                at: at.unwrap_or(Timestamp::UNIX_EPOCH),
+                verdict,
+                part: row.get(3)?,
+                reason,
+            });
+        }
+        Ok(outcomes)
     }
 }

@@ -6,10 +6,10 @@ use jiff::Timestamp;
 use rusqlite::{Connection, OptionalExtension as _, Row, params};
 
 use super::{
-    entry::{InspectionDetail, NewEntry, Record, StoredVerdict, Summary, png_of},
+    entry::{InspectionDetail, NewEntry, Record, StoredRefusal, StoredVerdict, Summary, png_of},
     frames::FrameRecord,
     hung::HungId,
-    schema::{WITH_TRACEABILITY, version},
+    schema::{WITH_RECIPE_NAMES, WITH_REFUSALS, WITH_TRACEABILITY, version},
     traceability::Traceability,
 };
 use crate::{
@@ -25,6 +25,25 @@ pub(super) fn columns(file: &Connection) -> rusqlite::Result<String> {
         "'' AS serial, '' AS job_order, '' AS operator"
     };
     Ok(format!("{COLUMNS}, {trace}"))
+}
+
+/// What the rest of an inspection is read from, with its recipe.
+pub(super) fn detail_columns(file: &Connection) -> rusqlite::Result<String> {
+    let found = version(file)?;
+    let recipe = if found >= WITH_RECIPE_NAMES {
+        "recipe_name, recipe_changed"
+    } else {
+        "NULL AS recipe_name, 0 AS recipe_changed"
+    };
+    let refusal = if found >= WITH_REFUSALS {
+        "refusal"
+    } else {
+        "NULL AS refusal"
+    };
+    Ok(format!(
+        "nearest, reason, advice, {refusal}, camera_from_part, recipe.identity, recipe.json, {recipe}, library, program, \
+            line, thumbnail, origin, frame"
+    ))
 }
 
 const COLUMNS: &str = "number, at, scene, source, simulated, verdict, part, title, score, margin, total_ms, remark, \
@@ -60,15 +79,12 @@ pub(super) fn insert(
         summary.label.clone_from(&head.label);
     }
     let [score, margin] = summary.score.map_or([None; 2], |both| both.map(Some));
-    let [reason, advice] = detail
-        .complaint
-        .clone()
-        .map_or([None, None], |both| both.map(Some));
+    let refusal = detail.refusal.as_ref();
     let recipe = recipe_key(file, &detail.recipe_identity, detail.recipe.as_deref())?;
     file.execute(
         "INSERT INTO inspection (at, scene, source, simulated, verdict, part, title, score, margin, total_ms,
-            remark, label, frame_bytes, search, hung, parent, serial, job_order, operator)
-            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            remark, label, frame_bytes, search, hung, parent, serial, job_order, operator, reason_kind)
+            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         params![
             summary.at.as_microsecond(),
             summary.scene,
@@ -89,6 +105,7 @@ pub(super) fn insert(
             summary.trace.serial,
             summary.trace.order,
             summary.trace.operator,
+            refusal.and_then(StoredRefusal::kind).map(|kind| kind.to_string()),
         ],
     )?;
     let number = file.last_insert_rowid();
@@ -100,12 +117,13 @@ pub(super) fn insert(
     }
     file.execute(
         "INSERT INTO detail (number, nearest, reason, advice, camera_from_part, recipe, library, program, line,
-            thumbnail, origin, frame, recipe_name, recipe_changed) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            thumbnail, origin, frame, recipe_name, recipe_changed, refusal)
+            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         params![
             number,
             detail.nearest,
-            reason,
-            advice,
+            refusal.map(|refusal| &refusal.reason),
+            refusal.map(|refusal| &refusal.advice),
             entry.record.matrix().as_ref().and_then(json),
             recipe,
             detail.library_identity,
@@ -116,6 +134,7 @@ pub(super) fn insert(
             frame.and_then(json),
             detail.recipe_label.as_ref().map(|label| &label.name),
             detail.recipe_label.as_ref().is_some_and(|label| label.is_changed),
+            refusal.and_then(|refusal| json(refusal.why.as_ref()?)),
         ],
     )?;
     Ok(number)
@@ -182,9 +201,9 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
 }
 
 pub(super) fn record_of(row: &Row<'_>) -> rusqlite::Result<Record> {
-    let [reason, advice, pose, frame] =
-        ["reason", "advice", "camera_from_part", "frame"].map(|name| row.get(name));
-    let [reason, advice, pose, frame]: [Option<String>; 4] = [reason?, advice?, pose?, frame?];
+    let text = |name| row.get::<_, Option<String>>(name);
+    let (pose, frame, why) = (text("camera_from_part")?, text("frame")?, text("refusal")?);
+    let (reason, advice) = (text("reason")?, text("advice")?);
     let pose = pose.and_then(|pose| {
         let mut numbers = serde_json::Deserializer::from_str(&pose);
         sixteen_numbers::deserialize(&mut numbers).ok()
@@ -197,7 +216,11 @@ pub(super) fn record_of(row: &Row<'_>) -> rusqlite::Result<Record> {
         summary: summary_of(row)?,
         detail: InspectionDetail {
             nearest: row.get("nearest")?,
-            complaint: reason.map(|reason| [reason, advice.unwrap_or_default()]),
+            refusal: reason.map(|reason| StoredRefusal {
+                reason,
+                advice: advice.unwrap_or_default(),
+                why: why.and_then(|why| serde_json::from_str(&why).ok()),
+            }),
             camera_from_part: pose,
             recipe_label: recipe_name.map(|name| RecipeLabel { name, is_changed }),
             recipe_identity: row.get("identity")?,

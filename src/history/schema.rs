@@ -6,7 +6,7 @@ use rusqlite::{Connection, Transaction, TransactionBehavior};
 type Migration = fn(&Transaction<'_>) -> rusqlite::Result<()>;
 
 /// Every step, in order; the version of a file counts those that it has seen.
-const STEPS: [Migration; 4] = [first, parts, recipe_names, traceability];
+const STEPS: [Migration; 5] = [first, parts, recipe_names, traceability, refusals];
 
 /// The version that is written.
 pub(super) const VERSION: u32 = STEPS.len() as u32;
@@ -16,6 +16,9 @@ pub(super) const WITH_RECIPE_NAMES: u32 = 3;
 
 /// The version from which on inspections have serial numbers.
 pub(super) const WITH_TRACEABILITY: u32 = 4;
+
+/// The version from which on refusals have a kind and figures beside their English sentence.
+pub(super) const WITH_REFUSALS: u32 = 5;
 
 /// Tells our files from other programs': `PsHi`.
 pub(super) const APPLICATION: i32 = i32::from_be_bytes(*b"PsHi");
@@ -103,6 +106,15 @@ fn traceability(file: &Transaction<'_>) -> rusqlite::Result<()> {
     )
 }
 
+/// Why an inspection was not accepted, for programs; `reason` and `advice` say the same in English. The kind stands with
+/// what lists show, so that statistics leave the long rows of `detail` alone.
+fn refusals(file: &Transaction<'_>) -> rusqlite::Result<()> {
+    file.execute_batch(
+        "ALTER TABLE inspection ADD COLUMN reason_kind TEXT; -- the kind of refusal; NULL: accepted, or not written down
+        ALTER TABLE detail ADD COLUMN refusal TEXT;         -- Refusal as JSON, parts by their enrolled names",
+    )
+}
+
 /// The version of a file; 0 before it has a table.
 pub(super) fn version(file: &Connection) -> rusqlite::Result<u32> {
     file.pragma_query_value(None, "user_version", |row| row.get(0))
@@ -187,6 +199,37 @@ mod tests {
         let empty = String::new;
         let texts = ["a dent".to_owned(), empty(), empty(), empty()];
         assert_eq!(row.expect("there"), (7, texts));
+    }
+
+    #[test]
+    fn a_refusal_of_a_file_of_the_fourth_version_keeps_its_text_and_has_no_kind() {
+        let mut file = Connection::open_in_memory().expect("a file");
+        migrate_by(&mut file, &[first, parts, recipe_names, traceability]).expect("made");
+        file.execute_batch(
+            "INSERT INTO recipe VALUES ('0badcafe', '{}');
+            INSERT INTO inspection (at, scene, source, simulated, verdict, title, total_ms, remark, search, hung)
+                VALUES (7, 'a', 'b', 1, 'not_accepted', 'Fender', 20.0, 'a dent', 'fender a dent', 'n1');
+            INSERT INTO detail (number, nearest, reason, advice, recipe, library, program, line)
+                VALUES (1, 'fender', 'too low', 'look again', '0badcafe', '0', '0.1.0', '{}');",
+        )
+        .expect("written");
+        migrate(&mut file).expect("made");
+        assert_eq!(version(&file).expect("asked"), VERSION);
+        let asked = "SELECT remark, reason, advice, reason_kind, refusal FROM inspection JOIN detail USING (number)";
+        let row = file.query_row(asked, [], |row| {
+            let texts = [0, 1, 2, 3, 4].map(|place| row.get::<_, Option<String>>(place));
+            Ok(texts.map(|text| text.expect("text or nothing")))
+        });
+        let row = row.expect("there");
+        let row = row.each_ref().map(Option::as_deref);
+        let expected = [
+            Some("a dent"),
+            Some("too low"),
+            Some("look again"),
+            None,
+            None,
+        ];
+        assert_eq!(row, expected);
     }
 
     fn second(file: &Transaction<'_>) -> rusqlite::Result<()> {

@@ -14,8 +14,7 @@ use super::{
     hung::HungId,
     open::{FILE, FRAMES, Lock},
     retention::Retention,
-    rows::{columns, head_of, insert, json, record_of, summary_of},
-    schema::{WITH_RECIPE_NAMES, version},
+    rows::{columns, detail_columns, head_of, insert, json, record_of, summary_of},
     shots,
 };
 use crate::{library::Truth, scan::Shot, stages::scene::SceneCloud};
@@ -207,22 +206,16 @@ impl History {
 
     /// An inspection in full.
     pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
-        // A file that cannot be written is not brought to the version of today.
-        let found = version(&self.file).map_err(|error| self.error(error))?;
-        let recipe = if found >= WITH_RECIPE_NAMES {
-            "recipe_name, recipe_changed"
-        } else {
-            "NULL AS recipe_name, 0 AS recipe_changed"
+        let read = || -> rusqlite::Result<Option<Record>> {
+            let (columns, detail) = (columns(&self.file)?, detail_columns(&self.file)?);
+            let asked = format!(
+                "SELECT {columns}, {detail}
+                FROM inspection JOIN detail USING (number) JOIN recipe ON recipe.identity = detail.recipe
+                WHERE number = ?"
+            );
+            self.file.query_row(&asked, [number], record_of).optional()
         };
-        let columns = columns(&self.file).map_err(|error| self.error(error))?;
-        let asked = format!(
-            "SELECT {columns}, nearest, reason, advice, camera_from_part, recipe.identity, recipe.json, {recipe}, library,
-                program, line, thumbnail, origin, frame
-            FROM inspection JOIN detail USING (number) JOIN recipe ON recipe.identity = detail.recipe
-            WHERE number = ?"
-        );
-        let found = self.file.query_row(&asked, [number], record_of).optional();
-        found.map_err(|error| self.error(error))
+        read().map_err(|error| self.error(error))
     }
 
     /// The same; one that is not there is an error.

@@ -2,14 +2,14 @@
 
 use std::io::{self, Write};
 
-use super::entry::Record;
+use super::entry::{Record, StoredRefusal};
 use crate::library::Truth;
 
 /// The first line.
 const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
     label,remark,recipe,library,program,parent,reinspections,\
     m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33,recipe_name,recipe_changed,\
-    serial,order,operator";
+    serial,order,operator,reason_kind";
 
 /// Writes the first line: the names of the columns. Times are UTC; `parent` is the number of
 /// the inspection that stands for the same part, `reinspections` how many others lie below it; m00..m33 are `camera_from_part`, row after row,
@@ -24,7 +24,11 @@ pub fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
     let [score, margin] = summary
         .score
         .map_or_else(Default::default, |both| both.map(|x| format!("{x:.4}")));
-    let reason = detail.complaint.as_ref().map_or("", |[reason, _]| reason);
+    let refusal = detail.refusal.as_ref();
+    let reason = refusal.map_or("", |refusal| &refusal.reason);
+    let kind = refusal
+        .and_then(StoredRefusal::kind)
+        .map_or_else(String::new, |kind| kind.to_string());
     let pose = match record.matrix() {
         Some(numbers) => numbers.map(|x| format!(",{x:.9}")).concat(),
         None => ",".repeat(16),
@@ -39,7 +43,7 @@ pub fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
         [&trace.serial, &trace.order, &trace.operator].map(|text| quoted(text));
     writeln!(
         writer,
-        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator}",
+        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind}",
         summary.number,
         summary.at,
         quoted(&summary.scene),

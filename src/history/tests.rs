@@ -5,12 +5,15 @@ use std::sync::Arc;
 use rand::{RngExt as _, SeedableRng as _};
 use rusqlite::params_from_iter;
 
-use super::{store::listed_query, *};
+use super::{outcomes::outcomes_query, schema::VERSION, store::listed_query, *};
 use crate::{
     geometry::rigid::from_euler_zyx,
-    kit::{history_entry, moment, new_history, open_history, small_scene},
+    kit::{
+        history_entry, low_score, moment, new_history, open_history, refusal, rejections,
+        small_scene, unrecognisables,
+    },
     library::Truth,
-    pipeline::{Recipe, RecipeLabel},
+    pipeline::{Recipe, RecipeLabel, RefusalKind},
     scan::Shot,
 };
 
@@ -226,29 +229,26 @@ fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
         );
         let far = history.page(&filter, num as usize - 1, 50).expect("asked");
         assert_eq!(far.rows.len(), 1);
-        let (asked, values) = listed_query(&filter);
-        let mut plan = history
-            .file
-            .prepare(&format!("EXPLAIN QUERY PLAN {asked}"))
-            .expect("asked");
-        let plan = plan
-            .query_map(params_from_iter(values), |row| {
-                row.get::<_, String>("detail")
-            })
-            .expect("asked");
-        let plan: Vec<String> = plan.map(|line| line.expect("text")).collect();
-        assert!(
-            plan.iter()
-                .any(|line| line.contains("COVERING INDEX listed")),
-            "{plan:?}"
-        );
-        assert!(
-            plan.iter()
-                // In the order of the index: nothing is sorted.
-                .all(|line| !line.contains("TEMP B-TREE")),
-            "{plan:?}"
-        );
+        // In the order of the index: nothing is sorted.
+        let plan = plan_of(&history, listed_query(&filter));
+        assert!(plan.contains("COVERING INDEX listed"), "{plan}");
+        assert!(!plan.contains("TEMP B-TREE"), "{plan}");
+        // Of statistics nothing but the kind of a refusal is read from the rows themselves.
+        let plan = plan_of(&history, outcomes_query(&filter, VERSION));
+        assert!(plan.contains("INDEX listed"), "{plan}");
+        assert!(!plan.contains("TEMP B-TREE"), "{plan}");
+        let outcomes = history.outcomes(&filter).expect("asked");
+        assert_eq!(outcomes.len() as i64, num, "{filter:?}");
     }
+}
+
+/// How the file answers this.
+fn plan_of(history: &History, (asked, values): (String, Vec<rusqlite::types::Value>)) -> String {
+    let asked = format!("EXPLAIN QUERY PLAN {asked}");
+    let mut plan = history.file.prepare(&asked).expect("asked");
+    let lines = plan.query_map(params_from_iter(values), |row| row.get("detail"));
+    let lines: rusqlite::Result<Vec<String>> = lines.expect("asked").collect();
+    lines.expect("text").join("\n")
 }
 
 #[test]
@@ -396,6 +396,13 @@ fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
             .iter()
             .all(|line| num_fields(line) == num_fields(lines[0]))
     );
+    // Those were written by an earlier program.
+    assert!(lines[0].ends_with(",reason_kind") && lines[1].ends_with(','));
+    let mut refused = history_entry(4, StoredVerdict::NotAccepted, "grille");
+    refused.record.detail.refusal = Some(low_score("grille", 0.81));
+    let mut line = Vec::new();
+    write_row(&mut line, &refused.record).expect("written");
+    assert!(line.ends_with(b",low_score\n"), "{line:?}");
 }
 
 /// One more inspection of the same part.
@@ -551,6 +558,85 @@ fn a_file_of_the_second_version_that_cannot_be_written_is_read_as_it_is() {
     let record = history.known(1).expect("there");
     assert_eq!(record.detail.recipe_label, None);
     assert_eq!(record.detail.recipe, written.record.detail.recipe);
+}
+
+#[test]
+fn a_file_of_the_fourth_version_that_cannot_be_written_is_read_as_it_is() {
+    let (_folder, mut history) = new_history();
+    let mut written = history_entry(1, StoredVerdict::NotAccepted, "fender");
+    let refused = low_score("fender", 0.81);
+    written.record.detail.refusal = Some(refused.clone());
+    history.add(&written, &ALL).expect("written");
+    let former = "ALTER TABLE detail DROP COLUMN refusal;
+        ALTER TABLE inspection DROP COLUMN reason_kind;
+        PRAGMA user_version = 4;";
+    history.file.execute_batch(former).expect("changed");
+    assert_eq!(numbers(&history, &Filter::default()), [1]);
+    let record = history.known(1).expect("there");
+    let expected = StoredRefusal {
+        why: None,
+        ..refused
+    };
+    assert_eq!(record.detail.refusal, Some(expected));
+    let outcomes = history.outcomes(&Filter::default()).expect("asked");
+    assert_eq!(outcomes, [PartOutcome::from(&record)]);
+}
+
+#[test]
+fn every_refusal_comes_back_with_its_figures_and_is_counted_by_its_kind() {
+    let (_folder, mut history) = new_history();
+    let mut refusals: Vec<StoredRefusal> = rejections().into_iter().map(refusal).collect();
+    refusals.extend(unrecognisables().into_iter().map(refusal));
+    for (seconds, refused) in (1..).zip(&refusals) {
+        let mut entry = history_entry(seconds, StoredVerdict::NotAccepted, "fender");
+        entry.record.detail.refusal = Some(refused.clone());
+        entry.scene = None;
+        history.add(&entry, &ALL).expect("written");
+    }
+    let outcomes = history.outcomes(&Filter::default()).expect("asked");
+    assert_eq!(outcomes.len(), refusals.len());
+    for (number, (refused, outcome)) in (1..).zip(refusals.into_iter().zip(outcomes)) {
+        let kind = refused.kind().expect("known");
+        assert_eq!(outcome.reason, Some(RefusalReason::Kind(kind)));
+        let record = history.known(number).expect("there");
+        assert_eq!(record.detail.refusal, Some(refused));
+        assert_eq!(PartOutcome::from(&record), outcome);
+    }
+}
+
+#[test]
+fn a_refusal_that_is_damaged_or_of_a_later_kind_falls_back_to_its_text() {
+    let (_folder, mut history) = new_history();
+    for seconds in 1..=3 {
+        let mut entry = history_entry(seconds, StoredVerdict::NotAccepted, "fender");
+        entry.record.detail.refusal = Some(low_score("fender", 0.81));
+        history.add(&entry, &ALL).expect("written");
+    }
+    let changed = r#"UPDATE detail SET refusal = '{"kind":"low_score","part":"fen' WHERE number = 1;
+        UPDATE detail SET refusal = '{"kind":"bewitched","part":"fender"}' WHERE number = 2;
+        UPDATE inspection SET reason_kind = 'bewitched' WHERE number = 2;
+        UPDATE detail SET refusal = NULL WHERE number = 3;
+        UPDATE inspection SET reason_kind = NULL WHERE number = 3;"#;
+    history.file.execute_batch(changed).expect("changed");
+    let text = low_score("fender", 0.81).reason;
+    for number in 1..=3 {
+        let refused = history.known(number).expect("there").detail.refusal;
+        let refused = refused.expect("refused");
+        assert_eq!(
+            (refused.reason.as_str(), refused.why),
+            (text.as_str(), None)
+        );
+    }
+    let outcomes = history.outcomes(&Filter::default()).expect("asked");
+    let reasons = outcomes.into_iter().map(|outcome| outcome.reason);
+    let reasons: Vec<RefusalReason> = reasons.flatten().collect();
+    let sentence = || RefusalReason::Sentence {
+        text: text.clone(),
+        nearest: Some("fender".into()),
+    };
+    // The kind of the first is written apart.
+    let first = RefusalReason::Kind(RefusalKind::LowScore);
+    assert_eq!(reasons, [first, sentence(), sentence()]);
 }
 
 #[test]

@@ -1,4 +1,6 @@
 //! Why a part was not accepted, or nothing could be recognised, and what to do about it.
+//!
+//! As JSON each is an object with its `kind`: histories keep it, so a kind and its fields keep their names and units.
 
 use super::{mirror::PUT_RIGHT, unsound::RANGE};
 use crate::{
@@ -14,7 +16,8 @@ use crate::{
 };
 
 /// Why a best guess was not accepted.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Rejection {
     /// The score is too low.
     #[error("the best match, {part}, scores {score:.2}, below the threshold of {threshold:.2}")]
@@ -61,8 +64,10 @@ pub enum Rejection {
         /// Best match.
         part: String,
         /// Root mean square of how far patches of the surface are off.
+        #[serde(rename = "relief_m")]
         relief: Metres,
         /// Root mean square of how far stretches of the outline are off.
+        #[serde(rename = "outline_m")]
         outline: Metres,
         /// Share of the reference that is not there, 0..1.
         missing: f64,
@@ -103,8 +108,10 @@ pub enum Rejection {
         /// Best match.
         part: String,
         /// Bound of the shift's error, 95 %.
+        #[serde(rename = "shift_m")]
         shift: Metres,
         /// Largest bound that is accepted.
+        #[serde(rename = "limit_m")]
         limit: Metres,
     },
     /// Nothing enrolled is like it.
@@ -168,6 +175,7 @@ pub enum Rejection {
         /// Best match.
         part: String,
         /// The middle one of its points' depths.
+        #[serde(rename = "depth_m")]
         depth: Metres,
     },
     /// The points are not in the space of a camera.
@@ -274,26 +282,31 @@ impl Rejection {
 }
 
 /// Why nothing could be recognised.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Unrecognisable {
-    /// Segmentation left nothing.
-    #[error(transparent)]
-    NoPart(#[from] NoPart),
-    /// No projection.
-    #[error(transparent)]
-    Project(#[from] ProjectError),
-    /// No contour.
-    #[error(transparent)]
-    Contour(#[from] ContourError),
-    /// No signature.
-    #[error(transparent)]
-    Signature(#[from] SignatureError),
     /// Nothing is enrolled.
     #[error("no part is enrolled in the library")]
     EmptyLibrary,
     /// A mistake in the program, met at this scene.
     #[error(transparent)]
     Fault(Fault),
+    /// Segmentation left nothing.
+    #[error(transparent)]
+    #[serde(untagged)]
+    NoPart(#[from] NoPart),
+    /// No projection.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Project(#[from] ProjectError),
+    /// No contour.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Contour(#[from] ContourError),
+    /// No signature.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Signature(#[from] SignatureError),
 }
 
 impl Advice for Rejection {

@@ -2,6 +2,7 @@
 
 use super::{
     Recipe,
+    refusal::Refusal,
     rejection::{Rejection, Unrecognisable},
 };
 use crate::{
@@ -96,17 +97,15 @@ impl Verdict {
 
     /// Why it is not accepted, and what to do; `None` if it is.
     pub fn complaint(&self) -> Option<[String; 2]> {
-        self.complaint_naming(str::to_owned)
+        let why = self.refusal()?;
+        Some([why.to_string(), why.advice()])
     }
 
-    /// The same with other words for the parts, such as their titles.
-    pub fn complaint_naming(&self, word_of: impl Fn(&str) -> String) -> Option<[String; 2]> {
+    /// Why it is not accepted, with its figures; `None` if it is.
+    pub fn refusal(&self) -> Option<Refusal> {
         match self {
-            Self::Part { rejected, .. } => {
-                let rejected = rejected.clone()?.renamed(word_of);
-                Some([rejected.to_string(), rejected.advice()])
-            }
-            Self::NoPart(reason) => Some([reason.to_string(), reason.advice()]),
+            Self::Part { rejected, .. } => rejected.clone().map(Refusal::Rejected),
+            Self::NoPart(why) => Some(Refusal::Unrecognisable(why.clone())),
         }
     }
 

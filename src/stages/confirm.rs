@@ -25,7 +25,7 @@ pub use self::{
 use crate::{
     stages::{
         pose::{
-            PoseError, PoseEstimate,
+            CloudRole, PoseError, PoseEstimate,
             refine::{Level, Search},
         },
         rank::{MatchEntry, MatchRanking, Query},
@@ -168,7 +168,7 @@ pub fn confirm(
     let mut seen = PreparedScene::new(scene, references, params);
     if seen.source.surface.len() < 20 {
         let error = PoseError::TooFewPoints {
-            which: "source",
+            which: CloudRole::Source,
             found: seen.source.surface.len(),
             needed: 20,
         };

@@ -64,7 +64,8 @@ pub struct Contour {
 }
 
 /// Why no contour was found.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum ContourError {
     /// No shape in the image encloses an area.
     #[error("the binary image holds no shape with an area ({num_set} pixels set)")]

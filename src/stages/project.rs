@@ -96,7 +96,8 @@ impl PlaneImage {
 }
 
 /// Why no image could be made.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum ProjectError {
     /// The points span no plane.
     #[error("the part's {num_points} points lie on a line or a spot ({width:.4} m wide)")]
@@ -104,14 +105,17 @@ pub enum ProjectError {
         /// Points given.
         num_points: usize,
         /// Standard deviation along the second axis, metres.
+        #[serde(rename = "width_m")]
         width: f64,
     },
     /// The points reach too far for an image.
     #[error("the part spans {found:.1} m, an image covers {limit:.1} m")]
     TooLarge {
         /// Extent, metres.
+        #[serde(rename = "found_m")]
         found: f64,
         /// Largest extent, metres.
+        #[serde(rename = "limit_m")]
         limit: f64,
     },
 }

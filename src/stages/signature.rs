@@ -63,7 +63,8 @@ pub struct LiteralSignature {
 }
 
 /// Why no signature could be made.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum SignatureError {
     /// The outline has no length.
     #[error("the outline of {num_points} points has no length")]

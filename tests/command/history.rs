@@ -160,6 +160,22 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
     );
 }
 
+#[test]
+fn programs_read_why_an_inspection_was_not_accepted_as_a_kind() {
+    let place = with_captures();
+    let inspected = place.run(&["inspect", "fender.pcd", "hood.png"]);
+    assert_eq!(inspected.code, 1);
+    let kinds = ["1", "2"].map(|number| {
+        let shown = place.accepted(&["history", "show", number, "--json"]);
+        shown.lines()[0]["reason_kind"].clone()
+    });
+    assert_eq!(kinds, [Value::Null, "unknown".into()]);
+    place.accepted(&["history", "export", "--csv", "all.csv"]);
+    let table = place.read("all.csv");
+    let ends: Vec<Option<&str>> = table.lines().map(|line| line.rsplit(',').next()).collect();
+    assert_eq!(ends, [Some("reason_kind"), Some(""), Some("unknown")]);
+}
+
 /// Parts that come in from the right one after the other, ten frames a second, hang still and leave to the left; where
 /// `rests` is false it does not stop.
 fn record_line(folder: &Path, parts: &[(PartKind, bool)]) {
@@ -587,9 +603,9 @@ fn serial_number_order_and_operator_stand_in_history_table_and_report() {
     );
     place.accepted(&["history", "export", "--csv", "all.csv"]);
     let table = place.read("all.csv");
-    assert!(table.contains(",TL-4711,A 17,\"Kim, early\"\n"), "{table}");
+    assert!(table.contains(",TL-4711,A 17,\"Kim, early\",\n"), "{table}");
     assert!(
-        table.lines().any(|line| line.ends_with(",,B 2,")),
+        table.lines().any(|line| line.ends_with(",,B 2,,")),
         "{table}"
     );
     let report = [

@@ -10,6 +10,7 @@ use image::RgbImage;
 use jiff::{SignedDuration, Timestamp};
 use nalgebra::{Point3, Vector3};
 use partsight::{
+    Advice as _,
     geometry::{
         cloud::PointCloud,
         depth_frame::{DepthFrame, Intrinsics},
@@ -17,15 +18,22 @@ use partsight::{
         rigid::{RigidTransform, from_euler_zyx, row_major},
     },
     history::{
-        History, HungId, InspectionDetail, NewEntry, Record, StoredVerdict, Summary, Traceability,
+        History, HungId, InspectionDetail, NewEntry, Record, StoredRefusal, StoredVerdict, Summary,
+        Traceability,
     },
     library::{Library, LibraryFolder},
-    pipeline::{Recipe, RecipeLabel},
+    pipeline::{Recipe, RecipeLabel, Refusal, Rejection, Unrecognisable},
     simulate::{CellSetup, PartKind, PartPose, PoseRange, SensorNoise, Side, frame, frame_of_mesh},
     stages::{
+        contour::ContourError,
+        pose::{Axis, CloudRole, FreeMotion, PoseError},
+        project::ProjectError,
         reference::{Coverage, Reference, ReferenceParams},
         scene::{SceneCloud, scene_from_frame},
+        segment::NoPart,
+        signature::SignatureError,
     },
+    units::Metres,
 };
 use proptest::prelude::*;
 
@@ -167,8 +175,13 @@ pub(crate) fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) ->
             },
             detail: InspectionDetail {
                 nearest: Some(part.to_owned()),
-                complaint: Some(["too low".into(), "look again".into()])
-                    .filter(|_| verdict != StoredVerdict::Accepted),
+                // As an earlier program wrote it.
+                refusal: Some(StoredRefusal {
+                    reason: "too low".into(),
+                    advice: "look again".into(),
+                    why: None,
+                })
+                .filter(|_| verdict != StoredVerdict::Accepted),
                 camera_from_part: Some(camera_from_part),
                 recipe_label: Some(RecipeLabel::default()),
                 recipe_identity: recipe.identity(),
@@ -187,6 +200,25 @@ pub(crate) fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) ->
     }
 }
 
+/// Why an inspection was not accepted, as this program writes it.
+pub(crate) fn refusal(why: impl Into<Refusal>) -> StoredRefusal {
+    let why = why.into();
+    StoredRefusal {
+        reason: why.to_string(),
+        advice: why.advice(),
+        why: Some(why),
+    }
+}
+
+/// A part that scores too little.
+pub(crate) fn low_score(part: &str, score: f64) -> StoredRefusal {
+    refusal(Rejection::LowScore {
+        part: part.to_owned(),
+        score,
+        threshold: 0.9,
+    })
+}
+
 /// The history in this folder, which is sound.
 pub(crate) fn open_history(folder: &Path) -> History {
     let opened = History::open(folder).expect("opened");
@@ -199,4 +231,186 @@ pub(crate) fn new_history() -> (tempfile::TempDir, History) {
     let folder = tempfile::tempdir().expect("a folder");
     let history = open_history(folder.path());
     (folder, history)
+}
+
+/// Every way in which a pose can be free.
+pub(crate) const FREEDOMS: [FreeMotion; 7] = [
+    FreeMotion::Slide(Axis::Long),
+    FreeMotion::Slide(Axis::Short),
+    FreeMotion::Slide(Axis::Normal),
+    FreeMotion::Turn(Axis::Long),
+    FreeMotion::Turn(Axis::Short),
+    FreeMotion::Turn(Axis::Normal),
+    FreeMotion::Anyhow,
+];
+
+/// Every reason for no pose.
+pub(crate) fn pose_errors() -> Vec<PoseError> {
+    let [found, needed] = [3, 12];
+    let which = CloudRole::Source;
+    vec![
+        PoseError::TooFewPoints {
+            which: CloudRole::Target,
+            found,
+            needed,
+        },
+        PoseError::Degenerate {
+            which,
+            width: 0.000_125,
+        },
+        PoseError::OneSidedPairs {
+            num_pairs: 40,
+            rms: Metres(0.0123),
+        },
+        PoseError::NoOverlap {
+            found,
+            needed,
+            reach: Metres(0.05),
+        },
+        PoseError::SizesDiffer { ratio: 999.6 },
+        PoseError::TooFarOut {
+            which,
+            distance: Metres(123_456.7),
+        },
+        PoseError::NoReferenceCloud,
+        PoseError::Cancelled,
+    ]
+}
+
+/// Every rejection, those with several texts more than once.
+pub(crate) fn rejections() -> Vec<Rejection> {
+    let part = "Fender, left".to_owned();
+    let (score, threshold, margin) = (0.456, 0.9, 0.125);
+    let [num_agreeing, num_frames, needed] = [2, 5, 4];
+    let piece = |hidden, outside| Rejection::Piece {
+        part: "Fender, left".into(),
+        score,
+        threshold,
+        hidden,
+        outside,
+    };
+    let mut all = vec![
+        Rejection::LowScore {
+            part: part.clone(),
+            score,
+            threshold,
+        },
+        piece(0.4, 0.0),
+        piece(0.0, 0.4),
+        piece(0.2, 0.2),
+        Rejection::HardlySeen {
+            part: part.clone(),
+            score,
+        },
+        Rejection::AnotherModel {
+            part: part.clone(),
+            relief: Metres(0.0042),
+            outline: Metres(0.0119),
+            missing: 0.0123,
+        },
+        Rejection::AnotherMake {
+            part: part.clone(),
+            likeness: 0.7,
+        },
+        Rejection::AmbiguousPose {
+            part: part.clone(),
+            margin,
+            threshold,
+        },
+        Rejection::Uncertain {
+            part: part.clone(),
+            shift: Metres(0.0213),
+            limit: Metres(0.015),
+        },
+        Rejection::Unknown {
+            nearest: part.clone(),
+            score,
+        },
+        Rejection::Mirrored {
+            part: part.clone(),
+            score,
+        },
+        Rejection::MirroredImage {
+            part: part.clone(),
+            score,
+        },
+        Rejection::SmallMargin {
+            part: part.clone(),
+            other: "Grille".into(),
+            margin,
+            threshold,
+        },
+        Rejection::Unconfirmed { part: part.clone() },
+        Rejection::OutOfRange {
+            part: part.clone(),
+            depth: Metres(31.456),
+        },
+        Rejection::BehindCamera {
+            part: part.clone(),
+            share: 0.0321,
+        },
+        Rejection::SurplusBytes {
+            part: part.clone(),
+            num: 4096,
+        },
+        Rejection::NotSteady { part: part.clone() },
+        Rejection::FewFrames {
+            part: part.clone(),
+            num_frames,
+            needed,
+        },
+        Rejection::Undecided {
+            part: part.clone(),
+            num_agreeing,
+            num_frames,
+            needed,
+        },
+        Rejection::PosesApart {
+            part: part.clone(),
+            num_agreeing,
+            num_frames,
+            needed,
+        },
+    ];
+    all.extend(FREEDOMS.map(|freedom| Rejection::Unconstrained {
+        part: part.clone(),
+        freedom,
+    }));
+    all.extend(pose_errors().into_iter().map(Rejection::NoPose));
+    all
+}
+
+/// Every reason for no verdict but a fault of the program, those with several texts more than once.
+pub(crate) fn unrecognisables() -> Vec<Unrecognisable> {
+    let only_background = |knows_cell| {
+        Unrecognisable::NoPart(NoPart::OnlyBackground {
+            planes: 2,
+            found: 0.0123,
+            needed: 0.02,
+            knows_cell,
+        })
+    };
+    vec![
+        NoPart::TooFewPoints {
+            found: 12,
+            needed: 200,
+        }
+        .into(),
+        NoPart::TooWide { extent: 1234.5 }.into(),
+        only_background(false),
+        only_background(true),
+        ProjectError::NoPlane {
+            num_points: 5,
+            width: 0.000_12,
+        }
+        .into(),
+        ProjectError::TooLarge {
+            found: 21.04,
+            limit: 10.0,
+        }
+        .into(),
+        ContourError::NoShape { num_set: 7 }.into(),
+        SignatureError::NoOutline { num_points: 1 }.into(),
+        Unrecognisable::EmptyLibrary,
+    ]
 }

@@ -594,3 +594,23 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     press(&mut harness, "Statistics");
     harness.get_by_label_contains("Inspection 13: ");
 }
+
+#[test]
+fn refusals_with_other_figures_count_as_one_reason() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = crate::kit::open_history(folder.path());
+    for (seconds, part, score) in [
+        (1, "fender", 0.81),
+        (2, "grille", 0.75),
+        (3, "fender", 0.62),
+    ] {
+        let mut entry = crate::kit::history_entry(seconds, StoredVerdict::NotAccepted, part);
+        entry.record.detail.refusal = Some(crate::kit::low_score(part, score));
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let mut harness = open_with(SMALL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    press(&mut harness, "Statistics");
+    harness.get_by_label("3 × Score below the threshold");
+}

@@ -6,16 +6,20 @@ use egui::{
     vec2,
 };
 use egui_kittest::kittest::Queryable as _;
-use partsight::app::{
-    WindowOptions,
-    language::Language,
-    shell::{
-        action::Action, live::LiveAction, robot::RobotAction, roles::RoleAction,
-        session::WorkspaceKind,
+use partsight::{
+    app::{
+        WindowOptions,
+        language::Language,
+        shell::{
+            action::Action, live::LiveAction, robot::RobotAction, roles::RoleAction,
+            session::WorkspaceKind,
+        },
     },
+    history::{Retention, StoredVerdict},
 };
 
 use super::set_up::{SMALL, USUAL, WindowHarness, act, open_with, plain_options, press, settle};
+use crate::kit::{history_entry, low_score};
 
 fn open_in(language: Language, size: Vec2) -> WindowHarness {
     let options = WindowOptions {
@@ -59,6 +63,40 @@ fn the_operator_chooses_a_language_too() {
     press(&mut harness, "语言：中文");
     press(&mut harness, "English");
     harness.get_by_label("Capture");
+}
+
+#[test]
+fn a_refusal_of_the_history_is_read_in_the_language_of_the_window() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = crate::kit::open_history(folder.path());
+    for (seconds, score) in [(1, 0.81), (2, 0.75)] {
+        let mut entry = history_entry(seconds, StoredVerdict::NotAccepted, "fender");
+        entry.record.summary.title = "Not recognised · nearest Fender, left".into();
+        entry.record.detail.refusal = Some(low_score("fender", score));
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let options = WindowOptions {
+        history: Some(folder.path().to_owned()),
+        language: Some(Language::German),
+        ..plain_options()
+    };
+    let mut harness = open_with(USUAL, options);
+    act(&mut harness, Action::GoTo(WorkspaceKind::History));
+    press(
+        &mut harness,
+        "Prüfung 1: Nicht erkannt · am nächsten Fender, left, Nicht akzeptiert",
+    );
+    harness.get_by_label("Nicht erkannt · am nächsten Fender, left");
+    harness.get_by_label_contains("Fender, left, hat den Score 0.81 ");
+    harness.get_by_label_contains("Teil eingelernt");
+    press(&mut harness, "Statistik");
+    // In English it is "below the threshold".
+    harness.get_by_label_contains("2 × Score u");
+    // Counted already: only the words are others.
+    press(&mut harness, "Sprache: Deutsch");
+    press(&mut harness, "Español");
+    harness.get_by_label_contains("2 × Puntuación ");
 }
 
 /// A text as it is drawn, in logical pixels.

@@ -36,6 +36,30 @@ results-few-frames = { $part } hängt still, seitdem wurden { $num } von { $need
 results-undecided = { $agreeing } von { $num } Bildern akzeptieren { $part }, erforderlich sind { $needed }
 results-poses-apart = die Posen von { $part } liegen in { $agreeing } von { $num } Bildern beieinander, erforderlich sind { $needed }
 
+## The same where refusals are counted
+
+results-kind-low-score = Score unter der Schwelle
+results-kind-piece = Nur ein Stück des Teils sichtbar
+results-kind-hardly-seen = Teil kaum sichtbar
+results-kind-another-model = Anderes Modell
+results-kind-another-make = Anderes Fabrikat
+results-kind-ambiguous-pose = Passt an einer anderen Stelle des Teils fast gleich gut
+results-kind-unconstrained = Pose nicht bestimmt
+results-kind-uncertain = Pose zu unsicher
+results-kind-unknown = Unbekannt: Kein eingelerntes Teil ist ähnlich
+results-kind-mirrored = Spiegelbild eines eingelernten Teils
+results-kind-mirrored-image = Links und rechts im Bild vermutlich vertauscht
+results-kind-small-margin = Zwei Teile passen fast gleich gut
+results-kind-unconfirmed = Nur nach dem Verfahren des Artikels, ohne Pose
+results-kind-out-of-range = Außerhalb des Messbereichs der Kamera
+results-kind-behind-camera = Punkte hinter der Kamera
+results-kind-surplus-bytes = Datei beschädigt
+results-kind-no-pose = Keine Pose gefunden
+results-kind-not-steady = Hing noch nicht still
+results-kind-few-frames = Zu wenige Bilder, seit es still hing
+results-kind-undecided = Zu wenige Bilder akzeptieren das Teil
+results-kind-poses-apart = Posen der Bilder liegen nicht beieinander
+
 ## What to do about it
 
 results-low-score-advice = Prüfen, ob dieses Teil eingelernt und nicht verdeckt ist, dann erneut aufnehmen

@@ -36,6 +36,30 @@ results-few-frames = { $part } hangs still, and { $num } of { $needed } frames w
 results-undecided = { $agreeing } of { $num } frames accept { $part }, { $needed } are needed
 results-poses-apart = the poses of { $part } lie together in { $agreeing } of { $num } frames, { $needed } are needed
 
+## The same where refusals are counted
+
+results-kind-low-score = Score below the threshold
+results-kind-piece = Only a piece of the part in sight
+results-kind-hardly-seen = Part hardly in sight
+results-kind-another-model = Another model
+results-kind-another-make = Another make
+results-kind-ambiguous-pose = Fits another place of the part almost equally well
+results-kind-unconstrained = Pose unconstrained
+results-kind-uncertain = Pose too uncertain
+results-kind-unknown = Unknown: nothing enrolled is like it
+results-kind-mirrored = Mirror image of an enrolled part
+results-kind-mirrored-image = Left and right probably exchanged in the image
+results-kind-small-margin = Two parts fit almost equally well
+results-kind-unconfirmed = By the paper's matcher alone, without a pose
+results-kind-out-of-range = Outside the camera's range
+results-kind-behind-camera = Points behind the camera
+results-kind-surplus-bytes = Damaged file
+results-kind-no-pose = No pose found
+results-kind-not-steady = Did not hang still yet
+results-kind-few-frames = Too few frames since it hung still
+results-kind-undecided = Too few frames accept the part
+results-kind-poses-apart = Poses of the frames do not lie together
+
 ## What to do about it
 
 results-low-score-advice = Check that this part is enrolled, that nothing covers it, and capture again

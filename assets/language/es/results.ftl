@@ -36,6 +36,30 @@ results-few-frames = { $part } cuelga inmóvil, y desde entonces se han inspecci
 results-undecided = { $agreeing } de { $num } imágenes aceptan { $part }; se necesitan { $needed }
 results-poses-apart = las poses de { $part } coinciden en { $agreeing } de { $num } imágenes; se necesitan { $needed }
 
+## The same where refusals are counted
+
+results-kind-low-score = Puntuación por debajo del umbral
+results-kind-piece = Solo se ve una parte de la pieza
+results-kind-hardly-seen = La pieza apenas se ve
+results-kind-another-model = Otro modelo
+results-kind-another-make = Otra marca
+results-kind-ambiguous-pose = Encaja casi igual de bien en otro lugar de la pieza
+results-kind-unconstrained = Pose no determinada
+results-kind-uncertain = Pose con demasiada incertidumbre
+results-kind-unknown = Desconocida: ninguna pieza registrada se le parece
+results-kind-mirrored = Imagen reflejada de una pieza registrada
+results-kind-mirrored-image = Izquierda y derecha probablemente cambiadas en la imagen
+results-kind-small-margin = Dos piezas encajan casi igual de bien
+results-kind-unconfirmed = Solo con el comparador del artículo, sin pose
+results-kind-out-of-range = Fuera del alcance de la cámara
+results-kind-behind-camera = Puntos detrás de la cámara
+results-kind-surplus-bytes = Archivo dañado
+results-kind-no-pose = No se encontró la pose
+results-kind-not-steady = Aún no colgaba inmóvil
+results-kind-few-frames = Muy pocas imágenes desde que colgaba inmóvil
+results-kind-undecided = Muy pocas imágenes aceptan la pieza
+results-kind-poses-apart = Las poses de las imágenes no coinciden
+
 ## What to do about it
 
 results-low-score-advice = Comprobar que esta pieza está registrada y que nada la tapa, y volver a capturar

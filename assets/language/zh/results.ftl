@@ -36,6 +36,30 @@ results-few-frames = “{ $part }”已静止，此后已检测 { $needed } 帧�
 results-undecided = { $num } 帧中有 { $agreeing } 帧接受“{ $part }”，需要 { $needed } 帧
 results-poses-apart = { $num } 帧中有 { $agreeing } 帧的“{ $part }”位姿一致，需要 { $needed } 帧
 
+## The same where refusals are counted
+
+results-kind-low-score = 得分低于阈值
+results-kind-piece = 只能看到零件的一部分
+results-kind-hardly-seen = 零件几乎不可见
+results-kind-another-model = 其他车型
+results-kind-another-make = 其他品牌
+results-kind-ambiguous-pose = 与零件的另一位置匹配程度几乎相同
+results-kind-unconstrained = 位姿未约束
+results-kind-uncertain = 位姿不确定度超过允许值
+results-kind-unknown = 未知：没有相似的已注册零件
+results-kind-mirrored = 已注册零件的镜像
+results-kind-mirrored-image = 图像左右可能颠倒
+results-kind-small-margin = 两个零件的匹配程度几乎相同
+results-kind-unconfirmed = 仅凭论文的匹配器，未估计位姿
+results-kind-out-of-range = 超出相机的测量范围
+results-kind-behind-camera = 点位于相机后方
+results-kind-surplus-bytes = 文件已损坏
+results-kind-no-pose = 未找到位姿
+results-kind-not-steady = 零件尚未静止
+results-kind-few-frames = 静止后检测的帧不足
+results-kind-undecided = 接受零件的帧不足
+results-kind-poses-apart = 各帧的位姿不一致
+
 ## What to do about it
 
 results-low-score-advice = 确认该零件已注册且未被遮挡，然后重新采集

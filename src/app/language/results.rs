@@ -4,13 +4,13 @@
 
 use crate::{
     error::Advice as _,
-    history::{KeepFrames, StoredVerdict, Summary},
+    history::{KeepFrames, StoredVerdict},
     pipeline::{RecipeLabel, Rejection, Unrecognisable},
     scan::Excluded,
     simulate::ObjectKind,
     stages::{
         contour::ContourError,
-        pose::{Axis, FreeMotion, PoseError, PoseWarning, Stopped},
+        pose::{Axis, CloudRole, FreeMotion, PoseError, PoseWarning, Stopped},
         project::ProjectError,
         segment::NoPart,
         signature::SignatureError,
@@ -31,23 +31,6 @@ pub(in crate::app) fn stored_verdict(verdict: StoredVerdict) -> String {
         StoredVerdict::Accepted => text!("results-accepted"),
         StoredVerdict::NotAccepted => text!("results-not-accepted"),
         StoredVerdict::Unknown => text!("results-unknown"),
-        StoredVerdict::NoPart => text!("results-no-part"),
-    }
-}
-
-/// The title of an inspection of the history, which keeps it in English.
-pub(in crate::app) fn stored_title(past: &Summary) -> String {
-    let title = past.title.as_str();
-    match past.verdict {
-        StoredVerdict::Accepted => title.to_owned(),
-        StoredVerdict::NotAccepted => match title.strip_prefix("Not recognised · nearest ") {
-            Some(part) => text!("results-title-not-recognised", part = part),
-            None => title.to_owned(),
-        },
-        StoredVerdict::Unknown => match title.strip_prefix("Unknown · nearest ") {
-            Some(part) => text!("results-title-unknown", part = part),
-            None => title.to_owned(),
-        },
         StoredVerdict::NoPart => text!("results-no-part"),
     }
 }
@@ -320,9 +303,9 @@ pub(in crate::app) fn free_motion(freedom: FreeMotion) -> String {
 
 /// Why no pose could be estimated.
 pub(in crate::app) fn pose_error(error: &PoseError) -> String {
-    let cloud = |which: &str| match which {
-        "source" => text!("results-source"),
-        _ => text!("results-target"),
+    let cloud = |which: &CloudRole| match which {
+        CloudRole::Source => text!("results-source"),
+        CloudRole::Target => text!("results-target"),
     };
     match error {
         PoseError::TooFewPoints {
@@ -495,196 +478,7 @@ pub(in crate::app) fn object(kind: ObjectKind) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::units::Metres;
-
-    const FREEDOMS: [FreeMotion; 7] = [
-        FreeMotion::Slide(Axis::Long),
-        FreeMotion::Slide(Axis::Short),
-        FreeMotion::Slide(Axis::Normal),
-        FreeMotion::Turn(Axis::Long),
-        FreeMotion::Turn(Axis::Short),
-        FreeMotion::Turn(Axis::Normal),
-        FreeMotion::Anyhow,
-    ];
-
-    fn pose_errors() -> Vec<PoseError> {
-        let [found, needed] = [3, 12];
-        let which = "source";
-        vec![
-            PoseError::TooFewPoints {
-                which: "target",
-                found,
-                needed,
-            },
-            PoseError::Degenerate {
-                which,
-                width: 0.000_125,
-            },
-            PoseError::OneSidedPairs {
-                num_pairs: 40,
-                rms: Metres(0.0123),
-            },
-            PoseError::NoOverlap {
-                found,
-                needed,
-                reach: Metres(0.05),
-            },
-            PoseError::SizesDiffer { ratio: 999.6 },
-            PoseError::TooFarOut {
-                which,
-                distance: Metres(123_456.7),
-            },
-            PoseError::NoReferenceCloud,
-            PoseError::Cancelled,
-        ]
-    }
-
-    fn rejections() -> Vec<Rejection> {
-        let part = "Fender, left".to_owned();
-        let (score, threshold, margin) = (0.456, 0.9, 0.125);
-        let [num_agreeing, num_frames, needed] = [2, 5, 4];
-        let piece = |hidden, outside| Rejection::Piece {
-            part: "Fender, left".into(),
-            score,
-            threshold,
-            hidden,
-            outside,
-        };
-        let mut all = vec![
-            Rejection::LowScore {
-                part: part.clone(),
-                score,
-                threshold,
-            },
-            piece(0.4, 0.0),
-            piece(0.0, 0.4),
-            piece(0.2, 0.2),
-            Rejection::HardlySeen {
-                part: part.clone(),
-                score,
-            },
-            Rejection::AnotherModel {
-                part: part.clone(),
-                relief: Metres(0.0042),
-                outline: Metres(0.0119),
-                missing: 0.0123,
-            },
-            Rejection::AnotherMake {
-                part: part.clone(),
-                likeness: 0.7,
-            },
-            Rejection::AmbiguousPose {
-                part: part.clone(),
-                margin,
-                threshold,
-            },
-            Rejection::Uncertain {
-                part: part.clone(),
-                shift: Metres(0.0213),
-                limit: Metres(0.015),
-            },
-            Rejection::Unknown {
-                nearest: part.clone(),
-                score,
-            },
-            Rejection::Mirrored {
-                part: part.clone(),
-                score,
-            },
-            Rejection::MirroredImage {
-                part: part.clone(),
-                score,
-            },
-            Rejection::SmallMargin {
-                part: part.clone(),
-                other: "Grille".into(),
-                margin,
-                threshold,
-            },
-            Rejection::Unconfirmed { part: part.clone() },
-            Rejection::OutOfRange {
-                part: part.clone(),
-                depth: Metres(31.456),
-            },
-            Rejection::BehindCamera {
-                part: part.clone(),
-                share: 0.0321,
-            },
-            Rejection::SurplusBytes {
-                part: part.clone(),
-                num: 4096,
-            },
-            Rejection::NotSteady { part: part.clone() },
-            Rejection::FewFrames {
-                part: part.clone(),
-                num_frames,
-                needed,
-            },
-            Rejection::Undecided {
-                part: part.clone(),
-                num_agreeing,
-                num_frames,
-                needed,
-            },
-            Rejection::PosesApart {
-                part: part.clone(),
-                num_agreeing,
-                num_frames,
-                needed,
-            },
-        ];
-        all.extend(FREEDOMS.map(|freedom| Rejection::Unconstrained {
-            part: part.clone(),
-            freedom,
-        }));
-        all.extend(pose_errors().into_iter().map(Rejection::NoPose));
-        all
-    }
-
-    fn unrecognisables() -> Vec<Unrecognisable> {
-        let only_background = |knows_cell| {
-            Unrecognisable::NoPart(NoPart::OnlyBackground {
-                planes: 2,
-                found: 0.0123,
-                needed: 0.02,
-                knows_cell,
-            })
-        };
-        vec![
-            NoPart::TooFewPoints {
-                found: 12,
-                needed: 200,
-            }
-            .into(),
-            NoPart::TooWide { extent: 1234.5 }.into(),
-            only_background(false),
-            only_background(true),
-            ProjectError::NoPlane {
-                num_points: 5,
-                width: 0.000_12,
-            }
-            .into(),
-            ProjectError::TooLarge {
-                found: 21.04,
-                limit: 10.0,
-            }
-            .into(),
-            ContourError::NoShape { num_set: 7 }.into(),
-            SignatureError::NoOutline { num_points: 1 }.into(),
-            Unrecognisable::EmptyLibrary,
-        ]
-    }
-
-    #[test]
-    fn titles_of_the_history_are_read_as_they_are_written() {
-        let written = include_str!("../../history/entry.rs");
-        for title in [
-            "Not recognised · nearest {name}",
-            "Unknown · nearest {name}",
-        ] {
-            assert!(written.contains(title), "{title}");
-        }
-    }
+    use crate::kit::{FREEDOMS, pose_errors, rejections, unrecognisables};
 
     #[test]
     fn in_english_the_window_says_what_the_library_says() {

@@ -10,10 +10,11 @@ use crate::{
         console::{Advised as _, Console, Table, in_columns, marked_simulated},
     },
     history::{
-        Differences, History, InspectionDetail, InspectionSummary, Record, ShotRecord, Summary,
-        Traceability,
+        Differences, History, InspectionDetail, InspectionSummary, Record, ShotRecord,
+        StoredRefusal, Summary, Traceability,
     },
     library::Truth,
+    pipeline::RefusalKind,
 };
 
 /// The version of the JSON lines.
@@ -85,6 +86,8 @@ struct RecordLine<'a> {
     row: RowLine<'a>,
     nearest: Option<&'a str>,
     reason: Option<&'a str>,
+    /// Null also where an earlier program wrote the inspection.
+    reason_kind: Option<RefusalKind>,
     advice: Option<&'a str>,
     camera_from_part: Option<[f64; 16]>,
     recipe: &'a str,
@@ -149,12 +152,13 @@ pub(super) fn run(
             differs: again::AgainLine::of(&differences(&record, other)),
         });
         let detail = &record.detail;
-        let complaint = detail.complaint.as_ref();
+        let refusal = detail.refusal.as_ref();
         let line = RecordLine {
             row: RowLine::of(&record.summary),
             nearest: detail.nearest.as_deref(),
-            reason: complaint.map(|[reason, _]| reason.as_str()),
-            advice: complaint.map(|[_, advice]| advice.as_str()),
+            reason: refusal.map(|refusal| refusal.reason.as_str()),
+            reason_kind: refusal.and_then(StoredRefusal::kind),
+            advice: refusal.map(|refusal| refusal.advice.as_str()),
             camera_from_part: record.matrix(),
             recipe: &detail.recipe_identity,
             recipe_name: recipe_name(detail),
@@ -249,9 +253,9 @@ fn card(history: &History, record: &Record, console: &mut Console) {
             format!("{score:.3}, {margin:.3} ahead of the next"),
         );
     }
-    if let Some([reason, advice]) = &detail.complaint {
-        row("why not", reason.clone());
-        row("to do", advice.clone());
+    if let Some(refusal) = &detail.refusal {
+        row("why not", refusal.reason.clone());
+        row("to do", refusal.advice.clone());
     }
     if let Some(numbers) = record.matrix() {
         for (i, line) in numbers.chunks(4).enumerate() {

@@ -3,7 +3,7 @@
 use nalgebra::Point3;
 
 use super::{
-    PoseError, PoseEstimate, PoseMethod,
+    CloudRole, PoseError, PoseEstimate, PoseMethod,
     centred::Centred,
     global::search,
     icp::{IcpParams, icp},
@@ -55,7 +55,7 @@ pub fn align_with(
     initial: Option<RigidTransform>,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<PoseEstimate, PoseError> {
-    let source = Centred::new("source", source)?;
+    let source = Centred::new(CloudRole::Source, source)?;
     let target = PreparedTarget::new(target)?;
     align_centred(&source, &target, params, initial, is_cancelled)
 }
@@ -68,7 +68,7 @@ pub fn align_to(
     initial: Option<RigidTransform>,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<PoseEstimate, PoseError> {
-    let source = Centred::new("source", source)?;
+    let source = Centred::new(CloudRole::Source, source)?;
     align_centred(&source, target, params, initial, is_cancelled)
 }
 

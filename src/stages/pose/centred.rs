@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::{MIN_POINTS, PoseError, spanned::spanned_axes};
+use super::{CloudRole, MIN_POINTS, PoseError, spanned::spanned_axes};
 use crate::{
     geometry::{cloud::PointCloud, principal::PrincipalAxes, rigid::RigidTransform},
     units::Metres,
@@ -19,7 +19,7 @@ pub(super) struct Centred {
 }
 
 impl Centred {
-    pub(super) fn new(which: &'static str, cloud: &PointCloud) -> Result<Self, PoseError> {
+    pub(super) fn new(which: CloudRole, cloud: &PointCloud) -> Result<Self, PoseError> {
         let found = cloud.num_finite();
         if found < MIN_POINTS {
             return Err(PoseError::TooFewPoints {

@@ -25,7 +25,7 @@ use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
 use super::{
-    Iteration, MIN_POINTS, Phase, PoseError, RunnerUp, Stopped,
+    CloudRole, Iteration, MIN_POINTS, Phase, PoseError, RunnerUp, Stopped,
     genetic::{Genes, minimise},
     icp::icp,
     prepared::PreparedTarget,
@@ -155,7 +155,7 @@ impl<'a> Search<'a> {
         prepared: &'a PreparedTarget,
         params: &'a IcpGaParams,
     ) -> Result<Self, PoseError> {
-        let source_axes = spanned_axes("source", source)?;
+        let source_axes = spanned_axes(CloudRole::Source, source)?;
         let mut rng = Pcg64::seed_from_u64(params.seed);
         let mut shuffled = source.to_vec();
         shuffled.shuffle(&mut rng);

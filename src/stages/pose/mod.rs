@@ -21,6 +21,8 @@ mod spanned;
 mod starts;
 pub mod uncertainty;
 
+use std::fmt;
+
 use crate::{geometry::rigid::RigidTransform, units::Metres};
 
 pub use self::{
@@ -240,14 +242,34 @@ impl crate::error::Advice for PoseWarning {
     }
 }
 
+/// One of the two clouds that are aligned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CloudRole {
+    /// The cloud that is moved.
+    Source,
+    /// The cloud that it is moved onto.
+    Target,
+}
+
+impl fmt::Display for CloudRole {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Source => "source",
+            Self::Target => "target",
+        })
+    }
+}
+
 /// Why no pose could be estimated.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "cause", rename_all = "snake_case")]
 pub enum PoseError {
     /// One of the clouds has too few points.
     #[error("the {which} cloud has {found} points, at least {needed} are needed")]
     TooFewPoints {
         /// Source or target.
-        which: &'static str,
+        which: CloudRole,
         /// Points found.
         found: usize,
         /// Points needed.
@@ -259,8 +281,9 @@ pub enum PoseError {
     )]
     Degenerate {
         /// Source or target.
-        which: &'static str,
+        which: CloudRole,
         /// Standard deviation along the second principal axis, metres.
+        #[serde(rename = "width_m")]
         width: f64,
     },
     /// All closest points of ICP lie on a spot or a line.
@@ -269,6 +292,7 @@ pub enum PoseError {
         /// Pairs used.
         num_pairs: usize,
         /// Root mean square distance of the pairs.
+        #[serde(rename = "rms_m")]
         rms: Metres,
     },
     /// No closest points within reach.
@@ -282,6 +306,7 @@ pub enum PoseError {
         /// Pairs needed.
         needed: usize,
         /// Largest distance of a pair.
+        #[serde(rename = "reach_m")]
         reach: Metres,
     },
     /// One cloud is many times the other.
@@ -294,8 +319,9 @@ pub enum PoseError {
     #[error("the {which} cloud lies {:.0} m from the origin, too far to resolve its points", distance.0)]
     TooFarOut {
         /// Source or target.
-        which: &'static str,
+        which: CloudRole,
         /// Largest coordinate.
+        #[serde(rename = "distance_m")]
         distance: Metres,
     },
     /// The reference has no cloud.

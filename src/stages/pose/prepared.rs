@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use nalgebra::Point3;
 
 use super::{
-    PoseError, PoseEstimate, PoseMethod, RunnerUp,
+    CloudRole, PoseError, PoseEstimate, PoseMethod, RunnerUp,
     centred::Centred,
     closest::Correspondence,
     edge_points::EdgePoints,
@@ -85,7 +85,7 @@ pub(super) struct Measured<'a> {
 impl PreparedTarget {
     /// Prepares a cloud; points that are not finite are left out.
     pub fn new(cloud: &PointCloud) -> Result<Self, PoseError> {
-        let mut centred = Centred::new("target", cloud)?;
+        let mut centred = Centred::new(CloudRole::Target, cloud)?;
         let extent = centred.extent;
         let all = PointCloud::from_points(std::mem::take(&mut centred.points));
         let tree = KdTree::new(&all.points);

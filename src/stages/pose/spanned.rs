@@ -2,12 +2,12 @@
 
 use nalgebra::Point3;
 
-use super::{MIN_POINTS, PoseError};
+use super::{CloudRole, MIN_POINTS, PoseError};
 use crate::geometry::principal::{PrincipalAxes, principal_axes};
 
 /// The principal axes of enough points that lie on more than a line.
 pub(super) fn spanned_axes(
-    which: &'static str,
+    which: CloudRole,
     points: &[Point3<f32>],
 ) -> Result<PrincipalAxes, PoseError> {
     if points.len() < MIN_POINTS {

@@ -102,7 +102,8 @@ pub struct Segmentation {
 }
 
 /// Why no part was found.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum NoPart {
     /// The scene holds too few points for anything.
     #[error("the scene has {found} readings, at least {needed} are needed")]
@@ -116,6 +117,7 @@ pub enum NoPart {
     #[error("the scene spans {extent:.0} m and holds nothing the size of a part")]
     TooWide {
         /// Largest extent, metres.
+        #[serde(rename = "extent_m")]
         extent: f64,
     },
     /// Nothing of a part's size is left once the background is gone.
@@ -126,8 +128,10 @@ pub enum NoPart {
         /// Planes taken away.
         planes: usize,
         /// Largest connected surface left, square metres.
+        #[serde(rename = "found_m2")]
         found: f64,
         /// Least surface of a part, square metres.
+        #[serde(rename = "needed_m2")]
         needed: f64,
         /// True if what stood in the empty cell is background too.
         knows_cell: bool,

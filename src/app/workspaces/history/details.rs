@@ -12,8 +12,9 @@ use crate::{
     app::{
         inspection::unit_system::UnitSystem,
         language::{
+            history::{stored_refusal, stored_title},
             keys,
-            results::{stored_title, stored_verdict},
+            results::stored_verdict,
             text,
         },
         shell::session::Session,
@@ -56,7 +57,7 @@ impl Details {
         self.make(ui, history, past);
         let record = &past.record;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            verdict(ui, record, theme);
+            verdict(ui, record, session, theme);
             self.picture(ui, record, theme);
             ui.add_space(space::MEDIUM);
             buttons(ui, history, record, theme, actions);
@@ -122,7 +123,7 @@ impl Details {
     }
 }
 
-fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
+fn verdict(ui: &mut Ui, record: &Record, session: &Session, theme: &Theme) {
     let summary = &record.summary;
     let title = RichText::new(stored_title(summary)).font(font::title());
     ui.label(title.color(theme.text));
@@ -146,7 +147,11 @@ fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
         let text = text!("history-simulated");
         ui.label(RichText::new(text).color(theme.warning));
     }
-    if let Some([reason, advice]) = &record.detail.complaint {
+    let title_of = |name: &str| match &session.library {
+        Some(library) => library.title_of(name).to_owned(),
+        None => name.to_owned(),
+    };
+    if let Some([reason, advice]) = stored_refusal(record, title_of) {
         ui.label(RichText::new(reason).color(theme.text));
         let advice = RichText::new(advice).font(font::body_strong());
         ui.label(advice.color(theme.warning));

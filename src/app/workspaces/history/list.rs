@@ -6,10 +6,7 @@ use jiff::{Timestamp, tz::TimeZone};
 use super::{HistoryAction, HistoryState, bar};
 use crate::{
     app::{
-        language::{
-            results::{stored_title, stored_verdict},
-            text,
-        },
+        language::{history::stored_title, results::stored_verdict, text},
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},

@@ -23,7 +23,7 @@ pub use self::{
     apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
     filter::{DateRange, ListFilter},
     state::HistoryState,
-    statistics::{Statistics, StatisticsView, Tally},
+    statistics::{ReasonGroup, Statistics, StatisticsView, Tally},
     work::{HistoryQuery, HistoryResult, OpenedInspection},
 };
 use self::{details::Details, list::List};

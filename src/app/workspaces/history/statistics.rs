@@ -12,7 +12,7 @@ use super::drift::{self, Drift};
 use crate::{
     app::{
         inspection::unit_system::UnitSystem,
-        language::{results::stored_verdict, text},
+        language::{history::refusal_kind, results::stored_verdict, text},
         shell::shift::ShiftStarts,
         ui::{
             plot::{Axes, Axis, legend},
@@ -20,7 +20,8 @@ use crate::{
             widgets::{heading, sentence},
         },
     },
-    history::{PartOutcome, StoredVerdict},
+    history::{PartOutcome, RefusalReason, StoredVerdict},
+    pipeline::RefusalKind,
 };
 
 /// Shifts that the plot has room for; the last ones are shown.
@@ -58,6 +59,34 @@ impl Tally {
     }
 }
 
+/// What refusals are counted by.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ReasonGroup {
+    /// Their kind.
+    Kind(RefusalKind),
+    /// An English sentence without names and figures, where the kind is not known.
+    Sentence(String),
+}
+
+impl ReasonGroup {
+    fn of(reason: &RefusalReason, title_of: impl Fn(&str) -> String) -> Self {
+        match reason {
+            RefusalReason::Kind(kind) => Self::Kind(*kind),
+            RefusalReason::Sentence { text, nearest } => {
+                let name = nearest.as_deref().unwrap_or_default();
+                Self::Sentence(without_figures(text, &[&title_of(name), name]))
+            }
+        }
+    }
+
+    fn title(&self) -> String {
+        match self {
+            Self::Kind(kind) => refusal_kind(*kind),
+            Self::Sentence(text) => text.clone(),
+        }
+    }
+}
+
 /// What was counted.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Statistics {
@@ -66,7 +95,7 @@ pub struct Statistics {
     /// By part, the one with the most refusals first.
     pub parts: Vec<(String, Tally)>,
     /// By reason of a refusal, the most frequent first.
-    pub reasons: Vec<(String, usize)>,
+    pub reasons: Vec<(ReasonGroup, usize)>,
     /// How the part drifts that the filter names, or the one that was accepted most often.
     pub drift: Option<Drift>,
 }
@@ -99,7 +128,7 @@ pub(super) fn count(
 ) -> Statistics {
     let mut found = Statistics::default();
     let mut parts: BTreeMap<String, Tally> = BTreeMap::new();
-    let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
+    let mut reasons: BTreeMap<ReasonGroup, usize> = BTreeMap::new();
     let mut end: Option<Zoned> = None;
     for outcome in outcomes {
         if outcome.verdict == StoredVerdict::NoPart {
@@ -115,14 +144,13 @@ pub(super) fn count(
         if let Some((_, tally)) = found.shifts.last_mut() {
             tally.add(outcome.verdict);
         }
-        let name = outcome.nearest.as_deref().unwrap_or_default();
         let title = match outcome.verdict {
             StoredVerdict::Unknown => stored_verdict(outcome.verdict),
-            _ => title_of(name),
+            _ => title_of(outcome.part.as_deref().unwrap_or_default()),
         };
         if let Some(reason) = &outcome.reason {
             *reasons
-                .entry(kind(reason, &[&title_of(name), name]))
+                .entry(ReasonGroup::of(reason, &title_of))
                 .or_default() += 1;
         }
         parts.entry(title).or_default().add(outcome.verdict);
@@ -142,7 +170,7 @@ pub(super) fn most_accepted(outcomes: &[PartOutcome]) -> Option<String> {
         .iter()
         .filter(|outcome| outcome.verdict == StoredVerdict::Accepted);
     let mut parts: BTreeMap<&str, usize> = BTreeMap::new();
-    for part in accepted.filter_map(|outcome| outcome.nearest.as_deref()) {
+    for part in accepted.filter_map(|outcome| outcome.part.as_deref()) {
         *parts.entry(part).or_default() += 1;
     }
     let most = parts
@@ -152,7 +180,7 @@ pub(super) fn most_accepted(outcomes: &[PartOutcome]) -> Option<String> {
 }
 
 /// A reason without what differs from part to part: names, figures and what stands in brackets.
-fn kind(reason: &str, names: &[&str]) -> String {
+fn without_figures(reason: &str, names: &[&str]) -> String {
     let mut text = String::new();
     let mut depth = 0_usize;
     for letter in reason.chars() {
@@ -224,7 +252,7 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem, theme: &
             heading(ui, theme, &text!("history-by-reason"));
         }
         for (reason, num) in &found.reasons {
-            let text = format!("{num} × {reason}");
+            let text = format!("{num} × {}", reason.title());
             ui.add(egui::Label::new(RichText::new(text).color(theme.text)).wrap());
         }
         if let Some(drift) = &found.drift {
@@ -316,50 +344,40 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
 mod tests {
     use super::*;
 
-    #[test]
-    fn parts_are_counted_by_shift_by_part_and_by_reason() {
-        let outcome = |at: &str, verdict, nearest: &str, reason: Option<&str>| PartOutcome {
-            at: at.parse().expect("a moment"),
+    /// An outcome at this moment of 21 November 2026.
+    fn outcome(
+        time: &str,
+        verdict: StoredVerdict,
+        part: &str,
+        reason: Option<RefusalReason>,
+    ) -> PartOutcome {
+        PartOutcome {
+            at: format!("2026-11-21T{time}Z").parse().expect("a moment"),
             verdict,
-            nearest: Some(nearest.to_owned()),
-            reason: reason.map(str::to_owned),
-        };
-        let low = |score: &str, part: &str| {
-            format!("the best match, {part}, scores {score}, below the threshold of 0.90")
-        };
-        let (first, second) = (low("0.81", "Door, left"), low("0.75", "fender"));
-        let outcomes = [
-            outcome(
-                "2026-11-21T05:59:00Z",
-                StoredVerdict::Accepted,
-                "door",
-                None,
-            ),
-            outcome(
-                "2026-11-21T06:00:00Z",
-                StoredVerdict::NotAccepted,
-                "door",
-                Some(&first),
-            ),
-            outcome(
-                "2026-11-21T07:00:00Z",
-                StoredVerdict::NotAccepted,
-                "fender",
-                Some(&second),
-            ),
-            outcome("2026-11-21T08:00:00Z", StoredVerdict::NoPart, "", None),
-            outcome(
-                "2026-11-21T15:00:00Z",
-                StoredVerdict::Accepted,
-                "door",
-                None,
-            ),
-        ];
+            part: Some(part.to_owned()),
+            reason,
+        }
+    }
+
+    fn counted(outcomes: &[PartOutcome]) -> Statistics {
         let title_of = |name: &str| match name {
             "door" => "Door, left".to_owned(),
             name => name.to_owned(),
         };
-        let found = count(&outcomes, &ShiftStarts::default(), &TimeZone::UTC, title_of);
+        count(outcomes, &ShiftStarts::default(), &TimeZone::UTC, title_of)
+    }
+
+    #[test]
+    fn parts_are_counted_by_shift_and_by_part() {
+        let refused = || Some(RefusalReason::Kind(RefusalKind::LowScore));
+        let (ok, not_ok) = (StoredVerdict::Accepted, StoredVerdict::NotAccepted);
+        let found = counted(&[
+            outcome("05:59:00", ok, "door", None),
+            outcome("06:00:00", not_ok, "door", refused()),
+            outcome("07:00:00", not_ok, "fender", refused()),
+            outcome("08:00:00", StoredVerdict::NoPart, "", None),
+            outcome("15:00:00", ok, "door", None),
+        ]);
         let shifts: Vec<_> = found
             .shifts
             .iter()
@@ -378,7 +396,32 @@ mod tests {
             found.parts,
             [("Door, left".into(), door), ("fender".into(), fender)]
         );
-        let reason = "The best match, the part, scores … below the threshold of …";
-        assert_eq!(found.reasons, [(reason.to_owned(), 2)]);
+    }
+
+    #[test]
+    fn refusals_are_counted_by_kind_and_sentences_without_one_by_what_they_say() {
+        let sentence = |score: &str, part: &str, nearest: &str| {
+            let text =
+                format!("the best match, {part}, scores {score}, below the threshold of 0.90");
+            let nearest = Some(nearest.to_owned());
+            Some(RefusalReason::Sentence { text, nearest })
+        };
+        let kind = |kind| Some(RefusalReason::Kind(kind));
+        let refused = |reason| outcome("06:00:00", StoredVerdict::NotAccepted, "door", reason);
+        let found = counted(&[
+            refused(sentence("0.81", "Door, left", "door")),
+            refused(kind(RefusalKind::Piece)),
+            refused(kind(RefusalKind::LowScore)),
+            refused(sentence("0.75", "fender", "fender")),
+            refused(kind(RefusalKind::LowScore)),
+            refused(kind(RefusalKind::LowScore)),
+        ]);
+        let text = "The best match, the part, scores … below the threshold of …";
+        let expected = [
+            (ReasonGroup::Kind(RefusalKind::LowScore), 3),
+            (ReasonGroup::Sentence(text.to_owned()), 2),
+            (ReasonGroup::Kind(RefusalKind::Piece), 1),
+        ];
+        assert_eq!(found.reasons, expected);
     }
 }

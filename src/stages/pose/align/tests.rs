@@ -77,7 +77,7 @@ fn clouds_far_from_the_origin_are_aligned_as_long_as_their_coordinates_resolve_t
             matches!(
                 found,
                 Err(PoseError::TooFarOut {
-                    which: "target",
+                    which: CloudRole::Target,
                     ..
                 })
             ),
@@ -277,14 +277,14 @@ fn clouds_that_fix_no_pose_get_a_named_error() {
             assert!(matches!(
                 align(bad, &sheet, method, None),
                 Err(PoseError::Degenerate {
-                    which: "source",
+                    which: CloudRole::Source,
                     ..
                 })
             ));
             assert!(matches!(
                 align(&sheet, bad, method, None),
                 Err(PoseError::Degenerate {
-                    which: "target",
+                    which: CloudRole::Target,
                     ..
                 })
             ));
@@ -293,14 +293,14 @@ fn clouds_that_fix_no_pose_get_a_named_error() {
             assert!(matches!(
                 align(bad, &sheet, method, None),
                 Err(PoseError::TooFewPoints {
-                    which: "source",
+                    which: CloudRole::Source,
                     ..
                 })
             ));
             assert!(matches!(
                 align(&sheet, bad, method, None),
                 Err(PoseError::TooFewPoints {
-                    which: "target",
+                    which: CloudRole::Target,
                     ..
                 })
             ));

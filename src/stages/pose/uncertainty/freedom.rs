@@ -5,7 +5,8 @@ use std::fmt;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// How a part could move and still lie on the reference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "motion", content = "axis", rename_all = "snake_case")]
 pub enum FreeMotion {
     /// Along an axis.
     Slide(Axis),
@@ -16,7 +17,8 @@ pub enum FreeMotion {
 }
 
 /// An axis of what was seen of the part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Axis {
     /// Its largest extent.
     Long,

@@ -1,0 +1,175 @@
+//! What the history keeps in English, in the language of the window.
+
+use super::results::{rejection, rejection_advice, unrecognisable, unrecognisable_advice};
+use crate::{
+    history::{Record, StoredVerdict, Summary},
+    pipeline::{Refusal, RefusalKind},
+};
+
+/// The title of an inspection.
+pub(in crate::app) fn stored_title(past: &Summary) -> String {
+    match (past.verdict, stored_part(past)) {
+        (StoredVerdict::NotAccepted, Some(part)) => {
+            text!("results-title-not-recognised", part = part)
+        }
+        (StoredVerdict::Unknown, Some(part)) => text!("results-title-unknown", part = part),
+        (StoredVerdict::NoPart, _) => text!("results-no-part"),
+        _ => past.title.clone(),
+    }
+}
+
+/// The title that its best guess had.
+fn stored_part(past: &Summary) -> Option<&str> {
+    let title = past.title.as_str();
+    match past.verdict {
+        StoredVerdict::Accepted => Some(title),
+        StoredVerdict::NotAccepted => title.strip_prefix("Not recognised · nearest "),
+        StoredVerdict::Unknown => title.strip_prefix("Unknown · nearest "),
+        StoredVerdict::NoPart => None,
+    }
+}
+
+/// Why an inspection was not accepted, and what to do; in English where no more is kept.
+pub(in crate::app) fn stored_refusal(
+    past: &Record,
+    title_of: impl Fn(&str) -> String,
+) -> Option<[String; 2]> {
+    let Record { summary, detail } = past;
+    let refusal = detail.refusal.as_ref()?;
+    let Some(why) = refusal.why.clone() else {
+        return Some([refusal.reason.clone(), refusal.advice.clone()]);
+    };
+    // The best guess by the same title as in the list, whatever it is called today.
+    let why = why.renamed(|name| match stored_part(summary) {
+        Some(title) if detail.nearest.as_deref() == Some(name) => title.to_owned(),
+        _ => title_of(name),
+    });
+    Some(match &why {
+        Refusal::Rejected(why) => [rejection(why), rejection_advice(why)],
+        Refusal::Unrecognisable(why) => [unrecognisable(why), unrecognisable_advice(why)],
+    })
+}
+
+/// Refusals of this kind, where they are counted.
+pub(in crate::app) fn refusal_kind(kind: RefusalKind) -> String {
+    match kind {
+        RefusalKind::LowScore => text!("results-kind-low-score"),
+        RefusalKind::Piece => text!("results-kind-piece"),
+        RefusalKind::HardlySeen => text!("results-kind-hardly-seen"),
+        RefusalKind::AnotherModel => text!("results-kind-another-model"),
+        RefusalKind::AnotherMake => text!("results-kind-another-make"),
+        RefusalKind::AmbiguousPose => text!("results-kind-ambiguous-pose"),
+        RefusalKind::Unconstrained => text!("results-kind-unconstrained"),
+        RefusalKind::Uncertain => text!("results-kind-uncertain"),
+        RefusalKind::Unknown => text!("results-kind-unknown"),
+        RefusalKind::Mirrored => text!("results-kind-mirrored"),
+        RefusalKind::MirroredImage => text!("results-kind-mirrored-image"),
+        RefusalKind::SmallMargin => text!("results-kind-small-margin"),
+        RefusalKind::Unconfirmed => text!("results-kind-unconfirmed"),
+        RefusalKind::OutOfRange => text!("results-kind-out-of-range"),
+        RefusalKind::BehindCamera => text!("results-kind-behind-camera"),
+        RefusalKind::SurplusBytes => text!("results-kind-surplus-bytes"),
+        RefusalKind::NoPose => text!("results-kind-no-pose"),
+        RefusalKind::NotSteady => text!("results-kind-not-steady"),
+        RefusalKind::FewFrames => text!("results-kind-few-frames"),
+        RefusalKind::Undecided => text!("results-kind-undecided"),
+        RefusalKind::PosesApart => text!("results-kind-poses-apart"),
+        RefusalKind::TooFewPoints
+        | RefusalKind::TooWide
+        | RefusalKind::OnlyBackground
+        | RefusalKind::NoPlane
+        | RefusalKind::TooLarge
+        | RefusalKind::NoShape
+        | RefusalKind::NoOutline
+        | RefusalKind::EmptyLibrary
+        | RefusalKind::Fault => text!("results-no-part"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        app::language::Language,
+        history::StoredRefusal,
+        kit::{history_entry, rejections},
+        pipeline::Rejection,
+    };
+
+    /// A refused front door that was called "Door, left" then.
+    fn past(refusal: StoredRefusal) -> Record {
+        let mut past = history_entry(1, StoredVerdict::NotAccepted, "front_door").record;
+        past.summary.title = "Not recognised · nearest Door, left".into();
+        past.detail.refusal = Some(refusal);
+        past
+    }
+
+    fn title_of(name: &str) -> String {
+        format!("the {name} of today")
+    }
+
+    #[test]
+    fn titles_of_the_history_are_read_as_they_are_written() {
+        let written = include_str!("../../history/entry.rs");
+        for title in [
+            "Not recognised · nearest {name}",
+            "Unknown · nearest {name}",
+        ] {
+            assert!(written.contains(title), "{title}");
+        }
+    }
+
+    #[test]
+    fn a_stored_refusal_speaks_the_language_of_the_window_and_names_parts_as_the_list_does() {
+        let why = Rejection::SmallMargin {
+            part: "front_door".into(),
+            other: "back_door".into(),
+            margin: 0.12,
+            threshold: 0.6,
+        };
+        let past = past(StoredRefusal {
+            reason: "in English".into(),
+            advice: "in English".into(),
+            why: Some(Refusal::Rejected(why)),
+        });
+        let told = || stored_refusal(&past, title_of).expect("refused");
+        assert_eq!(
+            told()[0],
+            "Door, left and the back_door of today fit almost equally well (margin 0.12, needed 0.60)"
+        );
+        Language::German.make_current();
+        let [reason, advice] = told();
+        Language::English.make_current();
+        assert!(reason.starts_with("Door, left "), "{reason}");
+        for part in [" the back_door of today ", "Vorsprung 0.12"] {
+            assert!(reason.contains(part), "{reason}");
+        }
+        assert!(advice.contains("Sichtseite"), "{advice}");
+    }
+
+    #[test]
+    fn what_is_kept_in_english_alone_is_shown_as_it_is() {
+        let past = past(StoredRefusal {
+            reason: "too low".into(),
+            advice: "look again".into(),
+            why: None,
+        });
+        let told = stored_refusal(&past, title_of);
+        assert_eq!(told, Some(["too low".to_owned(), "look again".to_owned()]));
+    }
+
+    #[test]
+    fn no_two_kinds_of_rejection_have_the_same_name() {
+        let kinds: std::collections::BTreeSet<RefusalKind> = rejections()
+            .into_iter()
+            .map(|why| Refusal::Rejected(why).kind())
+            .collect();
+        for language in Language::ALL {
+            language.make_current();
+            let names: std::collections::BTreeSet<String> =
+                kinds.iter().map(|kind| refusal_kind(*kind)).collect();
+            assert_eq!(names.len(), kinds.len(), "{language}");
+        }
+        Language::English.make_current();
+    }
+}
