@@ -1,10 +1,10 @@
 //! The view as a widget in a window without a screen.
 
-use eframe::egui::{Event, Key, Modifiers, Pos2, Theme, Vec2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Theme, Vec2};
 use egui_kittest::{Harness, kittest::Queryable as _, wgpu::WgpuTestRenderer};
 use partsight::app::ui::viewport::{
-    Colouring, ViewCamera, ViewColours, ViewError, ViewScene, ViewStyle, ViewTool, Viewport,
-    ViewportGpu,
+    Colouring, DrawnShape, ViewCamera, ViewColours, ViewError, ViewScene, ViewStyle, ViewTool,
+    Viewport, ViewportGpu,
 };
 
 use crate::{example, keep, render_state};
@@ -15,6 +15,7 @@ struct Shown {
     scene: ViewScene,
     style: ViewStyle,
     num_picked: usize,
+    drawn: Vec<Vec<glam::Vec2>>,
 }
 
 impl Shown {
@@ -25,6 +26,7 @@ impl Shown {
             scene,
             style: ViewStyle::new(ViewColours::dark()),
             num_picked: 0,
+            drawn: Vec::new(),
         }
     }
 }
@@ -45,9 +47,11 @@ fn harness<'a>(state: Shown, renderer: Option<WgpuTestRenderer>) -> Harness<'a, 
                 scene,
                 style,
                 num_picked,
+                drawn,
             } = state;
             let shown = view.ui(ui, "Scene", camera, scene, style);
             *num_picked += usize::from(shown.picked.is_some());
+            drawn.extend(shown.drawn);
         },
         state,
     )
@@ -133,6 +137,53 @@ fn dragging_turns_and_the_wheel_zooms_to_the_cursor() {
     harness.run();
     let zoomed = harness.state().camera;
     assert!(zoomed.distance() < 0.8 * turned.distance(), "{zoomed:?}");
+}
+
+#[test]
+fn a_lasso_is_drawn_by_a_left_drag_that_turns_nothing_while_others_still_move_the_view() {
+    let mut harness = harness(Shown::new(Err(no_device()), example()), None);
+    harness.state_mut().view.tool = ViewTool::Draw(DrawnShape::Lasso);
+    harness.run();
+    let fitted = harness.state().camera;
+    let way = [[200.0, 150.0], [600.0, 150.0], [600.0, 450.0]].map(Pos2::from);
+    for button in [PointerButton::Primary, PointerButton::Secondary] {
+        let press = |harness: &mut Harness<'_, Shown>, pos, pressed| {
+            harness.event(Event::PointerButton {
+                pos,
+                button,
+                pressed,
+                modifiers: Modifiers::NONE,
+            });
+            harness.run();
+        };
+        harness.hover_at(way[0]);
+        harness.run();
+        press(&mut harness, way[0], true);
+        for at in &way[1..] {
+            harness.hover_at(*at);
+            harness.run();
+        }
+        press(&mut harness, way[2], false);
+        let [drawn] = harness.state().drawn.as_slice() else {
+            panic!("{button:?}: {:?}", harness.state().drawn);
+        };
+        let view = harness.get_by_label("Scene").rect();
+        for (corner, at) in drawn.iter().zip(way) {
+            let share = (at - view.min) / view.size();
+            assert!(corner.distance(glam::Vec2::new(share.x, share.y)) < 1e-4);
+        }
+        assert_eq!(drawn.len(), way.len());
+        let camera = harness.state().camera;
+        assert_eq!(camera.forward(), fitted.forward());
+        let has_shifted = camera.target().distance(fitted.target()) > 1e-3;
+        assert_eq!(has_shifted, button == PointerButton::Secondary);
+    }
+    // Neither is a click on it one on a point.
+    click(&mut harness, way[1]);
+    assert_eq!(
+        (harness.state().num_picked, harness.state().drawn.len()),
+        (0, 1)
+    );
 }
 
 #[test]

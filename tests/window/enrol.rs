@@ -9,6 +9,7 @@ use partsight::{
         WindowOptions,
         inspection::source::CellChoice,
         shell::{action::Action, session::WorkspaceKind, state::State},
+        ui::viewport::DrawnShape,
     },
     library::{LibraryFolder, PartName},
     pipeline::Verdict,
@@ -66,16 +67,45 @@ fn write(harness: &mut WindowHarness, label: &str, text: &str) {
 }
 
 fn drag(harness: &mut WindowHarness, from: Pos2, to: Pos2) {
-    harness.hover_at(from);
+    draw(harness, &[from, from + (to - from) * 0.3, to]);
+    let_go(harness);
+}
+
+/// Lets the left button go where the pointer is.
+fn let_go(harness: &mut WindowHarness) {
+    let at = harness.ctx.input(|input| input.pointer.latest_pos());
+    harness.drop_at(at.expect("a pointer"));
+    settle(harness);
+}
+
+/// Moves the pointer this way with the left button held, and does not let go.
+fn draw(harness: &mut WindowHarness, way: &[Pos2]) {
+    harness.hover_at(way[0]);
     harness.run_steps(2);
-    harness.drag_at(from);
+    harness.drag_at(way[0]);
     harness.run_steps(2);
-    for share in [0.3, 0.7, 1.0] {
-        harness.hover_at(from + (to - from) * share);
+    for at in &way[1..] {
+        harness.hover_at(*at);
         harness.run_steps(1);
     }
-    harness.drop_at(to);
-    settle(harness);
+}
+
+/// A place in the 3-D view, in shares of its sides.
+fn in_view(harness: &WindowHarness, x: f32, y: f32) -> Pos2 {
+    let view = harness.get_by_label("3-D view of the draft").rect();
+    view.min + view.size() * Vec2::new(x, y)
+}
+
+/// Begins to draw this way over the 3-D view, in shares of its sides.
+pub(crate) fn draw_in_view(harness: &mut WindowHarness, way: &[(f32, f32)]) {
+    let way: Vec<Pos2> = way.iter().map(|(x, y)| in_view(harness, *x, *y)).collect();
+    draw(harness, &way);
+}
+
+/// The places of the points that are kept.
+fn kept(harness: &WindowHarness) -> Vec<u32> {
+    let draft = enrol_of(harness).draft.as_ref().expect("a draft");
+    draft.selection.indices.clone()
 }
 
 fn num_kept(harness: &WindowHarness) -> usize {
@@ -130,7 +160,7 @@ fn a_captured_part_is_corrected_named_saved_and_recognised_by_its_new_name() {
 
     // A strip at the right of the picture is cut off by a box, and comes back.
     let picture = harness.get_by_label("Picture of what is kept").rect();
-    press(&mut harness, "Keep box");
+    press(&mut harness, "Keep");
     let from = picture.min + Vec2::new(2.0, 2.0);
     let to = picture.center() + Vec2::new(0.0, picture.height() / 2.0 - 2.0);
     drag(&mut harness, from, to);
@@ -454,7 +484,7 @@ fn a_box_is_drawn_by_keys_alone() {
     let mut harness = open(library.path());
     capture(&mut harness, PartKind::BackDoor, Side::Right);
     let before = num_kept(&harness);
-    harness.get_by_label("Drop box").click();
+    harness.get_by_label("Drop").click();
     harness.get_by_label("Picture of what is kept").focus();
     harness.run_steps(2);
     for _ in 0..4 {
@@ -466,6 +496,138 @@ fn a_box_is_drawn_by_keys_alone() {
     press_keys(&mut harness, Modifiers::NONE, Key::Enter);
     let dropped = num_kept(&harness);
     assert!(dropped < before, "{dropped} of {before}");
+}
+
+#[test]
+fn a_box_drawn_in_the_3d_view_cuts_the_part_and_undo_brings_it_back() {
+    let library = library();
+    let mut harness = open(library.path());
+    capture(&mut harness, PartKind::BackDoor, Side::Right);
+    press(&mut harness, "Show 3-d");
+    let whole = kept(&harness);
+    // The middle of the view from the front, then from the side, where the same box lies over fewer points.
+    let mut cut_from = |side: &str| {
+        press(&mut harness, side);
+        press(&mut harness, "Box");
+        press(&mut harness, "Drop");
+        harness.get_by_label_contains("Drag a box. What lies inside is dropped.");
+        let [from, to] = [(0.45, 0.4), (0.55, 0.6)].map(|(x, y)| in_view(&harness, x, y));
+        drag(&mut harness, from, to);
+        let left = kept(&harness);
+        assert!(!left.is_empty() && left.len() < whole.len());
+        assert!(left.iter().all(|i| whole.binary_search(i).is_ok()));
+        press_keys(&mut harness, Modifiers::COMMAND, Key::Z);
+        assert_eq!(kept(&harness), whole);
+        press_keys(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+        assert_eq!(kept(&harness), left);
+        press(&mut harness, "Reset all corrections");
+        assert_eq!(kept(&harness), whole);
+        left
+    };
+    let from_the_front = cut_from("Front");
+    assert_ne!(from_the_front, cut_from("Side"));
+
+    // Neither a click nor a line is a box.
+    let at = in_view(&harness, 0.5, 0.5);
+    for to in [Vec2::new(1.0, 1.0), Vec2::new(200.0, 1.0)] {
+        drag(&mut harness, at, at + to);
+        let draft = enrol_of(&harness).draft.as_ref().expect("a draft");
+        assert!(draft.corrections.edits.is_empty());
+    }
+}
+
+#[test]
+fn a_lasso_keeps_or_adds_what_it_goes_around_in_the_view_and_in_the_picture() {
+    let library = library();
+    let mut harness = open(library.path());
+    capture(&mut harness, PartKind::BackDoor, Side::Right);
+    press(&mut harness, "Front");
+    let whole = kept(&harness);
+    press(&mut harness, "Lasso");
+    harness.get_by_label_contains("Drag a lasso. What lies outside is dropped.");
+    // A triangle over the right half of the view.
+    draw_in_view(&mut harness, &[(0.5, 0.3), (0.95, 0.5), (0.5, 0.7)]);
+    let_go(&mut harness);
+    let left = kept(&harness);
+    assert!(!left.is_empty() && left.len() < whole.len() / 2);
+
+    // Everything about the part: the wall as well.
+    press(&mut harness, "Add");
+    let about_all = [(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)];
+    draw_in_view(&mut harness, &about_all);
+    let_go(&mut harness);
+    assert!(
+        kept(&harness)
+            .iter()
+            .any(|i| whole.binary_search(i).is_err())
+    );
+    assert!(left.iter().all(|i| kept(&harness).binary_search(i).is_ok()));
+
+    press(&mut harness, "Drop");
+    let picture = harness.get_by_label("Picture of what is kept").rect();
+    let before = kept(&harness);
+    let way = [(0.3, 0.3), (0.7, 0.3), (0.5, 0.7)];
+    let way = way.map(|(x, y)| picture.min + picture.size() * Vec2::new(x, y));
+    draw(&mut harness, &way);
+    let_go(&mut harness);
+    let after = kept(&harness);
+    let is_dropped = |x: u32, y: u32| after.binary_search(&(y * 640 + x)).is_err();
+    assert!(after.len() < before.len() && is_dropped(320, 200));
+    let beside = |i: &u32| i % 640 < 180 || i % 640 > 460;
+    assert!(
+        before
+            .iter()
+            .filter(|i| beside(i))
+            .eq(after.iter().filter(|i| beside(i)))
+    );
+}
+
+#[test]
+fn escape_gives_a_lasso_up_and_dragging_turns_the_view_again() {
+    let library = library();
+    let mut harness = open(library.path());
+    capture(&mut harness, PartKind::BackDoor, Side::Right);
+    let whole = kept(&harness);
+    let shape = |harness: &WindowHarness| enrol_of(harness).shape;
+    press_keys(&mut harness, Modifiers::NONE, Key::D);
+    assert_eq!(shape(&harness), Some(DrawnShape::Box));
+    press_keys(&mut harness, Modifiers::NONE, Key::D);
+    assert_eq!(shape(&harness), Some(DrawnShape::Lasso));
+    draw_in_view(&mut harness, &[(0.3, 0.3), (0.7, 0.3), (0.5, 0.7)]);
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    assert_eq!(shape(&harness), None);
+    harness.hover_at(in_view(&harness, 0.3, 0.7));
+    harness.run_steps(2);
+    let_go(&mut harness);
+    assert_eq!(kept(&harness), whole);
+    // A drag turns, and cuts nothing.
+    draw_in_view(&mut harness, &[(0.3, 0.3), (0.7, 0.3), (0.5, 0.7)]);
+    let_go(&mut harness);
+    assert_eq!(kept(&harness), whole);
+    assert!(
+        enrol_of(&harness)
+            .draft
+            .as_ref()
+            .is_some_and(|draft| draft.corrections.edits.is_empty())
+    );
+}
+
+#[test]
+fn a_lasso_about_everything_drops_it_all_and_the_card_says_what_is_missing() {
+    let library = library();
+    let mut harness = open(library.path());
+    capture(&mut harness, PartKind::Grille, Side::Left);
+    let whole = kept(&harness);
+    press(&mut harness, "Box");
+    press(&mut harness, "Drop");
+    let [from, to] = [(0.01, 0.01), (0.99, 0.99)].map(|(x, y)| in_view(&harness, x, y));
+    // Below the controls that lie over the view.
+    drag(&mut harness, from + Vec2::new(0.0, 60.0), to);
+    assert!(kept(&harness).is_empty());
+    harness.get_by_label("Nothing can be saved yet: see above");
+    press(&mut harness, "Undo the last step");
+    assert_eq!(kept(&harness), whole);
 }
 
 #[test]

@@ -30,7 +30,7 @@ use partsight::{
 };
 
 use super::{
-    live, robot,
+    enrol, live, robot,
     set_up::{SMALL, USUAL, WindowHarness, act, plain_options, press, settle},
     shots::ScanFolder,
 };
@@ -362,3 +362,28 @@ fn the_other_workspaces_look_as_they_did() {
         compare(&mut harness, "history");
     }
 }
+
+#[test]
+fn a_lasso_over_a_draft_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let mut harness = open_drawn(SMALL);
+    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
+    act(&mut harness, Action::SwitchTheme);
+    press(&mut harness, "Use the inspected scene");
+    press(&mut harness, "Side");
+    press(&mut harness, "Lasso");
+    press(&mut harness, "Drop");
+    enrol::draw_in_view(&mut harness, &LASSO);
+    compare(&mut harness, "enrol_lasso_small_light");
+}
+
+/// Around what stands out to the left of a part seen from the side, in shares of the view.
+const LASSO: [(f32, f32); 5] = [
+    (0.2, 0.4),
+    (0.35, 0.3),
+    (0.6, 0.45),
+    (0.5, 0.75),
+    (0.3, 0.7),
+];

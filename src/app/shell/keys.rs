@@ -128,9 +128,10 @@ fn other_keys() -> [[String; 2]; 7] {
     ]
 }
 
-/// Keys of the picture in which a part is corrected, for the list alone.
-fn picture_keys() -> [[String; 2]; 2] {
+/// Keys of the picture and the 3-D view in which a part is corrected, for the list alone.
+fn picture_keys() -> [[String; 2]; 3] {
     [
+        [text!("shell-keys-drawing"), text!("shell-does-drawing")],
         [text!("shell-keys-box"), text!("shell-does-box")],
         [text!("shell-keys-resize"), text!("shell-does-resize")],
     ]

@@ -6,7 +6,7 @@
 //! ViewCamera  from where                                     camera             (pure; share it to link views)
 //!     │
 //!     ▼
-//! Viewport::ui ─► ViewportResponse: picked                    widget, navigation, picking, measure, legend
+//! Viewport::ui ─► ViewportResponse: picked, drawn             widget, navigation, picking, drawing, measure, legend
 //!     │
 //!     ▼
 //! points ─► eye dome ─► lines ─► picture ─► window           renderer and one file a pass, each with its .wgsl
@@ -17,7 +17,7 @@
 //!
 //! | with | does |
 //! | --- | --- |
-//! | left drag, arrow keys | turn |
+//! | left drag, arrow keys | turn; with a box or lasso as the tool a left drag draws it |
 //! | right, middle or Shift + left drag, Shift + arrow keys, two fingers | shift |
 //! | wheel, pinch, + and − | zoom, to the cursor |
 //! | F, Shift + F | fit the part, fit everything |
@@ -30,6 +30,7 @@ pub mod bounds;
 pub mod camera;
 mod composite;
 mod detail;
+pub mod drawing;
 mod eye_dome;
 pub mod furniture;
 mod gpu;
@@ -50,6 +51,7 @@ mod widget;
 
 pub use self::{
     camera::{FitRequest, StandardView, ViewCamera},
+    drawing::{Drawing, DrawnShape},
     gpu::{ViewError, ViewportGpu},
     measure::Measurement,
     picking::PickedPoint,

@@ -5,6 +5,7 @@ use glam::Vec2;
 
 use super::{
     camera::{FitRequest, StandardView, ViewCamera, ViewSize},
+    drawing::Drawing,
     scene::ViewScene,
 };
 
@@ -29,9 +30,17 @@ pub(super) fn fit_if_pending(camera: &mut ViewCamera, scene: &ViewScene, size: V
     }
 }
 
-/// Moves the camera by what happened over the view since the last frame.
-pub(super) fn navigate(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) {
-    drag(ui, response, camera, size);
+/// Moves the camera by what happened over the view since the last frame; a drag that draws does not.
+pub(super) fn navigate(
+    ui: &Ui,
+    response: &Response,
+    drawing: &Drawing,
+    camera: &mut ViewCamera,
+    size: ViewSize,
+) {
+    if !drawing.is_held() {
+        drag(ui, response, camera, size);
+    }
     zoom(ui, response, camera, size);
     if is_listening(ui, response) {
         keys(ui, response, camera, size);

@@ -10,10 +10,12 @@ use egui::{
     Align, CursorIcon, Key, Label, Layout, Modifiers, PaintCallbackInfo, Rect, Response, RichText,
     Sense, Ui, UiBuilder,
 };
+use glam::Vec2;
 
 use super::{
     camera::ViewCamera,
     detail::{MovingDetail, NextRepaint, pixel_side},
+    drawing::{Drawing, DrawnShape},
     gpu::{ViewError, ViewportGpu},
     legend,
     measure::{self, Anchor, Measurement},
@@ -29,14 +31,16 @@ use crate::{
     error::{Advice, lock},
 };
 
-/// What a click on the view does.
+/// What a click or a left drag on the view does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ViewTool {
-    /// Picks a point.
+    /// A click picks a point, a drag turns.
     #[default]
     Look,
-    /// Sets the ends of a measured distance.
+    /// A click sets an end of a measured distance, a drag turns.
     Measure,
+    /// A drag draws this; a click does nothing.
+    Draw(DrawnShape),
 }
 
 /// One 3-D view in the window.
@@ -48,8 +52,10 @@ pub struct Viewport {
     renderer: Arc<Mutex<ViewRenderer>>,
     detail: MovingDetail,
     shown_camera: Option<ViewCamera>,
-    /// What a click does.
+    /// What a click or a left drag does.
     pub tool: ViewTool,
+    /// The outline being drawn.
+    pub drawing: Drawing,
     /// The distance being measured.
     pub measure: Measurement,
 }
@@ -61,6 +67,8 @@ pub struct ViewportResponse {
     pub response: Response,
     /// A point was clicked.
     pub picked: Option<PickedPoint>,
+    /// An outline was drawn: its corners in shares of the view's width and height, from the top left.
+    pub drawn: Option<Vec<Vec2>>,
 }
 
 impl Viewport {
@@ -72,6 +80,7 @@ impl Viewport {
             detail: MovingDetail::default(),
             shown_camera: None,
             tool: ViewTool::default(),
+            drawing: Drawing::default(),
             measure: Measurement::default(),
         }
     }
@@ -95,7 +104,12 @@ impl Viewport {
             response.request_focus();
         }
 
-        navigation::navigate(ui, &response, camera, size);
+        let shape = match self.tool {
+            ViewTool::Draw(shape) => Some(shape),
+            ViewTool::Look | ViewTool::Measure => None,
+        };
+        let drawn = self.drawing.follow(ui, &response, shape);
+        navigation::navigate(ui, &response, &self.drawing, camera, size);
         navigation::fit_if_pending(camera, scene, size);
         self.tool_keys(ui, &response);
         let picked = self.click(&response, camera, scene, style);
@@ -117,10 +131,14 @@ impl Viewport {
                 egui::StrokeKind::Inside,
             );
         }
-        if self.tool == ViewTool::Measure && response.hovered() {
+        if self.tool != ViewTool::Look && response.hovered() {
             ui.set_cursor_icon(CursorIcon::Crosshair);
         }
-        ViewportResponse { response, picked }
+        ViewportResponse {
+            response,
+            picked,
+            drawn,
+        }
     }
 
     /// How often the picture was drawn anew since the view was made: it stands still while nothing changes.
@@ -173,6 +191,7 @@ impl Viewport {
             self.tool = match self.tool {
                 ViewTool::Look => ViewTool::Measure,
                 ViewTool::Measure => ViewTool::Look,
+                ViewTool::Draw(shape) => ViewTool::Draw(shape),
             };
         }
         let is_measuring = self.tool == ViewTool::Measure || self.measure != Measurement::default();
@@ -189,7 +208,7 @@ impl Viewport {
         scene: &ViewScene,
         style: &ViewStyle,
     ) -> Option<PickedPoint> {
-        if !response.clicked() {
+        if !response.clicked() || matches!(self.tool, ViewTool::Draw(_)) {
             return None;
         }
         let cursor = vec2(response.interact_pointer_pos()? - response.rect.min);

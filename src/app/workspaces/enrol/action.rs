@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::{
     draft::Field,
-    selection::{BoxMode, Edit},
+    selection::{Edit, OutlineMode},
     subject::InitialSelection,
 };
 use crate::{
@@ -12,6 +12,7 @@ use crate::{
         language::text,
         shell::file_dialog::{FileChoice, FileRequest, all_files},
         shots::{ShotsAction, ShotsFile},
+        ui::viewport::DrawnShape,
     },
     library::PartName,
 };
@@ -27,8 +28,12 @@ pub enum EnrolAction {
     TakeAs(InitialSelection),
     /// Take all corrections away.
     Reset,
-    /// Have a box do something else.
-    BoxMode(BoxMode),
+    /// Draw this by dragging in the 3-D view, or turn the view by it.
+    Draw(Option<DrawnShape>),
+    /// Draw a box, or a lasso instead of a box.
+    DrawNext,
+    /// Have a box or a lasso do something else.
+    OutlineMode(OutlineMode),
     /// Show other panes.
     Panes(DraftPanes),
     /// Write a line about the draft.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! subject    what a part is enrolled from        segments, picture_plane, scanned
-//! selection  what of it is kept, as corrected     picture, tools, view
+//! selection  what of it is kept, as corrected     outline, picture, tools, view
 //! draft      the part as it would be stored       taking, fields, form
 //! change     a change of the library              undo, catalogue, card
 //! ```
@@ -14,6 +14,7 @@ pub mod change;
 pub mod draft;
 mod fields;
 mod form;
+pub mod outline;
 mod picture;
 pub mod picture_plane;
 pub mod scanned;
@@ -63,7 +64,7 @@ use crate::app::{
 };
 
 /// The keys of the workspace. Those with more modifiers come first: the others would take them too.
-const SHORTCUTS: [Shortcut<EnrolAction>; 3] = [
+const SHORTCUTS: [Shortcut<EnrolAction>; 5] = [
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::Z,
@@ -85,6 +86,20 @@ const SHORTCUTS: [Shortcut<EnrolAction>; 3] = [
         does: || text!("enrol-key-save"),
         action: || EnrolAction::Save,
     },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::D,
+        keys: || keys("D"),
+        does: || text!("enrol-key-draw"),
+        action: || EnrolAction::DrawNext,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::R,
+        keys: || keys("R"),
+        does: || text!("enrol-key-rotate"),
+        action: || EnrolAction::Draw(None),
+    },
 ];
 
 /// Width of the card, logical pixels, and in a narrow window.
@@ -98,7 +113,7 @@ pub struct EnrolWorkspace {
     panes: Panes,
 }
 
-/// What is drawn with: nothing but what was made of the state, and a box being drawn.
+/// What is drawn with: nothing but what was made of the state, and an outline being drawn.
 struct Panes {
     view: DraftView,
     picture: PicturePane,
@@ -284,13 +299,12 @@ impl Panes {
         };
         if let Some(rect) = picture {
             inside(rect.shrink(space::SMALL), &mut |ui| {
-                self.picture.ui(ui, draft, enrol.box_mode, theme, actions);
+                self.picture.ui(ui, draft, enrol, theme, actions);
             });
         }
         if let Some(rect) = view {
-            let looked_at = enrol.shots.looked_at;
             inside(rect, &mut |ui| {
-                self.view.ui(ui, draft, looked_at, session.theme, actions);
+                self.view.ui(ui, draft, enrol, session.theme, actions);
             });
         } else {
             self.view.rest();

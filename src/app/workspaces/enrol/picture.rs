@@ -1,33 +1,34 @@
-//! The draft as the camera sees it, and the box that a person draws in it.
+//! The draft as the camera sees it, and the box or lasso that a person draws in it.
 
 use std::sync::Arc;
 
 use egui::{
-    ColorImage, CursorIcon, EventFilter, Key, Pos2, Rect, Response, Sense, Stroke, StrokeKind,
-    TextureHandle, TextureOptions, Ui, pos2, vec2,
+    ColorImage, CursorIcon, EventFilter, Key, Rect, Response, Sense, TextureHandle, TextureOptions,
+    Ui, pos2, vec2,
 };
+use glam::Vec2;
 
 use super::{
-    EnrolAction,
+    EnrolAction, EnrolState,
     draft::Draft,
+    outline::{DrawnOutline, DrawnOver},
     segments::PointAction,
-    selection::{BoxMode, Edit, PixelBox, Selection},
+    selection::{Edit, Selection},
 };
 use crate::app::{
     language::text,
     ui::{
         theme::{Theme, font},
-        viewport::{Role, ViewColours},
+        viewport::{Drawing, DrawnShape, ViewColours, drawing},
         widgets::{fitted, focus_ring},
     },
 };
 
-/// The texture of the picture, and the box.
+/// The texture of the picture, and what is drawn in it.
 #[derive(Default)]
 pub(super) struct PicturePane {
     made: Option<(Arc<Selection>, TextureHandle)>,
-    /// Where a drag began, picture shares.
-    begun: Option<Pos2>,
+    drawing: Drawing,
     /// The box that the keys move, picture shares.
     keyed: Option<Rect>,
 }
@@ -36,15 +37,13 @@ pub(super) struct PicturePane {
 const STEP: f32 = 0.02;
 /// Room for two lines below the picture, logical pixels.
 const CAPTION: f32 = 38.0;
-/// A box smaller than this, in pixels of the picture, was not meant.
-const LEAST_SIDE: usize = 2;
 
 impl PicturePane {
     pub(super) fn ui(
         &mut self,
         ui: &mut Ui,
         draft: &Draft,
-        box_mode: BoxMode,
+        enrol: &EnrolState,
         theme: &Theme,
         actions: &mut Vec<EnrolAction>,
     ) {
@@ -68,37 +67,42 @@ impl PicturePane {
         let painter = ui.painter_at(room);
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         painter.image(texture.id(), place, whole, egui::Color32::WHITE);
+        // The picture cannot be turned: a drag draws a box if nothing else.
+        let shape = enrol.shape.unwrap_or(DrawnShape::Box);
+        let mode = enrol.outline_mode;
         let mut mended = None;
         if draft.subject.can_be_corrected() {
-            mended = self.by_pointer(ui, &response, place, draft, box_mode);
-            mended = mended.or_else(|| self.by_keys(ui, &response, draft, box_mode));
+            let drawn = self.drawing.follow(ui, &response, Some(shape));
+            let drawn = drawn.or_else(|| self.by_keys(ui, &response));
+            let outline = drawn.map(|corners| DrawnOutline {
+                corners: corners.into(),
+                over: DrawnOver::Picture,
+            });
+            mended = outline.map(|outline| Edit::Outline(mode, outline));
+            mended = mended.or_else(|| clicked(&response, draft));
             if response.hovered() {
                 ui.set_cursor_icon(CursorIcon::Crosshair);
             }
-            let text = text!("enrol-picture-hint", box = box_mode.explanation());
+            let text = text!(
+                "enrol-picture-hint",
+                drag = drag_to_draw(shape),
+                does = mode.explanation()
+            );
             let (font, colour) = (font::small(), theme.weak_text);
             let galley = ui.painter().layout(text, font, colour, place.width());
             ui.painter().galley(below, galley, colour);
         }
-        let pointer = response.interact_pointer_pos();
-        let drawn = self.begun.zip(pointer.map(|at| share_of(at, place)));
-        let drawn = drawn.map(|(from, to)| Rect::from_two_pos(from, to));
-        if let Some(drawn) = drawn.or(self.keyed) {
-            let at = |p: Pos2| place.min + p.to_vec2() * place.size();
-            let on_screen = Rect::from_min_max(at(drawn.min), at(drawn.max));
-            // On the picture, whose colours are the same in any window.
-            let colours = ViewColours::dark();
-            let bright = colours.role(Role::Measure).colour;
-            for (width, colour) in [(5.0, colours.background), (2.0, bright)] {
-                let stroke = Stroke::new(width, colour);
-                painter.rect_stroke(on_screen, 0.0, stroke, StrokeKind::Middle);
-            }
-            let text = box_mode.title();
-            let galley = painter.layout_no_wrap(text, font::small(), bright);
-            let plate = Rect::from_min_size(on_screen.min + vec2(2.0, 2.0), galley.size());
-            painter.rect_filled(plate.expand(3.0), 0.0, colours.background);
-            painter.galley(plate.min, galley, bright);
+        let mut corners = self.drawing.corners(shape);
+        if !corners.is_empty() {
+            self.keyed = None;
         }
+        if let Some(keyed) = self.keyed {
+            let at = |share: egui::Pos2| place.min + share.to_vec2() * place.size();
+            let on_screen = Rect::from_min_max(at(keyed.min), at(keyed.max));
+            corners = drawing::box_corners(on_screen).to_vec();
+        }
+        // On the picture, whose colours are the same in any window.
+        drawing::outline(&painter, &corners, &mode.title(), &ViewColours::dark());
         focus_ring(ui, place, &response, theme);
         if let Some(edit) = mended {
             actions.push(EnrolAction::Correct(edit));
@@ -125,46 +129,8 @@ impl PicturePane {
         self.made = Some((Arc::clone(selection), texture));
     }
 
-    /// A drag draws a box, a click takes or drops a segment.
-    fn by_pointer(
-        &mut self,
-        ui: &Ui,
-        response: &Response,
-        place: Rect,
-        draft: &Draft,
-        box_mode: BoxMode,
-    ) -> Option<Edit> {
-        let at = response
-            .interact_pointer_pos()
-            .map(|at| share_of(at, place));
-        if response.drag_started() {
-            // Where the button went down: the pointer has moved since.
-            let origin = ui.input(|input| input.pointer.press_origin());
-            self.begun = origin.map(|at| share_of(at, place));
-            self.keyed = None;
-        }
-        if response.drag_stopped() {
-            let drawn = Rect::from_two_pos(self.begun.take()?, at?);
-            return boxed(drawn, draft, box_mode);
-        }
-        let at = at.filter(|_| response.clicked())?;
-        let [width, height] = draft.subject.picture.size();
-        let column = ((at.x * width as f32) as usize).min(width - 1);
-        let row = ((at.y * height as f32) as usize).min(height - 1);
-        toggled(
-            draft,
-            *draft.selection.segment_at.get(row * width + column)?,
-        )
-    }
-
     /// Arrow keys move a box, with Shift its lower right corner; Enter applies it.
-    fn by_keys(
-        &mut self,
-        ui: &Ui,
-        response: &Response,
-        draft: &Draft,
-        box_mode: BoxMode,
-    ) -> Option<Edit> {
+    fn by_keys(&mut self, ui: &Ui, response: &Response) -> Option<Vec<Vec2>> {
         if !response.has_focus() {
             self.keyed = None;
             return None;
@@ -199,33 +165,31 @@ impl PicturePane {
         let is_entered = response.clicked() && response.interact_pointer_pos().is_none();
         let drawn = self.keyed.filter(|_| is_entered)?;
         self.keyed = None;
-        boxed(drawn, draft, box_mode)
+        let corners = drawing::box_corners(drawn).into_iter();
+        Some(corners.map(|at| Vec2::new(at.x, at.y)).collect())
     }
 }
 
-/// Where a place on the screen is in the picture, in shares of its sides.
-fn share_of(at: Pos2, place: Rect) -> Pos2 {
-    let share = (at - place.min) / place.size();
-    pos2(share.x.clamp(0.0, 1.0), share.y.clamp(0.0, 1.0))
+/// A click takes or drops a segment.
+fn clicked(response: &Response, draft: &Draft) -> Option<Edit> {
+    let at = response.interact_pointer_pos();
+    let at = at.filter(|_| response.clicked())?;
+    let share = (at - response.rect.min) / response.rect.size();
+    let [width, height] = draft.subject.picture.size();
+    let column = ((share.x * width as f32) as usize).min(width - 1);
+    let row = ((share.y * height as f32) as usize).min(height - 1);
+    toggled(
+        draft,
+        *draft.selection.segment_at.get(row * width + column)?,
+    )
 }
 
-fn boxed(drawn: Rect, draft: &Draft, box_mode: BoxMode) -> Option<Edit> {
-    let size = draft.subject.picture.size();
-    let pixel = |at: Pos2| {
-        [at.x, at.y]
-            .map(f32::abs)
-            .into_iter()
-            .zip(size)
-            .map(|(share, side)| ((share * side as f32).round() as usize).min(side))
-    };
-    let mut from = pixel(drawn.min);
-    let mut to = pixel(drawn.max);
-    let drawn = PixelBox {
-        from: [from.next()?, from.next()?],
-        to: [to.next()?, to.next()?],
-    };
-    let is_meant = (0..2).all(|axis| drawn.from[axis] + LEAST_SIDE <= drawn.to[axis]);
-    is_meant.then_some(Edit::Box(box_mode, drawn))
+/// What a person does to draw it.
+pub(super) fn drag_to_draw(shape: DrawnShape) -> String {
+    match shape {
+        DrawnShape::Box => text!("enrol-drag-box"),
+        DrawnShape::Lasso => text!("enrol-drag-lasso"),
+    }
 }
 
 /// Takes the segment if all of it is dropped, else drops it.

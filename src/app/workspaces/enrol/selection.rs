@@ -3,6 +3,7 @@
 use image::{Rgb, RgbImage};
 
 use super::{
+    outline::DrawnOutline,
     segments::{PointAction, SegmentKind, Segments},
     subject::{EnrolInput, InitialSelection},
 };
@@ -35,17 +36,17 @@ impl Corrections {
 }
 
 /// One correction.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
     /// Keep or drop a segment, by its place in the list.
     Segment(usize, PointAction),
-    /// Keep or drop by a box in the picture.
-    Box(BoxMode, PixelBox),
+    /// Keep or drop by a box or a lasso.
+    Outline(OutlineMode, DrawnOutline),
 }
 
-/// What a box in the picture does.
+/// What a box or a lasso does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum BoxMode {
+pub enum OutlineMode {
     /// Drops what lies outside.
     #[default]
     Keep,
@@ -55,41 +56,26 @@ pub enum BoxMode {
     Add,
 }
 
-impl BoxMode {
+impl OutlineMode {
     /// Every mode.
     pub const ALL: [Self; 3] = [Self::Keep, Self::Drop, Self::Add];
 
     /// What a person calls it.
     pub fn title(self) -> String {
         match self {
-            Self::Keep => text!("enrol-keep-box"),
-            Self::Drop => text!("enrol-drop-box"),
-            Self::Add => text!("enrol-add-box"),
+            Self::Keep => text!("enrol-keep"),
+            Self::Drop => text!("enrol-drop"),
+            Self::Add => text!("enrol-add"),
         }
     }
 
     /// What it does, in words.
     pub fn explanation(self) -> String {
         match self {
-            Self::Keep => text!("enrol-keep-box-hint"),
-            Self::Drop => text!("enrol-drop-box-hint"),
-            Self::Add => text!("enrol-add-box-hint"),
+            Self::Keep => text!("enrol-keep-hint"),
+            Self::Drop => text!("enrol-drop-hint"),
+            Self::Add => text!("enrol-add-hint"),
         }
-    }
-}
-
-/// A box in the picture: columns and rows from the first to the one after the last.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PixelBox {
-    /// First column and row.
-    pub from: [usize; 2],
-    /// The column and row after the last.
-    pub to: [usize; 2],
-}
-
-impl PixelBox {
-    fn holds(&self, pixel: [usize; 2]) -> bool {
-        (0..2).all(|axis| self.from[axis] <= pixel[axis] && pixel[axis] < self.to[axis])
     }
 }
 
@@ -142,7 +128,6 @@ fn kept(subject: &EnrolInput, corrections: &Corrections) -> Vec<bool> {
         .collect();
     let is_usual = |of: &u16| usual.get(usize::from(*of)).copied().unwrap_or(false);
     let mut kept: Vec<bool> = of_point.iter().map(is_usual).collect();
-    let points = &subject.cloud().points;
     for edit in &corrections.edits {
         match edit {
             Edit::Segment(place, fate) => {
@@ -151,17 +136,15 @@ fn kept(subject: &EnrolInput, corrections: &Corrections) -> Vec<bool> {
                     *kept = *fate == PointAction::Kept;
                 }
             }
-            Edit::Box(mode, pixel_box) => {
-                for (place, kept) in kept.iter_mut().enumerate() {
-                    if of_point[place] == Segments::NONE {
-                        continue;
-                    }
-                    let pixel = subject.picture.pixel(place, &points[place]);
-                    let is_inside = pixel_box.holds(pixel);
+            Edit::Outline(mode, outline) => {
+                let enclosed = outline.encloses(subject);
+                let readings = of_point.iter().zip(enclosed).zip(&mut kept);
+                for ((_, is_inside), kept) in readings.filter(|((of, _), _)| **of != Segments::NONE)
+                {
                     *kept = match mode {
-                        BoxMode::Keep => *kept && is_inside,
-                        BoxMode::Drop => *kept && !is_inside,
-                        BoxMode::Add => *kept || is_inside,
+                        OutlineMode::Keep => *kept && is_inside,
+                        OutlineMode::Drop => *kept && !is_inside,
+                        OutlineMode::Add => *kept || is_inside,
                     };
                 }
             }
@@ -236,7 +219,9 @@ fn picture(
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use glam::Vec2;
+
+    use super::{super::outline::DrawnOver, *};
     use crate::{
         app::inspection::source::{CellChoice, SceneSource},
         library::EnrolParams,
@@ -266,17 +251,22 @@ mod tests {
         Selection::of(subject, &corrections)
     }
 
-    const LEFT: PixelBox = PixelBox {
-        from: [0, 0],
-        to: [320, 480],
-    };
+    /// The left half of the picture.
+    fn left(mode: OutlineMode) -> Edit {
+        let corners = [[0.0, 0.0], [0.5, 0.0], [0.5, 1.0], [0.0, 1.0]];
+        let outline = DrawnOutline {
+            corners: corners.map(Vec2::from).into(),
+            over: DrawnOver::Picture,
+        };
+        Edit::Outline(mode, outline)
+    }
 
     #[test]
     fn a_kept_box_and_the_same_box_dropped_share_the_part_between_them() {
         let subject = captured();
         let all = with(&subject, &[]).indices;
-        let kept = with(&subject, &[Edit::Box(BoxMode::Keep, LEFT)]).indices;
-        let dropped = with(&subject, &[Edit::Box(BoxMode::Drop, LEFT)]).indices;
+        let kept = with(&subject, &[left(OutlineMode::Keep)]).indices;
+        let dropped = with(&subject, &[left(OutlineMode::Drop)]).indices;
         assert!(kept.iter().all(|i| i % 640 < 320) && dropped.iter().all(|i| i % 640 >= 320));
         let mut both = [kept, dropped].concat();
         both.sort_unstable();
@@ -286,7 +276,7 @@ mod tests {
     #[test]
     fn a_box_adds_the_background_too_and_never_what_was_not_read() {
         let subject = captured();
-        let added = with(&subject, &[Edit::Box(BoxMode::Add, LEFT)]);
+        let added = with(&subject, &[left(OutlineMode::Add)]);
         let cloud = subject.cloud();
         let inside = cloud.finite().filter(|(i, _)| i % 640 < 320).count();
         let kept_inside = added.indices.iter().filter(|i| *i % 640 < 320).count();
@@ -302,7 +292,7 @@ mod tests {
         let dropped = with(&subject, &[Edit::Segment(0, PointAction::Dropped)]);
         assert_eq!((dropped.indices.len(), dropped.kept_of[0]), (0, 0));
         let edits = [
-            Edit::Box(BoxMode::Drop, LEFT),
+            left(OutlineMode::Drop),
             Edit::Segment(0, PointAction::Dropped),
             Edit::Segment(0, PointAction::Kept),
         ];

@@ -6,7 +6,7 @@ use super::{
     action::{DraftPanes, EnrolAction, EnrolFile},
     change::{Changed, LibraryChange},
     draft::{Draft, Form, OpenedPart},
-    selection::{BoxMode, Corrections},
+    selection::{Corrections, OutlineMode},
     undo::{DraftEffect, LastChangedPart, LibraryStep, UndoDirection, UndoStack, UndoStep},
     work::{self, DraftEvent},
 };
@@ -23,6 +23,7 @@ use crate::{
         },
         shots::{Asked, ShotsAction, ShotsFile, ShotsState},
         task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
+        ui::viewport::DrawnShape,
         user_error::UserError,
     },
     library::PartName,
@@ -43,8 +44,10 @@ pub struct EnrolState {
     pub num_changes: u64,
     /// The enrolled part that is looked at.
     pub open: Option<OpenedPart>,
-    /// What a box in the picture does.
-    pub box_mode: BoxMode,
+    /// What dragging in the 3-D view draws; `None` while it turns the view.
+    pub shape: Option<DrawnShape>,
+    /// What a box or a lasso does.
+    pub outline_mode: OutlineMode,
     /// What is shown of the draft.
     panes: DraftPanes,
     /// What is shown of a draft that is a scan, which has no picture of its own.
@@ -85,7 +88,8 @@ impl EnrolState {
             latest: None,
             num_changes: 0,
             open: None,
-            box_mode: BoxMode::default(),
+            shape: None,
+            outline_mode: OutlineMode::default(),
             panes: DraftPanes::default(),
             scan_panes: DraftPanes::View,
             shots: ShotsState::default(),
@@ -181,7 +185,14 @@ impl EnrolState {
                 }
             }
             EnrolAction::Reset => self.correct(cx, |all| all.edits.clear()),
-            EnrolAction::BoxMode(mode) => self.box_mode = mode,
+            EnrolAction::Draw(shape) => self.shape = shape,
+            EnrolAction::DrawNext => {
+                self.shape = Some(match self.shape {
+                    Some(DrawnShape::Box) => DrawnShape::Lasso,
+                    Some(DrawnShape::Lasso) | None => DrawnShape::Box,
+                });
+            }
+            EnrolAction::OutlineMode(mode) => self.outline_mode = mode,
             EnrolAction::Panes(panes) if self.has_scan() => self.scan_panes = panes,
             EnrolAction::Panes(panes) => self.panes = panes,
             EnrolAction::Write(field) => {
@@ -279,11 +290,8 @@ impl EnrolState {
                     self.apply(action, cx);
                 }
             }
-            Event::Inspected { .. }
-            | Event::Left(_)
-            | Event::PosesWanted(_)
-            | Event::Export
-            | Event::Escape => {}
+            Event::Escape => self.shape = None,
+            Event::Inspected { .. } | Event::Left(_) | Event::PosesWanted(_) | Event::Export => {}
         }
     }
 

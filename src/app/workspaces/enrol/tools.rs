@@ -1,25 +1,23 @@
-//! What corrects the draft: how it is taken, boxes, segments, undo.
+//! What corrects the draft: how it is taken, boxes and lassos, segments, undo.
 
-use egui::{Button, RichText, ScrollArea, Ui, Vec2};
+use egui::{Button, RichText, ScrollArea, TextWrapMode, Ui, Vec2, WidgetText};
 
 use super::{
     EnrolAction, EnrolState,
     action::DraftPanes,
     draft::Draft,
     segments::PointAction,
-    selection::{BoxMode, Edit},
+    selection::{Edit, OutlineMode},
     subject::InitialSelection,
 };
 use crate::app::{
     language::text,
     ui::{
         theme::{Theme, font, space},
+        viewport::DrawnShape,
         widgets::grouped,
     },
 };
-
-/// From this width on all tools stand in one row, logical pixels.
-const ONE_ROW: f32 = 860.0;
 
 /// A button that can be the chosen one of several.
 fn choice(
@@ -38,7 +36,17 @@ fn choice(
     response
 }
 
-/// Draws the tools.
+/// One of the tools.
+struct Tool {
+    text: String,
+    label: String,
+    hint: Option<String>,
+    is_chosen: bool,
+    is_enabled: bool,
+    action: EnrolAction,
+}
+
+/// Draws the tools: as many in a row as there is room for, and those together that are used together.
 pub(super) fn ui(
     ui: &mut Ui,
     draft: &Draft,
@@ -48,16 +56,26 @@ pub(super) fn ui(
 ) {
     let can_correct = draft.subject.can_be_corrected();
     ui.spacing_mut().button_padding.x = 9.0;
-    let is_wide = ui.available_width() > ONE_ROW;
-    ui.horizontal(|ui| {
-        boxes(ui, draft, enrol, actions);
-        if is_wide {
-            ui.add_space(space::MEDIUM);
-            steps(ui, draft, enrol, actions);
-        }
-    });
-    if !is_wide {
-        ui.horizontal(|ui| steps(ui, draft, enrol, actions));
+    let room = ui.available_width();
+    let sets = [
+        vec![initial(draft)],
+        vec![steps(draft, enrol)],
+        vec![drawing(enrol, can_correct), modes(enrol, can_correct)],
+        vec![panes(enrol)],
+    ];
+    let gap = space::MEDIUM + ui.spacing().item_spacing.x;
+    let is_there = |set: &Vec<Vec<Tool>>| set.iter().any(|group| !group.is_empty());
+    let mut sets = sets.into_iter().filter(is_there).peekable();
+    while let Some(first) = sets.next() {
+        ui.horizontal(|ui| {
+            let mut used = width(ui, &first, gap);
+            buttons(ui, first, actions);
+            while let Some(next) = sets.next_if(|next| used + gap + width(ui, next, gap) <= room) {
+                used += gap + width(ui, &next, gap);
+                ui.add_space(space::MEDIUM);
+                buttons(ui, next, actions);
+            }
+        });
     }
     if !can_correct {
         let text = text!("enrol-mesh-is-whole");
@@ -69,37 +87,100 @@ pub(super) fn ui(
     }
 }
 
-/// How it is taken, and what a box does.
-fn boxes(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, actions: &mut Vec<EnrolAction>) {
-    let can_correct = draft.subject.can_be_corrected();
-    // The shots have voted what of a scan is the part.
-    let is_scan = draft.subject.scan().is_some();
-    for taking in InitialSelection::ALL.into_iter().filter(|_| !is_scan) {
-        let is_chosen = draft.corrections.taking == taking;
-        let is_allowed = draft.subject.allows(taking);
-        let title = taking.title();
-        if choice(ui, &title, &title, is_chosen, is_allowed).clicked() {
-            actions.push(EnrolAction::TakeAs(taking));
+fn buttons(ui: &mut Ui, groups: Vec<Vec<Tool>>, actions: &mut Vec<EnrolAction>) {
+    for (place, group) in groups.into_iter().enumerate() {
+        if place > 0 {
+            ui.add_space(space::MEDIUM);
         }
-    }
-    if !is_scan {
-        ui.add_space(space::MEDIUM);
-    }
-    for mode in BoxMode::ALL {
-        let is_chosen = enrol.box_mode == mode && can_correct;
-        let title = mode.title();
-        let response = choice(ui, &title, &title, is_chosen, can_correct);
-        if response.on_hover_text(mode.explanation()).clicked() {
-            actions.push(EnrolAction::BoxMode(mode));
+        for tool in group {
+            let Tool { text, label, .. } = &tool;
+            let mut response = choice(ui, text, label, tool.is_chosen, tool.is_enabled);
+            if let Some(hint) = tool.hint {
+                response = response.on_hover_text(hint);
+            }
+            if response.clicked() {
+                actions.push(tool.action);
+            }
         }
     }
 }
 
-/// Back and forth, and what is shown.
-fn steps(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, actions: &mut Vec<EnrolAction>) {
+/// How wide groups are side by side, logical pixels.
+fn width(ui: &Ui, groups: &[Vec<Tool>], gap: f32) -> f32 {
+    let spacing = ui.spacing();
+    let of_one = |tool: &Tool| {
+        let text = WidgetText::from(RichText::new(&tool.text).font(font::small()));
+        let wrap = Some(TextWrapMode::Extend);
+        let galley = text.into_galley(ui, wrap, f32::INFINITY, font::small());
+        (galley.size().x + 2.0 * spacing.button_padding.x).max(space::TARGET)
+    };
+    let of_group = |group: &Vec<Tool>| {
+        let gaps = spacing.item_spacing.x * (group.len() - 1) as f32;
+        group.iter().map(of_one).sum::<f32>() + gaps
+    };
+    groups.iter().map(of_group).sum::<f32>() + gap * (groups.len() - 1) as f32
+}
+
+/// How the draft is taken. The shots have voted what of a scan is the part.
+fn initial(draft: &Draft) -> Vec<Tool> {
+    let is_scan = draft.subject.scan().is_some();
+    let all = InitialSelection::ALL.into_iter().filter(|_| !is_scan);
+    all.map(|taking| Tool {
+        text: taking.title(),
+        label: taking.title(),
+        hint: None,
+        is_chosen: draft.corrections.taking == taking,
+        is_enabled: draft.subject.allows(taking),
+        action: EnrolAction::TakeAs(taking),
+    })
+    .collect()
+}
+
+/// What a drag does.
+fn drawing(enrol: &EnrolState, can_correct: bool) -> Vec<Tool> {
+    [
+        (text!("enrol-rotate"), text!("enrol-rotate-hint"), None),
+        (
+            text!("enrol-box"),
+            text!("enrol-box-hint"),
+            Some(DrawnShape::Box),
+        ),
+        (
+            text!("enrol-lasso"),
+            text!("enrol-lasso-hint"),
+            Some(DrawnShape::Lasso),
+        ),
+    ]
+    .into_iter()
+    .map(|(text, hint, shape)| Tool {
+        text: text.clone(),
+        label: text,
+        hint: Some(hint),
+        is_chosen: enrol.shape == shape && can_correct,
+        is_enabled: can_correct,
+        action: EnrolAction::Draw(shape),
+    })
+    .collect()
+}
+
+/// What becomes of what is drawn around.
+fn modes(enrol: &EnrolState, can_correct: bool) -> Vec<Tool> {
+    let all = OutlineMode::ALL.into_iter();
+    all.map(|mode| Tool {
+        text: mode.title(),
+        label: mode.title(),
+        hint: Some(mode.explanation()),
+        is_chosen: enrol.outline_mode == mode && can_correct,
+        is_enabled: can_correct,
+        action: EnrolAction::OutlineMode(mode),
+    })
+    .collect()
+}
+
+/// Back and forth.
+fn steps(draft: &Draft, enrol: &EnrolState) -> Vec<Tool> {
     let steps = &enrol.steps;
-    let has_edits = !draft.corrections.edits.is_empty();
-    for (text, label, is_enabled, action) in [
+    [
         (
             text!("enrol-undo"),
             text!("enrol-undo-step"),
@@ -115,21 +196,34 @@ fn steps(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, actions: &mut Vec<Enrol
         (
             text!("enrol-reset"),
             text!("enrol-reset-all"),
-            has_edits,
+            !draft.corrections.edits.is_empty(),
             EnrolAction::Reset,
         ),
-    ] {
-        if choice(ui, &text, &label, false, is_enabled).clicked() {
-            actions.push(action);
-        }
-    }
-    ui.add_space(space::MEDIUM);
-    for panes in DraftPanes::ALL {
-        let is_chosen = enrol.panes() == panes;
-        if choice(ui, &panes.title(), &panes.label(), is_chosen, true).clicked() {
-            actions.push(EnrolAction::Panes(panes));
-        }
-    }
+    ]
+    .into_iter()
+    .map(|(text, label, is_enabled, action)| Tool {
+        text,
+        label,
+        hint: None,
+        is_chosen: false,
+        is_enabled,
+        action,
+    })
+    .collect()
+}
+
+/// What is shown.
+fn panes(enrol: &EnrolState) -> Vec<Tool> {
+    let all = DraftPanes::ALL.into_iter();
+    all.map(|panes| Tool {
+        text: panes.title(),
+        label: panes.label(),
+        hint: None,
+        is_chosen: enrol.panes() == panes,
+        is_enabled: true,
+        action: EnrolAction::Panes(panes),
+    })
+    .collect()
 }
 
 /// The segments, each with its size and what becomes of it; a press takes or drops it.

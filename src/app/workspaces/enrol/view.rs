@@ -2,19 +2,24 @@
 
 use std::sync::Arc;
 
-use egui::{Button, Rect, RichText, Ui, UiBuilder, Vec2, vec2};
+use egui::{Button, Frame, Label, Rect, RichText, Ui, UiBuilder, Vec2, vec2};
 
-use super::{EnrolAction, draft::Draft, picture::toggled, selection::Selection};
-
+use super::{
+    EnrolAction, EnrolState,
+    draft::Draft,
+    outline::{DrawnOutline, DrawnOver},
+    picture::{drag_to_draw, toggled},
+    selection::{Edit, OutlineMode, Selection},
+};
 use crate::{
     app::{
         language::text,
         shots::{Overlay, POINT_SIZE},
         ui::{
-            theme::{Theme, ThemeChoice, font, space},
+            theme::{ROUNDING, Theme, ThemeChoice, font, space},
             viewport::{
-                FitRequest, PointSize, StandardView, ViewCamera, ViewColours, ViewError, ViewScene,
-                ViewStyle, Viewport, ViewportGpu,
+                DrawnShape, FitRequest, PointSize, StandardView, ViewCamera, ViewColours,
+                ViewError, ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
             },
         },
     },
@@ -72,10 +77,11 @@ impl DraftView {
         &mut self,
         ui: &mut Ui,
         draft: &Draft,
-        looked_at: Option<usize>,
+        enrol: &EnrolState,
         theme: ThemeChoice,
         actions: &mut Vec<EnrolAction>,
     ) {
+        let looked_at = enrol.shots.looked_at;
         self.show(draft, looked_at);
         if self.styled != theme {
             self.style = ViewStyle::new(match theme {
@@ -88,14 +94,33 @@ impl DraftView {
             Some(_) => POINT_SIZE,
             None => self.usual_size,
         };
+        let can_correct = draft.subject.can_be_corrected();
+        let shape = enrol.shape.filter(|_| can_correct);
+        self.viewport.tool = match (shape, self.viewport.tool) {
+            (Some(shape), _) => ViewTool::Draw(shape),
+            (None, ViewTool::Draw(_)) => ViewTool::Look,
+            (None, tool) => tool,
+        };
         let rect = ui.available_rect_before_wrap();
         let label = text!("enrol-view");
         let seen = self
             .viewport
             .ui(ui, &label, &mut self.camera, &self.scene, &self.style);
         self.has_focus = seen.response.has_focus();
+        if let Some(corners) = seen.drawn {
+            let size = seen.response.rect.size();
+            let size = glam::Vec2::new(size.x, size.y);
+            let outline = DrawnOutline {
+                corners: corners.into(),
+                over: DrawnOver::View {
+                    clip_from_world: self.camera.clip_from_world(size),
+                },
+            };
+            let edit = Edit::Outline(enrol.outline_mode, outline);
+            actions.push(EnrolAction::Correct(edit));
+        }
         if let Some(picked) = seen.picked
-            && draft.subject.can_be_corrected()
+            && can_correct
         {
             let segments = draft.subject.segments(draft.corrections.taking);
             let segment = segments.of_point.get(picked.index).copied();
@@ -112,6 +137,17 @@ impl DraftView {
         ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
             ui.horizontal(|ui| self.controls(ui));
         });
+        if let Some(shape) = shape {
+            let painter = ui.painter_at(rect);
+            let corners = self.viewport.drawing.corners(shape);
+            let (mode, colours) = (enrol.outline_mode, &self.style.colours);
+            drawing::outline(&painter, &corners, &mode.title(), colours);
+            // It would cover what is drawn around.
+            if corners.is_empty() {
+                let below = rect.with_min_y(bar.bottom()).shrink(space::SMALL);
+                hint(ui, below, shape, mode, colours);
+            }
+        }
     }
 
     /// Takes in another selection; its points were prepared by the worker. Only another draft moves the camera.
@@ -164,6 +200,24 @@ impl DraftView {
             }
         }
     }
+}
+
+/// What to do, and what comes of it.
+fn hint(ui: &mut Ui, place: Rect, shape: DrawnShape, mode: OutlineMode, colours: &ViewColours) {
+    let text = text!(
+        "enrol-view-hint",
+        drag = drag_to_draw(shape),
+        does = mode.explanation()
+    );
+    let text = RichText::new(text).font(font::small()).color(colours.text);
+    let plate = Frame::new()
+        .fill(colours.background.gamma_multiply(0.85))
+        .corner_radius(ROUNDING)
+        .inner_margin(space::SMALL);
+    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
+        // Selectable text would take the drags away from the view.
+        plate.show(ui, |ui| ui.add(Label::new(text).selectable(false)));
+    });
 }
 
 /// What the view shows of a scan over its points.

@@ -1,10 +1,12 @@
+use glam::Vec2;
 use nalgebra::Point3;
 
 use super::{
     super::{
         draft::Field,
+        outline::{DrawnOutline, DrawnOver},
         segments::PointAction,
-        selection::{Edit, PixelBox},
+        selection::Edit,
         subject::InitialSelection,
     },
     *,
@@ -18,6 +20,7 @@ use crate::{
             source::{Origin, SceneSource},
         },
         shell::{context::TestShell, notice::NoticeKind},
+        ui::viewport::ViewCamera,
     },
     geometry::cloud::PointCloud,
     stages::scene::SceneCloud,
@@ -110,9 +113,9 @@ impl Bench {
         self.act(EnrolAction::Write(Field::Title(title.into())));
     }
 
-    fn num_kept(&self) -> usize {
+    fn kept(&self) -> Vec<u32> {
         let draft = self.enrol.draft.as_ref().expect("a draft");
-        draft.selection.indices.len()
+        draft.selection.indices.clone()
     }
 
     fn from(&self) -> Option<String> {
@@ -130,39 +133,84 @@ impl Bench {
     }
 }
 
-const CORNER: PixelBox = PixelBox {
-    from: [0, 0],
-    to: [100, 100],
-};
+/// A box over the picture, as wide and as high as a third of it.
+fn corner(mode: OutlineMode) -> Edit {
+    let corners = [[0.0, 0.0], [0.3, 0.0], [0.3, 0.3], [0.0, 0.3]];
+    let outline = DrawnOutline {
+        corners: corners.map(Vec2::from).into(),
+        over: DrawnOver::Picture,
+    };
+    Edit::Outline(mode, outline)
+}
+
+/// A lasso about the middle of a view from this side.
+fn lasso(mode: OutlineMode, right: f32) -> Edit {
+    let mut camera = ViewCamera::default();
+    camera.turn(right, 0.3);
+    let corners = [[0.5, 0.1], [0.8, 0.5], [0.5, 0.9], [0.3, 0.5]];
+    let outline = DrawnOutline {
+        corners: corners.map(Vec2::from).into(),
+        over: DrawnOver::View {
+            clip_from_world: camera.clip_from_world(Vec2::new(800.0, 600.0)),
+        },
+    };
+    Edit::Outline(mode, outline)
+}
 
 #[test]
 fn every_correction_is_taken_back_and_done_again_in_its_order() {
     let mut bench = Bench::new();
     bench.take(80);
-    let mut kept = vec![bench.num_kept()];
+    let mut kept = vec![bench.kept()];
     for edit in [
-        Edit::Box(BoxMode::Keep, CORNER),
+        corner(OutlineMode::Keep),
         Edit::Segment(0, PointAction::Kept),
-        Edit::Box(BoxMode::Drop, CORNER),
+        corner(OutlineMode::Drop),
+        lasso(OutlineMode::Drop, 0.4),
+        lasso(OutlineMode::Add, -0.8),
+        lasso(OutlineMode::Keep, 0.0),
     ] {
         bench.act(EnrolAction::Correct(edit));
-        kept.push(bench.num_kept());
+        assert_ne!(Some(&bench.kept()), kept.last());
+        kept.push(bench.kept());
     }
-    assert!(kept[1] < kept[0] && kept[2] == kept[0] && kept[3] == kept[0] - kept[1]);
-    for num in kept.iter().rev().skip(1) {
+    assert_eq!(kept[2], kept[0]);
+    assert_eq!(kept[3].len(), kept[0].len() - kept[1].len());
+    for before in kept.iter().rev().skip(1) {
         bench.act(EnrolAction::Undo);
-        assert_eq!(bench.num_kept(), *num);
+        assert_eq!(bench.kept(), *before);
     }
-    for num in &kept[1..] {
+    for after in &kept[1..] {
         bench.act(EnrolAction::Redo);
-        assert_eq!(bench.num_kept(), *num);
+        assert_eq!(bench.kept(), *after);
     }
+    bench.act(EnrolAction::Reset);
+    assert_eq!(bench.kept(), kept[0]);
+    bench.act(EnrolAction::Undo);
+    assert_eq!(Some(&bench.kept()), kept.last());
     bench.act(EnrolAction::Undo);
     bench.act(EnrolAction::Correct(Edit::Segment(0, PointAction::Dropped)));
     bench.act(EnrolAction::Redo);
-    assert_eq!(bench.num_kept(), 0, "what was done since counts");
+    assert!(bench.kept().is_empty(), "what was done since counts");
     let draft = bench.enrol.draft.as_ref().expect("a draft");
     assert!(matches!(&draft.checked, Some(Err(trouble)) if !trouble.advice.is_empty()));
+}
+
+#[test]
+fn a_box_then_a_lasso_is_drawn_by_one_key_and_escape_ends_it() {
+    let mut bench = Bench::new();
+    let mut after = |action| {
+        bench.act(action);
+        bench.enrol.shape
+    };
+    let (a_box, lasso) = (Some(DrawnShape::Box), Some(DrawnShape::Lasso));
+    let shapes = [(); 3].map(|()| after(EnrolAction::DrawNext));
+    assert_eq!(shapes, [a_box, lasso, a_box]);
+    assert_eq!(after(EnrolAction::Draw(None)), None);
+    bench.act(EnrolAction::DrawNext);
+    let mut context = bench.shell.context();
+    bench.enrol.on_event(&Event::Escape, &mut context);
+    assert_eq!(bench.enrol.shape, None);
 }
 
 #[test]
