@@ -136,10 +136,10 @@ impl PreparedScene<'_> {
             outline_m,
             beyond,
             seen_m2: scene.query.contour.area * (1.0 - beyond) * fit.overlap,
-            edge_m: self.own_m * edge_share,
+            edge_m: self.own_m() * edge_share,
             rival: 0.0,
             outline_shift_m: None,
-            cut: self.cut_share,
+            cut: self.cut_share(),
             facing: mean_facing(&shared_closest, &target, target_from_source),
             shape: 0.0,
         };

@@ -30,10 +30,7 @@ pub(super) struct PreparedScene<'a> {
     pub(super) is_piece: bool,
     pub(super) source: AlignmentSource,
     pub(super) centre: Point3<f64>,
-    /// Length of the outline that is the part's own, metres.
-    pub(super) own_m: f64,
-    /// Share of the outline where only the view ends.
-    pub(super) cut_share: f64,
+    outline: Outline,
     /// `None` if a whole part is in sight, and whole ones are enrolled.
     pub(super) piece: Option<PieceSample>,
     pub(super) tolerance: Tolerance,
@@ -49,7 +46,7 @@ impl<'a> PreparedScene<'a> {
         params: &ConfirmParams,
     ) -> Self {
         let outline = outline_of(scene);
-        let source = thinned_source(scene, &outline, params);
+        let source = thinned_source(scene, &outline, params.seed);
         let are_whole = || {
             references
                 .iter()
@@ -65,8 +62,7 @@ impl<'a> PreparedScene<'a> {
             scene,
             centre: centre_of(&source.surface),
             source,
-            own_m: outline.own.len() as f64 * scene.query.plane.pixel.0,
-            cut_share: outline.cut_share,
+            outline,
             piece,
             tolerance: Tolerance {
                 base: params.tolerance,
@@ -75,12 +71,24 @@ impl<'a> PreparedScene<'a> {
         }
     }
 
-    /// Draws the pairs of the piece's border anew.
-    pub(super) fn draw_other_pairs(&mut self, seed: u64) {
+    /// Thins the part anew, and draws other pairs of its border.
+    pub(super) fn draw_again(&mut self, seed: u64) {
+        self.source = thinned_source(self.scene, &self.outline, seed);
+        self.centre = centre_of(&self.source.surface);
         if let Some(piece) = self.piece.take() {
             let (surface, num_pairs) = (&self.source.surface, num_pairs(self.scene));
             self.piece = Some(PieceSample::new(surface, piece.border, num_pairs, seed));
         }
+    }
+
+    /// Length of the outline that is the part's own, metres.
+    pub(super) fn own_m(&self) -> f64 {
+        self.outline.own.len() as f64 * self.scene.query.plane.pixel.0
+    }
+
+    /// Share of the outline where only the view ends.
+    pub(super) fn cut_share(&self) -> f64 {
+        self.outline.cut_share
     }
 
     /// What is laid onto a reference as a piece; `None` where both are whole.
@@ -155,8 +163,8 @@ fn num_pairs(scene: &Scene<'_>) -> usize {
 }
 
 /// Thins part and edges at random, so that any first n of them are spread over the part.
-fn thinned_source(scene: &Scene<'_>, outline: &Outline, params: &ConfirmParams) -> AlignmentSource {
-    let mut rng = Pcg64::seed_from_u64(params.seed);
+fn thinned_source(scene: &Scene<'_>, outline: &Outline, seed: u64) -> AlignmentSource {
+    let mut rng = Pcg64::seed_from_u64(seed);
     let points = &scene.part.cloud.points;
     let wanted = THIRD[2].num_surface;
     let mut surface: Vec<Point3<f32>> = points
