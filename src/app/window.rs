@@ -259,8 +259,7 @@ impl Window {
 
     /// True when nothing can be drawn any more, not even words.
     fn is_lost(&self) -> bool {
-        let trouble = self.gpu.as_ref().ok().and_then(ViewportGpu::trouble);
-        matches!(trouble, Some(ViewError::DeviceLost { .. }))
+        self.gpu.as_ref().is_ok_and(ViewportGpu::is_lost)
     }
 
     /// What the frames of the Inspect workspace have done so far.

@@ -8,7 +8,7 @@ use crate::{
     capture::Captured,
     geometry::rigid::row_major,
     history::Traceability,
-    pipeline::{Inspection, NamedRecipe, RecipeBlock, Timings, Verdict},
+    pipeline::{Inspection, NamedRecipe, RecipeBlock, Refusal, RefusalKind, Timings, Verdict},
     robot::RobotFrame,
     stages::pose::{PoseEstimate, Uncertainty},
 };
@@ -32,6 +32,8 @@ pub struct InspectionLine<'a> {
     score: Option<f64>,
     margin: Option<f64>,
     reason: Option<String>,
+    /// The same for programs.
+    reason_kind: Option<RefusalKind>,
     /// What was taken for the part reaches the picture's edge: some of it may be missing.
     touches_edge: bool,
     pose: Option<PoseLine<'a>>,
@@ -186,6 +188,7 @@ impl<'a> InspectionLine<'a> {
             score: None,
             margin: None,
             reason: Some(reason.to_string()),
+            reason_kind: None,
             touches_edge: false,
             pose: None,
             robot: None,
@@ -293,6 +296,7 @@ impl<'a> InspectionLine<'a> {
             score: verdict.score().map(|[score, _]| score),
             margin: verdict.score().map(|[_, margin]| margin),
             reason: verdict.complaint().map(|[why, _]| why),
+            reason_kind: verdict.refusal().as_ref().map(Refusal::kind),
             touches_edge: inspection.touches_edge(),
             pose,
             ranking: ranking.collect(),

@@ -113,9 +113,10 @@ fn an_empty_cell_and_an_unknown_part_are_not_accepted() {
     assert_eq!(lines[0]["part"], Value::Null);
     assert_eq!(lines[1]["status"], "unknown");
     assert_eq!(lines[1]["part"], Value::Null);
+    assert_eq!(lines[1]["reason_kind"], "unknown");
     for line in lines {
         assert_eq!(line["accepted"], false);
-        assert!(line["reason"].is_string());
+        assert!(line["reason"].is_string() && line["reason_kind"].is_string());
     }
     let card = place.run(&["inspect", "other.pcd", "--library", "parts"]);
     assert!(

@@ -31,6 +31,7 @@ fn a_simulated_part_is_enrolled_and_recognised_again() {
         assert_eq!(line["simulated"], true);
         assert_eq!(line["accepted"], true);
         assert_eq!(line["reason"], Value::Null);
+        assert_eq!(line["reason_kind"], Value::Null);
         assert_eq!(line["ranking"].as_array().expect("a list").len(), 2);
         assert!(line["timings_ms"]["total"].as_f64().expect("a time") > 0.0);
         assert_eq!(

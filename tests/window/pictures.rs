@@ -156,7 +156,7 @@ fn compare_as_it_is(harness: &mut WindowHarness, name: &str) {
     for node in harness.query_all(By::new().predicate(is_time_of_day)) {
         // As wide whatever the digits are.
         let mut rect = node.rect();
-        rect.min.x = rect.min.x.min(rect.max.x - 48.0);
+        rect.min.x = rect.min.x.min(rect.max.x - 64.0);
         paint_over(&mut picture, rect);
     }
     if harness.state().state().session.is_live() {

@@ -118,7 +118,6 @@ fn a_device_that_refuses_something_is_said_in_words_and_the_rest_works() {
 fn a_window_whose_device_is_gone_closes_instead_of_breaking_off() {
     let Some(mut window) = open() else { return };
     window.device.destroy();
-    window.wait();
     for _ in 0..3 {
         window.frame(Vec::new(), Pace::InStep);
     }

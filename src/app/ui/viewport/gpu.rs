@@ -146,6 +146,13 @@ impl ViewportGpu {
         lock(&self.0.trouble).clone()
     }
 
+    /// True once the device is gone.
+    pub fn is_lost(&self) -> bool {
+        // It tells of its loss only when it is asked.
+        let _ = self.0.device.poll(wgpu::PollType::Poll);
+        matches!(self.trouble(), Some(ViewError::DeviceLost { .. }))
+    }
+
     /// How often a set was uploaded so far.
     pub fn num_uploads(&self) -> u64 {
         self.0.num_uploads.load(Ordering::Relaxed)
