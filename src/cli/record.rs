@@ -151,6 +151,7 @@ impl HistoryRecorder {
                 HistoryEvent::Added { .. }
                 | HistoryEvent::Changed { .. }
                 | HistoryEvent::NotChanged { .. }
+                | HistoryEvent::FilesChanged
                 | HistoryEvent::RuleChanged
                 | HistoryEvent::Swept(_) => {}
             }

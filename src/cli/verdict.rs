@@ -4,8 +4,9 @@ use super::{Outcome, console::Console};
 use crate::{
     files::visible,
     library::Library,
-    pipeline::{Inspection, Verdict},
+    pipeline::{Inspection, Rejection, Verdict},
     robot::RobotFrame,
+    stages::pose::Stopped,
     units::Metres,
 };
 
@@ -67,11 +68,14 @@ pub(super) fn show_card(
         } => {
             let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
             line("scene", visible(scene).into_owned());
-            if inspection.verdict.is_unknown() {
-                line("part", format!("unknown, nearest {part}: {verdict}"));
-            } else {
-                line("part", format!("{part}: {verdict}"));
-            }
+            let part = match rejected {
+                Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }) => {
+                    format!("mirror image of {part}")
+                }
+                Some(Rejection::Unknown { .. }) => format!("unknown, nearest {part}"),
+                _ => part.clone(),
+            };
+            line("part", format!("{part}: {verdict}"));
             let ahead = inspection.ranking.runner_up();
             let ahead = ahead.map(|next| next.part.as_str());
             let ahead = ahead.map_or(String::new(), |next| {
@@ -114,10 +118,10 @@ pub(super) fn show_card(
         line(
             "fit",
             format!(
-                "{:.1} mm rms, {:.0} % of what was seen lies on the reference, {} by {}{ambiguous}{approximate}",
+                "{:.1} mm rms, {:.0} % of what was seen lies on the reference, {} by the method {}{ambiguous}{approximate}",
                 pose.fit.rms_m * 1000.0,
                 pose.fit.overlap * 100.0,
-                pose.stopped.name().replace('_', " "),
+                stopped_words(pose.stopped),
                 pose.method.name(),
             ),
         );
@@ -146,5 +150,14 @@ pub(super) fn show_card(
     if let Some([why, what_to_do]) = inspection.verdict.complaint() {
         line("why not", why);
         line("to do", what_to_do);
+    }
+}
+
+fn stopped_words(stopped: Stopped) -> &'static str {
+    match stopped {
+        Stopped::Converged => "converged",
+        Stopped::BelowTarget => "below its target",
+        Stopped::IterationLimit => "stopped at the iteration limit",
+        Stopped::NoProgress => "stopped without progress",
     }
 }

@@ -5,7 +5,7 @@
 
 use std::{
     collections::VecDeque,
-    path::PathBuf,
+    path::{Path, PathBuf},
     sync::{
         Mutex, MutexGuard,
         atomic::{AtomicU64, Ordering},
@@ -72,6 +72,16 @@ impl HistoryBuffer {
             news: Mutex::default(),
             num_events: AtomicU64::default(),
         }
+    }
+
+    /// Its folder; `None` in memory alone.
+    pub fn folder(&self) -> Option<&Path> {
+        self.place.as_deref()
+    }
+
+    /// Tells that another program may have written.
+    pub fn files_changed(&self) {
+        self.tell(HistoryEvent::FilesChanged);
     }
 
     /// How many inspections are not written.

@@ -40,6 +40,8 @@ pub enum HistoryEvent {
         /// What to do.
         advice: String,
     },
+    /// The files have changed: perhaps another program wrote.
+    FilesChanged,
     /// Frames are kept by another rule.
     RuleChanged,
     /// Frames were taken away.

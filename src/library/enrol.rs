@@ -159,7 +159,7 @@ pub fn enrol_selected(
     let found = SegmentedPart::selected(scene, indices, &params.segment);
     let num_points = found.cloud.points.len();
     if num_points < MIN_POINTS {
-        return Err(EnrolError::TooFewPoints {
+        return Err(EnrolError::TooFewKept {
             found: num_points,
             needed: MIN_POINTS,
         });

@@ -373,6 +373,33 @@ fn a_history_that_cannot_be_written_is_said_and_inspections_go_on() {
 }
 
 #[test]
+fn what_a_command_inspects_shows_in_an_open_history() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    let before = history_of(&harness).page.num_all;
+    let mut history = History::open(folder.path()).expect("opened").history;
+    let mut record = history.known(1).expect("written");
+    record.summary.hung = HungId::new();
+    let entry = NewEntry {
+        record,
+        picture: None,
+        scene: None,
+        shots: Vec::new(),
+    };
+    history.add_all([entry]).expect("written");
+    drop(history);
+    let until = Instant::now() + Duration::from_secs(60);
+    while history_of(&harness).page.num_all == before {
+        assert!(Instant::now() < until, "not seen within a minute");
+        thread::sleep(Duration::from_millis(50));
+        harness.step();
+    }
+    settle(&mut harness);
+    harness.get_by_label("2 of 2 parts");
+}
+
+#[test]
 fn of_a_hundred_thousand_inspections_only_those_in_sight_are_fetched() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().to_owned();

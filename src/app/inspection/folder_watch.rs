@@ -4,7 +4,7 @@
 //! written over, so that the time of an entry which is a folder changes with every file in it.
 
 use std::{
-    ffi::OsString,
+    ffi::{OsStr, OsString},
     fs,
     path::{Path, PathBuf},
     thread,
@@ -74,7 +74,12 @@ type Entry = (OsString, u64, Option<SystemTime>);
 /// The visible entries in the order of their names; none of a folder that cannot be read.
 fn entries(folder: &Path) -> Vec<Entry> {
     let found = fs::read_dir(folder).into_iter().flatten().flatten();
-    let visible = found.filter(|entry| !entry.file_name().as_encoded_bytes().starts_with(b"."));
+    let is_visible = |name: &OsStr| {
+        let name = name.as_encoded_bytes();
+        // What SQLite shares among its readers changes when it is read, too.
+        !name.starts_with(b".") && !name.ends_with(b"-shm")
+    };
+    let visible = found.filter(|entry| is_visible(&entry.file_name()));
     let mut entries: Vec<Entry> = visible
         .map(|entry| {
             let found = fs::metadata(entry.path()).ok();

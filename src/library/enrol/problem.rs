@@ -86,6 +86,14 @@ pub enum EnrolError {
         /// Least number of points.
         needed: usize,
     },
+    /// Too few points are left of what was corrected.
+    #[error("{found} points are kept, at least {needed} are needed")]
+    TooFewKept {
+        /// Points kept.
+        found: usize,
+        /// Least number of points.
+        needed: usize,
+    },
     /// No frame of a scan shows a part.
     #[error("no part was found in any of the {num_frames} frames")]
     NoPartInScan {
@@ -112,6 +120,7 @@ impl Advice for EnrolError {
             Self::TooFewPoints { .. } => {
                 "Capture the part from nearer, or export the cloud with more points".into()
             }
+            Self::TooFewKept { .. } => "Take back what was dropped: Undo, Reset, or Add".into(),
             Self::NoPartInScan { .. } => {
                 "Look at what was put together, partsight scan DIR --out scan.ply, and capture the part at least 10 cm before the background".into()
             }

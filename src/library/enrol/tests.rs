@@ -149,10 +149,7 @@ fn a_part_from_all_that_segmentation_found_is_the_captured_one_and_less_makes_it
     assert_eq!(half.part.meta.enrolled.how, EnrolMethod::Segmented);
     assert!(half.part.signature.area_m2 < 0.8 * whole.part.signature.area_m2);
     let few = enrol_selected(&scene, &found.indices[..20], &about("x"), &params);
-    assert!(matches!(
-        few,
-        Err(EnrolError::TooFewPoints { found: 20, .. })
-    ));
+    assert!(matches!(few, Err(EnrolError::TooFewKept { found: 20, .. })));
 }
 
 /// A flat sheet 1.3 m before the camera, a point every 5 mm.

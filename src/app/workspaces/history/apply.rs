@@ -317,6 +317,7 @@ impl HistoryState {
                 cx.notify(Notice::done(what));
                 self.stale();
             }
+            HistoryEvent::FilesChanged => self.stale(),
             HistoryEvent::Changed { .. } | HistoryEvent::RuleChanged => self.answered(),
         }
         self.refresh_if_stale(cx);

@@ -30,6 +30,7 @@ use self::{details::Details, list::List};
 
 use crate::{
     app::{
+        inspection::folder_watch::FolderWatch,
         language::{keys, text},
         shell::{
             context::ShellContext,
@@ -86,6 +87,8 @@ pub struct HistoryWorkspace {
     list: List,
     writer: Writer,
     keeper: Arc<HistoryBuffer>,
+    /// For what commands write.
+    watch: FolderWatch,
     /// What was written before the start has been looked for.
     has_looked: bool,
 }
@@ -99,6 +102,7 @@ impl HistoryWorkspace {
             list: List::default(),
             writer,
             keeper,
+            watch: FolderWatch::new("history-watch", runner),
             has_looked: false,
         }
     }
@@ -183,6 +187,12 @@ impl Workspace for HistoryWorkspace {
         let crowded = self.writer.take_dropped();
         if crowded != [0; 2] {
             self.state.crowded(crowded[1], cx);
+        }
+        if let Some(folder) = self.keeper.folder() {
+            self.watch.watch(folder);
+        }
+        if self.watch.has_changed() {
+            self.keeper.files_changed();
         }
         for news in self.keeper.take_news() {
             self.state.take_news(news, cx);

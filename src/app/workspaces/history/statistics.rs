@@ -92,8 +92,8 @@ impl ReasonGroup {
 pub struct Statistics {
     /// By shift, the oldest first, each with its start.
     pub shifts: Vec<(Zoned, Tally)>,
-    /// By part, the one with the most refusals first.
-    pub parts: Vec<(String, Tally)>,
+    /// By part, the one with the most refusals first; `None` is what was unknown.
+    pub parts: Vec<(Option<String>, Tally)>,
     /// By reason of a refusal, the most frequent first.
     pub reasons: Vec<(ReasonGroup, usize)>,
     /// How the part drifts that the filter names, or the one that was accepted most often.
@@ -127,7 +127,7 @@ pub(super) fn count(
     title_of: impl Fn(&str) -> String,
 ) -> Statistics {
     let mut found = Statistics::default();
-    let mut parts: BTreeMap<String, Tally> = BTreeMap::new();
+    let mut parts: BTreeMap<Option<String>, Tally> = BTreeMap::new();
     let mut reasons: BTreeMap<ReasonGroup, usize> = BTreeMap::new();
     let mut end: Option<Zoned> = None;
     for outcome in outcomes {
@@ -145,8 +145,8 @@ pub(super) fn count(
             tally.add(outcome.verdict);
         }
         let title = match outcome.verdict {
-            StoredVerdict::Unknown => stored_verdict(outcome.verdict),
-            _ => title_of(outcome.part.as_deref().unwrap_or_default()),
+            StoredVerdict::Unknown => None,
+            _ => Some(title_of(outcome.part.as_deref().unwrap_or_default())),
         };
         if let Some(reason) = &outcome.reason {
             *reasons
@@ -236,8 +236,10 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem, theme: &
                 }
                 ui.end_row();
                 for (title, tally) in &found.parts {
+                    // Named when drawn: the language may have changed since they were counted.
+                    let unknown = || stored_verdict(StoredVerdict::Unknown);
                     let cells = [
-                        title.clone(),
+                        title.clone().unwrap_or_else(unknown),
                         tally.num_ok.to_string(),
                         tally.num_not_ok.to_string(),
                         tally.share(),
@@ -394,7 +396,10 @@ mod tests {
         };
         assert_eq!(
             found.parts,
-            [("Door, left".into(), door), ("fender".into(), fender)]
+            [
+                (Some("Door, left".into()), door),
+                (Some("fender".into()), fender)
+            ]
         );
     }
 
