@@ -389,7 +389,7 @@ fn what_a_command_inspects_shows_in_an_open_history() {
     };
     history.add_all([entry]).expect("written");
     drop(history);
-    let until = Instant::now() + Duration::from_secs(60);
+    let until = Instant::now() + Duration::from_mins(1);
     while history_of(&harness).page.num_all == before {
         assert!(Instant::now() < until, "not seen within a minute");
         thread::sleep(Duration::from_millis(50));
