@@ -260,6 +260,7 @@ impl NewEntry {
         let title = match verdict {
             StoredVerdict::Accepted => name,
             StoredVerdict::NotAccepted => format!("Not recognised · nearest {name}"),
+            _ if inspection.verdict.is_mirrored() => format!("Mirror image of {name}"),
             StoredVerdict::Unknown => format!("Unknown · nearest {name}"),
             StoredVerdict::NoPart => "No part".to_owned(),
         };

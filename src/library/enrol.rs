@@ -4,6 +4,7 @@
 //! small; normals are estimated on the thinned cloud. Part space is the coordinates as they came.
 
 mod cloud;
+mod kept;
 mod own_pose;
 mod problem;
 mod scan;
@@ -13,6 +14,7 @@ use nalgebra::Point3;
 
 use self::{
     cloud::{coverage_of, finite_only, middle, normals_towards, thinned},
+    kept::{share_apart, share_on_background},
     own_pose::pose_warning,
 };
 pub use self::{
@@ -164,7 +166,21 @@ pub fn enrol_selected(
             needed: MIN_POINTS,
         });
     }
-    enrol_chosen(&found, scene, about, params)
+    let mut enrolled = enrol_chosen(&found, scene, about, params)?;
+    let percent = |share: f64| (share * 100.0).round() as u8;
+    let on_background = percent(share_on_background(scene, &found.indices, &params.segment));
+    if on_background > 0 {
+        let percent = on_background;
+        enrolled
+            .warnings
+            .push(EnrolWarning::OnBackground { percent });
+    }
+    let apart = percent(share_apart(&found.cloud.points));
+    if apart > 0 {
+        let percent = apart;
+        enrolled.warnings.push(EnrolWarning::Apart { percent });
+    }
+    Ok(enrolled)
 }
 
 /// Enrols what was found in a scene, as a camera at the origin saw it.

@@ -119,13 +119,14 @@ impl Verdict {
 
     /// True if something hangs there that is nothing enrolled.
     pub fn is_unknown(&self) -> bool {
+        matches!(self.rejected(), Some(Rejection::Unknown { .. })) || self.is_mirrored()
+    }
+
+    /// True if it fits an enrolled part only as its mirror image.
+    pub fn is_mirrored(&self) -> bool {
         matches!(
             self.rejected(),
-            Some(
-                Rejection::Unknown { .. }
-                    | Rejection::Mirrored { .. }
-                    | Rejection::MirroredImage { .. }
-            )
+            Some(Rejection::Mirrored { .. } | Rejection::MirroredImage { .. })
         )
     }
 
@@ -133,13 +134,8 @@ impl Verdict {
     pub(super) fn is_likeness(&self) -> bool {
         matches!(
             self.rejected(),
-            Some(
-                Rejection::AnotherModel { .. }
-                    | Rejection::AnotherMake { .. }
-                    | Rejection::Mirrored { .. }
-                    | Rejection::MirroredImage { .. }
-            )
-        )
+            Some(Rejection::AnotherModel { .. } | Rejection::AnotherMake { .. })
+        ) || self.is_mirrored()
     }
 
     /// True if it may be another model of the part, so that the pose is only about right.

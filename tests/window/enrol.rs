@@ -510,7 +510,7 @@ fn a_box_drawn_in_the_3d_view_cuts_the_part_and_undo_brings_it_back() {
         press(&mut harness, side);
         press(&mut harness, "Box");
         press(&mut harness, "Drop");
-        harness.get_by_label_contains("Drag a box. What lies inside is dropped.");
+        harness.get_by_label_contains("Draw a box. What lies inside is dropped.");
         let [from, to] = [(0.45, 0.4), (0.55, 0.6)].map(|(x, y)| in_view(&harness, x, y));
         drag(&mut harness, from, to);
         let left = kept(&harness);
@@ -544,7 +544,7 @@ fn a_lasso_keeps_or_adds_what_it_goes_around_in_the_view_and_in_the_picture() {
     press(&mut harness, "Front");
     let whole = kept(&harness);
     press(&mut harness, "Lasso");
-    harness.get_by_label_contains("Drag a lasso. What lies outside is dropped.");
+    harness.get_by_label_contains("Draw a lasso. What lies outside is dropped.");
     // A triangle over the right half of the view.
     draw_in_view(&mut harness, &[(0.5, 0.3), (0.95, 0.5), (0.5, 0.7)]);
     let_go(&mut harness);

@@ -8,6 +8,7 @@ results-unknown = Unbekannt
 results-no-part = Kein Teil
 results-title-not-recognised = Nicht erkannt · am nächsten { $part }
 results-title-unknown = Unbekannt · am nächsten { $part }
+results-title-mirrored = Spiegelbild von { $part }
 results-keep-all = Alle
 results-keep-not-accepted = Nur nicht akzeptierte
 results-keep-none = Keine

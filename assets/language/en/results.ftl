@@ -8,6 +8,7 @@ results-unknown = Unknown
 results-no-part = No part
 results-title-not-recognised = Not recognised · nearest { $part }
 results-title-unknown = Unknown · nearest { $part }
+results-title-mirrored = Mirror image of { $part }
 results-keep-all = All
 results-keep-not-accepted = Only not accepted
 results-keep-none = None

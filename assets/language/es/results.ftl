@@ -8,6 +8,7 @@ results-unknown = Desconocida
 results-no-part = Sin pieza
 results-title-not-recognised = No reconocida · la más parecida: { $part }
 results-title-unknown = Desconocida · la más parecida: { $part }
+results-title-mirrored = Imagen reflejada de { $part }
 results-keep-all = Todas
 results-keep-not-accepted = Solo las no aceptadas
 results-keep-none = Ninguna

@@ -8,6 +8,7 @@ results-unknown = 未知
 results-no-part = 无零件
 results-title-not-recognised = 未识别 · 最接近 { $part }
 results-title-unknown = 未知 · 最接近 { $part }
+results-title-mirrored = “{ $part }”的镜像
 results-keep-all = 全部
 results-keep-not-accepted = 仅未接受的
 results-keep-none = 不保留

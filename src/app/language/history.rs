@@ -6,11 +6,17 @@ use crate::{
     pipeline::{Refusal, RefusalKind},
 };
 
+/// How the title of a mirror image begins.
+const MIRRORED: &str = "Mirror image of ";
+
 /// The title of an inspection.
 pub(in crate::app) fn stored_title(past: &Summary) -> String {
     match (past.verdict, stored_part(past)) {
         (StoredVerdict::NotAccepted, Some(part)) => {
             text!("results-title-not-recognised", part = part)
+        }
+        (StoredVerdict::Unknown, Some(part)) if past.title.starts_with(MIRRORED) => {
+            text!("results-title-mirrored", part = part)
         }
         (StoredVerdict::Unknown, Some(part)) => text!("results-title-unknown", part = part),
         (StoredVerdict::NoPart, _) => text!("results-no-part"),
@@ -24,7 +30,9 @@ fn stored_part(past: &Summary) -> Option<&str> {
     match past.verdict {
         StoredVerdict::Accepted => Some(title),
         StoredVerdict::NotAccepted => title.strip_prefix("Not recognised · nearest "),
-        StoredVerdict::Unknown => title.strip_prefix("Unknown · nearest "),
+        StoredVerdict::Unknown => title
+            .strip_prefix("Unknown · nearest ")
+            .or_else(|| title.strip_prefix(MIRRORED)),
         StoredVerdict::NoPart => None,
     }
 }
@@ -114,6 +122,7 @@ mod tests {
         for title in [
             "Not recognised · nearest {name}",
             "Unknown · nearest {name}",
+            "Mirror image of {name}",
         ] {
             assert!(written.contains(title), "{title}");
         }

@@ -250,6 +250,8 @@ pub(in crate::app) fn help(
             .spacing(vec2(24.0, 6.0));
         let list_area = ScrollArea::vertical().max_height(room);
         list_area.min_scrolled_height(room).show(ui, |ui| {
+            // The scroll bar floats over what lies on the right.
+            ui.set_max_width(ui.available_width() - space::MEDIUM);
             list.show(ui, |ui| {
                 let own = own.iter().map(|own| [(own.keys)(), (own.does)()]);
                 let named = SHORTCUTS.iter().map(|s| [(s.keys)(), (s.does)()]);

@@ -18,6 +18,20 @@ pub enum EnrolWarning {
     /// What a person chose may be background.
     #[error("this may be background: {0}")]
     Background(BackgroundSign),
+    /// Some of what a person kept lies on a plane that was removed.
+    #[error(
+        "{percent} % of what is kept lies on the wall, the floor or another plane that was removed"
+    )]
+    OnBackground {
+        /// Share of the points kept, rounded.
+        percent: u8,
+    },
+    /// What a person kept is in pieces that do not touch.
+    #[error("{percent} % of what is kept lies apart from the rest")]
+    Apart {
+        /// Share of the points kept that are not in the largest piece, rounded.
+        percent: u8,
+    },
     /// The shape does not fix the pose.
     #[error("the shape does not fix the pose: {0}")]
     Unconstrained(FreeMotion),
@@ -44,6 +58,10 @@ impl Advice for EnrolWarning {
         match self {
             Self::TouchesEdge => "Move the camera back or centre the part, then enrol it again",
             Self::Background(_) => "Check the picture, and take the part instead if it is not",
+            Self::OnBackground { .. } => {
+                "Drop what is background: an inspection removes it and compares the rest"
+            }
+            Self::Apart { .. } => "Drop what does not belong to the part",
             Self::Unconstrained(_) => {
                 "Enrol more of the part, so that corners or openings constrain its pose"
             }

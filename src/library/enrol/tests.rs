@@ -5,6 +5,7 @@ use crate::{
     kit::scene_of,
     pipeline::{self, Recipe, Unwatched, Verdict},
     simulate::{CellSetup, PartKind, PartModel, Side},
+    stages::segment::PointLabel,
 };
 
 fn about(name: &str) -> PartDescription {
@@ -150,6 +151,45 @@ fn a_part_from_all_that_segmentation_found_is_the_captured_one_and_less_makes_it
     assert!(half.part.signature.area_m2 < 0.8 * whole.part.signature.area_m2);
     let few = enrol_selected(&scene, &found.indices[..20], &about("x"), &params);
     assert!(matches!(few, Err(EnrolError::TooFewKept { found: 20, .. })));
+}
+
+#[test]
+fn background_that_was_added_and_pieces_that_lie_apart_are_warned_of() {
+    let scene = captured(3);
+    let params = EnrolParams::default();
+    let found = segment(&scene, &params.segment);
+    let part = found.part.expect("a part");
+    let warnings = |indices: &[u32]| {
+        let enrolled = enrol_selected(&scene, indices, &about("fender"), &params);
+        enrolled.expect("enough points").warnings
+    };
+    let is_wall = |i: &u32| found.labels[*i as usize] == PointLabel::Background(0);
+    let wall = (0..found.labels.len() as u32).filter(is_wall);
+    let mut with_wall: Vec<u32> = part.indices.iter().copied().chain(wall).collect();
+    with_wall.sort_unstable();
+    let share = 1.0 - part.indices.len() as f64 / with_wall.len() as f64;
+    let percent = (share * 100.0).round() as u8;
+    let told = warnings(&with_wall);
+    assert!(
+        told.contains(&EnrolWarning::OnBackground { percent }),
+        "{told:?}"
+    );
+
+    // The middle third of its width dropped: two pieces of about the same size.
+    let column = |i: &u32| scene.cloud.points[*i as usize].x;
+    let (low, high) = part.cloud.bounds().expect("points");
+    let width = high.x - low.x;
+    let is_outer = |i: &u32| (column(i) - low.x - width / 2.0).abs() > width / 6.0;
+    let outer: Vec<u32> = part.indices.iter().copied().filter(is_outer).collect();
+    let apart = warnings(&outer);
+    let is_apart =
+        |warning: &EnrolWarning| matches!(warning, EnrolWarning::Apart { percent: 10..=50 });
+    assert!(apart.iter().any(is_apart), "{apart:?}");
+    assert!(
+        !apart
+            .iter()
+            .any(|w| matches!(w, EnrolWarning::OnBackground { .. }))
+    );
 }
 
 /// A flat sheet 1.3 m before the camera, a point every 5 mm.

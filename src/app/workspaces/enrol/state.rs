@@ -6,7 +6,7 @@ use super::{
     action::{DraftPanes, EnrolAction, EnrolFile},
     change::{Changed, LibraryChange},
     draft::{Draft, Form, OpenedPart},
-    selection::{Corrections, OutlineMode},
+    selection::{Corrections, Edit, OutlineMode},
     undo::{DraftEffect, LastChangedPart, LibraryStep, UndoDirection, UndoStack, UndoStep},
     work::{self, DraftEvent},
 };
@@ -64,6 +64,8 @@ pub struct EnrolState {
     pub(super) change_task: Task<Box<Changed>>,
     /// The change of the library that is being made.
     pub(super) pending: Option<(UndoDirection, LibraryStep)>,
+    /// An outline was drawn, and what it changes is not known yet.
+    is_outline_new: bool,
     /// What waits for the engineer's view.
     held: Option<EnrolAction>,
     files: FileDialog<EnrolFile>,
@@ -98,6 +100,7 @@ impl EnrolState {
             job: DraftJob::Look,
             change_task: Task::new("library", runner),
             pending: None,
+            is_outline_new: false,
             held: None,
             files: FileDialog::default(),
         }
@@ -177,7 +180,10 @@ impl EnrolState {
         let library = cx.session.library.as_deref();
         match action {
             EnrolAction::TakeShown => self.take_shown(cx),
-            EnrolAction::Correct(edit) => self.correct(cx, |all| all.edits.push(edit)),
+            EnrolAction::Correct(edit) => {
+                self.is_outline_new = matches!(edit, Edit::Outline(..));
+                self.correct(cx, |all| all.edits.push(edit));
+            }
             EnrolAction::TakeAs(taking) => {
                 let draft = self.draft.as_ref();
                 if draft.is_some_and(|draft| draft.subject.allows(taking)) {
@@ -299,7 +305,14 @@ impl EnrolState {
         match event {
             DraftEvent::Taken(subject, selection) => self.taken(subject, selection, cx),
             DraftEvent::Selected(selection) => {
+                let is_outline_new = std::mem::take(&mut self.is_outline_new);
                 if let Some(draft) = &mut self.draft {
+                    if is_outline_new && draft.selection.indices == selection.indices {
+                        cx.notify(Notice::look(
+                            text!("enrol-outline-nothing"),
+                            text!("enrol-outline-nothing-advice"),
+                        ));
+                    }
                     draft.selection = selection;
                 }
             }

@@ -58,6 +58,10 @@ impl Details {
         let record = &past.record;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             verdict(ui, record, session, theme);
+            // What is said of a part stands with the inspection that stands for it.
+            let of_part = past.part.first().unwrap_or(record);
+            self.remark
+                .ui(ui, &of_part.summary, session, theme, actions);
             self.picture(ui, record, theme);
             ui.add_space(space::MEDIUM);
             buttons(ui, history, record, theme, actions);
@@ -67,10 +71,6 @@ impl Details {
                 differences::today(ui, found, session.units, theme);
             }
             part(ui, past, session.units, theme, actions);
-            // What is said of a part stands with the inspection that stands for it.
-            let of_part = past.part.first().unwrap_or(record);
-            self.remark
-                .ui(ui, &of_part.summary, session, theme, actions);
             let title = text!("history-inspection", number = number.abs());
             heading(ui, theme, &title);
             ui.scope(|ui| {

@@ -1,6 +1,10 @@
 //! The list of past inspections: however many there are, only the rows in sight are fetched and drawn.
 
-use egui::{Align2, Color32, FontId, Painter, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+use egui::{
+    Align2, Color32, FontId, Painter, Rect, RichText, ScrollArea, Sense, Ui, pos2,
+    text::{LayoutJob, TextWrapping},
+    vec2,
+};
 use jiff::{Timestamp, tz::TimeZone};
 
 use super::{HistoryAction, HistoryState, bar};
@@ -236,12 +240,16 @@ impl Column {
         let y = row.center().y;
         match self.width {
             Width::Share(_) => {
-                let span = Rect::from_x_y_ranges(from..=to - space::SMALL, row.y_range());
-                let painter = painter.with_clip_rect(span.intersect(painter.clip_rect()));
-                painter.text(pos2(from, y), Align2::LEFT_CENTER, text, font, colour)
+                let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
+                job.wrap = TextWrapping::truncate_at_width(to - space::SMALL - from);
+                let galley = painter.layout_job(job);
+                let top = y - galley.size().y / 2.0;
+                painter.galley(pos2(from, top), galley, colour);
             }
-            Width::Pixels(_) => painter.text(pos2(to, y), Align2::RIGHT_CENTER, text, font, colour),
-        };
+            Width::Pixels(_) => {
+                painter.text(pos2(to, y), Align2::RIGHT_CENTER, text, font, colour);
+            }
+        }
     }
 }
 

@@ -76,7 +76,8 @@ impl Headline {
                         } else {
                             text!("inspect-not-recognised")
                         },
-                        nearest: Some(nearest),
+                        // The reason names the part that it is the mirror image of.
+                        nearest: (!inspected.inspection.verdict.is_mirrored()).then_some(nearest),
                         is_accepted: false,
                         is_open: false,
                         complaint: Some((rejection(reason), rejection_advice(reason))),

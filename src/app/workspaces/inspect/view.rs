@@ -44,8 +44,8 @@ pub struct WorkCounts {
 const DEVIATION_RANGE: Metres = Metres(0.01);
 /// Length of the axes of the robot's base: they stand farther away than the part.
 const BASE_AXES: Metres = Metres(0.3);
-/// A view narrower than this has no room for the colour scale beside the controls.
-const NARROW: f32 = 655.0;
+/// What the colour scale takes of the width, logical pixels: it lies below the controls where they leave less.
+const LEGEND: f32 = 212.0;
 
 /// What the lines and words of a scene are chosen by.
 #[derive(PartialEq)]
@@ -79,6 +79,8 @@ pub(super) struct SceneView {
     space: Option<RigidTransform>,
     /// Of the view in the last frame, logical pixels.
     size: Vec2,
+    /// Of the controls in the last frame, with the margin on their left, logical pixels.
+    controls_width: f32,
 }
 
 impl SceneView {
@@ -101,6 +103,7 @@ impl SceneView {
             session: None,
             space: None,
             size: Vec2::splat(1.0),
+            controls_width: 0.0,
         }
     }
 
@@ -154,8 +157,7 @@ impl SceneView {
         let theme = Theme::of(session.theme);
         let rect = ui.available_rect_before_wrap();
         self.size = rect.size();
-        let is_narrow = rect.width() < NARROW;
-        self.style.legend = if is_narrow {
+        self.style.legend = if self.controls_width > rect.width() - LEGEND {
             Legend::BelowControls
         } else {
             Legend::Shown
@@ -165,9 +167,12 @@ impl SceneView {
             rect.min + Vec2::splat(space::MEDIUM),
             vec2(rect.width() - 2.0 * space::MEDIUM, space::TARGET),
         );
-        ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal(|ui| controls::ui(ui, self, state, session, inspected, actions));
+        let controls = ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
+            ui.horizontal(|ui| controls::ui(ui, self, state, session, inspected, actions))
+                .response
+                .rect
         });
+        self.controls_width = controls.inner.right() - rect.left();
         let painter = ui.painter_at(rect);
         let top = self.captions(&painter, rect, theme);
         if let Some(overlay) = overlay {

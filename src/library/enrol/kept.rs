@@ -1,0 +1,50 @@
+//! What is odd about the points that a person kept.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Point3;
+
+use crate::stages::{
+    scene::SceneCloud,
+    segment::{PointLabel, SegmentParams, segment},
+};
+
+/// Share of these points, by their places in the scene, that segmentation takes for background.
+pub(super) fn share_on_background(
+    scene: &SceneCloud,
+    indices: &[u32],
+    params: &SegmentParams,
+) -> f64 {
+    let labels = segment(scene, params).labels;
+    let is_background = |i: &&u32| matches!(labels[**i as usize], PointLabel::Background(_));
+    indices.iter().filter(is_background).count() as f64 / indices.len().max(1) as f64
+}
+
+/// Edge of the cubes that hold one piece together, metres. Pieces that are hidden from each other by a bar of a stand, or
+/// parted by an opening's edge, stay one; a gap of two cubes parts them.
+const CUBE: f32 = 0.06;
+
+/// Share of the points that are not in the largest piece. Points are of one piece where cubes that touch, at a face, an
+/// edge or a corner, hold them.
+pub(super) fn share_apart(points: &[Point3<f32>]) -> f64 {
+    let cube_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / CUBE).floor() as i32);
+    let mut cubes: BTreeMap<[i32; 3], usize> = BTreeMap::new();
+    for point in points {
+        *cubes.entry(cube_of(point)).or_default() += 1;
+    }
+    let mut largest = 0;
+    while let Some((first, num_points)) = cubes.pop_first() {
+        let mut piece = num_points;
+        let mut open = vec![first];
+        while let Some([x, y, z]) = open.pop() {
+            for neighbour in (0..27).map(|n| [x + n / 9 - 1, y + n / 3 % 3 - 1, z + n % 3 - 1]) {
+                if let Some(num_points) = cubes.remove(&neighbour) {
+                    piece += num_points;
+                    open.push(neighbour);
+                }
+            }
+        }
+        largest = largest.max(piece);
+    }
+    1.0 - largest as f64 / points.len().max(1) as f64
+}
