@@ -1,6 +1,7 @@
 //! `partsight inspect`: which part is it, and where?
 
 pub(in crate::cli) mod hung;
+mod program;
 mod scan;
 mod spray;
 
@@ -54,6 +55,7 @@ Examples:
   partsight inspect door.pcd --matcher paper --pose icp-ga
   partsight inspect door.pcd --json --calibration cell.toml
   partsight inspect door.pcd --calibration cell.toml --spray path.csv --spray-as kuka
+  partsight inspect door.pcd --calibration cell.toml --program paint.src --tool 3
   partsight inspect --scan frames/ --poses poses.json --json
   partsight inspect --source simulated
   partsight inspect --source watch:/mnt/scanner --json
@@ -80,7 +82,7 @@ pub(super) struct InspectArgs {
     files: Vec<PathBuf>,
     /// Instead of files: several frames of one part, each with the pose of its camera, for one verdict and one pose; a
     /// folder, a recording or files
-    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "source", "empty_cell", "spray", "report"])]
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "source", "empty_cell", "spray", "program", "report"])]
     scan: Vec<PathBuf>,
     #[command(flatten)]
     import: ImportChoice,
@@ -103,6 +105,8 @@ pub(super) struct InspectArgs {
     calibration: CalibrationChoice,
     #[command(flatten)]
     spray: spray::SprayChoice,
+    #[command(flatten)]
+    program: program::ProgramChoice,
     /// Write one line of JSON per file, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -137,9 +141,12 @@ fn inspect(
     let trace = args.trace.of_parts(num_parts)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
-    let spray = args
-        .spray
-        .start(&args.files, robot.as_ref(), place, &load)?;
+    let (files, frame) = (&args.files, robot.as_ref());
+    let (spray, program) = if args.program.is_wanted() {
+        (None, args.program.start(files, frame, place, &load)?)
+    } else {
+        (args.spray.start(files, frame, place, &load)?, None)
+    };
     let format = match (args.json, args.files.as_slice()) {
         (true, _) => OutputFormat::Json,
         (false, []) => OutputFormat::Rows(Columns::for_captures(&load.library)),
@@ -164,6 +171,7 @@ fn inspect(
         empty_cell,
         robot,
         spray,
+        program,
         format,
         report,
         recording,
@@ -215,6 +223,7 @@ struct InspectSession {
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Option<RobotFrame>,
     spray: Option<spray::SprayFile>,
+    program: Option<program::ProgramFile>,
     format: OutputFormat,
     report: Option<ReportFolder>,
     recording: Option<HistoryRecorder>,
@@ -292,6 +301,7 @@ impl InspectSession {
             empty_cell,
             robot,
             spray,
+            program,
             format,
             report,
             recording,
@@ -345,6 +355,17 @@ impl InspectSession {
                 params: &recipe.stand_off,
             };
             outcome = outcome.max(spray.write(&seen, robot, console)?);
+        } else if let (Some(program), Some(robot)) = (program, robot) {
+            let seen = spray::SprayResult {
+                scene: &name,
+                inspection: &inspection,
+                library,
+                params: &recipe.stand_off,
+            };
+            let is_simulated = file_says_simulated;
+            let written = program.write(&seen, is_simulated, robot, console)?;
+            // A refused part whose program was forced stays refused.
+            outcome = outcome.max(written);
         } else if let Some(report) = report {
             let pictures = stage_pictures(&scene, &inspection);
             report.write(path, &line, &pictures).advised()?;
@@ -440,6 +461,7 @@ mod tests {
             empty_cell: None,
             robot: None,
             spray: None,
+            program: None,
             format: OutputFormat::Card,
             report: Some(ReportFolder::make(folder.path()).expect("made")),
             recording: None,

@@ -19,6 +19,7 @@ mod inspect;
 mod interrupt;
 mod library;
 mod output;
+mod path;
 mod recipe;
 mod recipes;
 mod record;
@@ -84,6 +85,7 @@ enum Command {
     Scan(scan::ScanArgs),
     Enrol(enrol::EnrolArgs),
     Library(library::LibraryArgs),
+    Path(path::PathArgs),
     Recipe(recipes::RecipeArgs),
     Align(align::AlignArgs),
     Calibrate(calibrate::CalibrateArgs),
@@ -140,6 +142,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Scan(args)) => scan::run(&args, &mut console),
         Some(Command::Enrol(args)) => enrol::run(args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),
+        Some(Command::Path(args)) => path::run(&args, &mut console),
         Some(Command::Recipe(args)) => recipes::run(&args, &mut console),
         Some(Command::Align(args)) => align::run(&args, &mut console),
         Some(Command::Calibrate(args)) => calibrate::run(&args, &mut console),

@@ -17,6 +17,7 @@
 //! camera's axes. It has the same rotation angle as `robot_offset` and another shift, since a turn about a far origin
 //! shifts the middle too. It is nothing to give to a robot.
 
+pub mod arm;
 pub mod calibration;
 pub mod cell_check;
 mod convention;
@@ -25,6 +26,7 @@ pub mod frame_poses;
 pub mod hand_eye;
 pub mod pairs;
 pub mod part_target;
+pub mod program;
 mod robot_pose;
 pub mod scan_frames;
 pub mod spray;

@@ -12,6 +12,7 @@ mod inspect;
 #[path = "../kit/mod.rs"]
 mod kit;
 mod library;
+mod program;
 mod recipe;
 mod report;
 mod scan;

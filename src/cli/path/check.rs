@@ -1,0 +1,160 @@
+//! `partsight path check`: whether an arm reaches a part's path in its standard position.
+
+use clap::Args;
+use serde_json::json;
+
+use crate::{
+    cli::{
+        LibraryChoice, Outcome,
+        calibrate::CalibrationChoice,
+        console::{Advised as _, Console, advised_error},
+        input::parse_robot_pose,
+    },
+    geometry::rigid::RigidTransform,
+    library::PartName,
+    robot::{
+        WrittenPose,
+        arm::{
+            Arm, ArmPoint, CheckParams, PlacedArm, PointProblem, check_path, suggest_base,
+            suggest_rail,
+        },
+        spray::carry,
+    },
+    stages::{reference::ReferenceParams, stand_off::StandOffParams},
+};
+
+/// Check that an arm reaches the stored path of a part in its standard position
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    /// Name of the part
+    part: PartName,
+    /// The arm: kr6-r900, m-20ia, irb2600, irb4600, gp25, or a TOML file
+    #[arg(long, value_name = "ARM")]
+    arm: String,
+    /// Where the nozzle is on the flange, z the way it points: `kuka X Y Z A B C`, or 16 numbers of a matrix
+    #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
+    nozzle: WrittenPose,
+    /// The arm's base in the frame of the calibration; without it they are the same
+    #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
+    base: Option<WrittenPose>,
+    /// Speed of the nozzle, mm/s
+    #[arg(long, value_name = "MM/S", default_value_t = 250.0)]
+    speed: f64,
+    /// Write one line of JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    calibration: CalibrationChoice,
+}
+
+pub(super) fn run(
+    choice: &LibraryChoice,
+    args: &CheckArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let name = &args.part;
+    let arm = Arm::named(&args.arm).advised()?;
+    let Some(frame) = args.calibration.frame(console)? else {
+        return Err(advised_error(
+            "the check needs to know where the camera sits in the robot's cell",
+            "Name a calibration with --calibration, or make one: partsight calibrate",
+        ));
+    };
+    let place = choice.open(console)?;
+    let Some(path) = place.spray_path(name.as_str()).advised()? else {
+        return Err(advised_error(
+            format!("{name} has no spray path"),
+            format!("Store one: partsight library path {name} path.csv"),
+        ));
+    };
+    let part = place.read(name.as_str(), &ReferenceParams::default());
+    let reference = part.advised()?.advised()?.reference;
+    let standard = RigidTransform::identity();
+    let carried = carry(
+        &path,
+        &standard,
+        &reference.cloud,
+        &StandOffParams::default(),
+    );
+    let points = carried.points.iter().map(|point| ArmPoint {
+        robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
+        speed: args.speed / 1000.0,
+        is_turn_free: true,
+    });
+    let points: Vec<ArmPoint> = points.collect();
+    let placed = PlacedArm {
+        arm,
+        robot_from_base: args.base.as_ref().map_or(standard, |base| base.pose),
+        flange_from_nozzle: args.nozzle.pose,
+    };
+    let params = CheckParams::default();
+    let found = check_path(&placed, &points, &params).advised()?;
+    let (num, all) = (found.num_reached(), points.len());
+    let (mut base, mut rail) = (None, None);
+    if num < all {
+        rail = suggest_rail(&placed, &points, &params, num).advised()?;
+        base = suggest_base(&placed, &points, &params, num).advised()?;
+    }
+    if args.json {
+        let listed = found.points.iter().enumerate().map(|(i, point)| {
+            let joints = point.joints.map(|joints| joints.map(f64::to_degrees));
+            let problem = point.problem.map(|problem| in_words(&problem));
+            json!({"index": i + 1, "joints_deg": joints, "turn_deg": point.turn.to_degrees(), "problem": problem})
+        });
+        let line = json!({
+            "part": name.as_str(),
+            "arm": placed.arm.name,
+            "num_points": all,
+            "num_reached": num,
+            "base_shift_mm": base.map(|place| place.shift.map(|x| 1000.0 * x)),
+            "rail_mm": rail.map(|place| 1000.0 * place.shift[0]),
+            "points": listed.collect::<Vec<_>>(),
+        });
+        console.line(&line);
+    } else {
+        console.line(&format_args!(
+            "{} reaches {num} of {all} points",
+            placed.arm.name
+        ));
+        for (i, point) in found.points.iter().enumerate() {
+            if let Some(problem) = &point.problem {
+                console.line(&format_args!("  point {}: {}", i + 1, in_words(problem)));
+            }
+        }
+        if let Some(place) = base {
+            let [x, y, z] = place.shift.map(|x| 1000.0 * x);
+            let num = place.num_reached;
+            console.line(&format_args!(
+                "  moved by {x:.0} {y:.0} {z:.0} mm its base would let it reach {num}"
+            ));
+        }
+        if let Some(place) = rail {
+            let (at, num) = (1000.0 * place.shift[0], place.num_reached);
+            console.line(&format_args!(
+                "  at {at:.0} mm of its rail it would reach {num}"
+            ));
+        }
+    }
+    Ok(if num == all {
+        Outcome::Accepted
+    } else {
+        Outcome::NotAccepted
+    })
+}
+
+fn in_words(problem: &PointProblem) -> String {
+    match problem {
+        PointProblem::OutOfReach => "out of reach".into(),
+        PointProblem::JointLimit { joint, angle } => {
+            format!("joint {joint} would need {:.0} degrees", angle.to_degrees())
+        }
+        PointProblem::NearSingularity(which) => format!("near a singularity: {}", which.name()),
+        PointProblem::TooFast { joint, speed } => {
+            format!(
+                "joint {joint} would need {:.0} degrees/s",
+                speed.to_degrees()
+            )
+        }
+        PointProblem::ConfigurationChange => "the arm would have to fold over".into(),
+    }
+}

@@ -1,0 +1,96 @@
+//! Why an arm or a check is no use.
+
+use std::path::PathBuf;
+
+use super::ARM_NAMES;
+use crate::{error::Advice, files::FileError};
+
+/// Why an arm or a check is no use.
+#[derive(Debug, thiserror::Error)]
+pub enum ArmError {
+    /// The arm's file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// No arm of that name.
+    #[error("no arm is called {name:?}")]
+    Unknown {
+        /// The name.
+        name: String,
+    },
+    /// An arm whose wrist axes do not meet.
+    #[error(
+        "{name}: Universal Robots' arms have no spherical wrist, so their reach cannot be checked here"
+    )]
+    NoSphericalWrist {
+        /// The name.
+        name: String,
+    },
+    /// The file is no arm.
+    #[error("{}: {}", path.display(), message.trim_end())]
+    Text {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
+    /// Limits that leave nothing between them.
+    #[error("joint {joint} is limited to {low:.1} to {high:.1} degrees")]
+    Limits {
+        /// The joint, from 1.
+        joint: usize,
+        /// Lower limit.
+        low: f64,
+        /// Upper limit.
+        high: f64,
+    },
+    /// The same of the rail.
+    #[error("the rail runs from {low:.0} to {high:.0} mm")]
+    Rail {
+        /// From.
+        low: f64,
+        /// To.
+        high: f64,
+    },
+    /// A number of the arm that cannot be.
+    #[error("{what} is {value}")]
+    Value {
+        /// Which.
+        what: String,
+        /// Its value.
+        value: f64,
+    },
+    /// A path without points.
+    #[error("the path has no points")]
+    NoPoints,
+    /// A pose that is none.
+    #[error("{what} is infinite or not a number")]
+    NotFinite {
+        /// Which.
+        what: String,
+    },
+}
+
+impl Advice for ArmError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::Unknown { .. } => format!(
+                "Name one of {}, or a TOML file with the arm's lengths and limits",
+                ARM_NAMES.join(", ")
+            ),
+            Self::NoSphericalWrist { .. } => {
+                "Check the path in the maker's simulator before the arm runs it".into()
+            }
+            Self::Text { .. } => {
+                "Give name, lengths_mm, offsets_deg, signs, limits_deg, speeds_deg_s and, if needed, base_height_mm and rail".into()
+            }
+            Self::Limits { .. } => "Give the lower limit first, then the upper one, in degrees".into(),
+            Self::Rail { .. } => "Give from_mm below to_mm".into(),
+            Self::Value { .. } => {
+                "Correct it: lengths in millimetres, angles in degrees, signs 1 or -1".into()
+            }
+            Self::NoPoints => "Give a path with at least one point".into(),
+            Self::NotFinite { .. } => "Check the numbers of base, tool and path".into(),
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! An arm as a text file.
+//!
+//! ```toml
+//! name = "Cell 3"
+//! lengths_mm = [150, -200, 0, 505, 760, 795, 100]   # a1 a2 b c1 c2 c3 c4
+//! offsets_deg = [0, 0, -90, 0, 0, 180]
+//! signs = [1, 1, -1, -1, -1, -1]
+//! limits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]
+//! speeds_deg_s = [210, 210, 265, 420, 420, 885]
+//! base_height_mm = 505                              # the controller's base frame above the foot; 0 without it
+//! [rail]                                            # if it stands on one
+//! direction = [0, 1, 0]
+//! from_mm = -2000
+//! to_mm = 2000
+//! ```
+
+use std::path::Path;
+
+use nalgebra::{Unit, Vector3};
+use serde::Deserialize;
+
+use super::{Arm, ArmError, Rail};
+use crate::files::read_text;
+
+/// A larger file is no arm.
+const MAX_BYTES: u64 = 1 << 20;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Text {
+    name: String,
+    lengths_mm: [f64; 7],
+    offsets_deg: [f64; 6],
+    signs: [i8; 6],
+    limits_deg: [[f64; 2]; 6],
+    speeds_deg_s: [f64; 6],
+    #[serde(default)]
+    base_height_mm: f64,
+    rail: Option<RailText>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RailText {
+    direction: [f64; 3],
+    from_mm: f64,
+    to_mm: f64,
+}
+
+impl Arm {
+    /// Reads an arm.
+    pub fn read(path: &Path) -> Result<Self, ArmError> {
+        let wrong = |message: String| ArmError::Text {
+            path: path.to_owned(),
+            message,
+        };
+        let text: Text = toml::from_str(&read_text(path, MAX_BYTES)?)
+            .map_err(|error| wrong(error.message().to_owned()))?;
+        let rail = text.rail.map(|rail| -> Result<Rail, ArmError> {
+            let direction = Unit::try_new(Vector3::from(rail.direction), 1e-6)
+                .filter(|direction| direction.iter().all(|x| x.is_finite()));
+            let direction = direction.ok_or_else(|| wrong("the rail has no direction".into()))?;
+            Ok(Rail {
+                direction,
+                range: [rail.from_mm / 1000.0, rail.to_mm / 1000.0],
+            })
+        });
+        Self {
+            name: text.name,
+            lengths: text.lengths_mm.map(|length| length / 1000.0),
+            offsets: text.offsets_deg.map(f64::to_radians),
+            signs: text.signs,
+            limits: text.limits_deg.map(|limits| limits.map(f64::to_radians)),
+            speeds: text.speeds_deg_s.map(f64::to_radians),
+            base_height: text.base_height_mm / 1000.0,
+            rail: rail.transpose()?,
+        }
+        .checked()
+    }
+}

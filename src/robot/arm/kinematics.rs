@@ -1,0 +1,187 @@
+//! From joints to flange and back, and what kind of pose of the arm that is.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use rs_opw_kinematics::{
+    glam::{DQuat, DVec3},
+    kinematic_traits::{Kinematics as _, Pose},
+    kinematics_impl::OPWKinematics,
+    parameters::opw_kinematics::Parameters,
+};
+
+use super::{Arm, PlacedArm};
+use crate::geometry::rigid::RigidTransform;
+
+/// Angles of the six joints, radians.
+pub type Joints = [f64; 6];
+
+/// A pose of the arm in which it cannot move in some direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Singularity {
+    /// Joints 4 and 6 turn about one line.
+    Wrist,
+    /// The arm is stretched out.
+    Elbow,
+    /// The wrist is above joint 1.
+    Shoulder,
+}
+
+impl Singularity {
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wrist => "wrist straight",
+            Self::Elbow => "arm stretched",
+            Self::Shoulder => "wrist above joint 1",
+        }
+    }
+}
+
+/// Sine of 2°: nearer to a singularity joints race.
+const NEAR: f64 = 0.035;
+/// The same of the wrist's distance from joint 1, metres.
+const NEAR_AXIS: f64 = 0.03;
+/// What a solution must reproduce, metres and radians.
+const EXACT: f64 = 1e-6;
+
+/// The inverse kinematics of an arm.
+pub(super) struct Solver<'a> {
+    pub(super) arm: &'a Arm,
+    opw: OPWKinematics,
+    base_from_robot: RigidTransform,
+    nozzle_from_flange: RigidTransform,
+}
+
+impl<'a> Solver<'a> {
+    /// The rail stands at this position.
+    pub(super) fn new(placed: &'a PlacedArm, rail: f64) -> Self {
+        let arm = &placed.arm;
+        let [a1, a2, b, c1, c2, c3, c4] = arm.lengths;
+        let opw = OPWKinematics::new(Parameters {
+            a1,
+            a2,
+            b,
+            c1,
+            c2,
+            c3,
+            c4,
+            offsets: arm.offsets,
+            sign_corrections: arm.signs,
+            dof: 6,
+        });
+        let foot = Translation3::new(0.0, 0.0, -arm.base_height);
+        let robot_from_foot =
+            Translation3::from(arm.rail_shift(rail)) * placed.robot_from_base * foot;
+        Self {
+            arm,
+            opw,
+            base_from_robot: robot_from_foot.inverse(),
+            nozzle_from_flange: placed.flange_from_nozzle.inverse(),
+        }
+    }
+
+    /// The nozzle, in the frame of the path.
+    pub(super) fn forward(&self, joints: &Joints) -> Option<RigidTransform> {
+        let pose = self.opw.try_forward(joints).ok()?;
+        let (t, q) = (pose.translation, pose.rotation);
+        let turn = UnitQuaternion::from_quaternion(Quaternion::new(q.w, q.x, q.y, q.z));
+        let foot_from_flange = Isometry3::from_parts(Translation3::new(t.x, t.y, t.z), turn);
+        Some(self.base_from_robot.inverse() * foot_from_flange * self.nozzle_from_flange.inverse())
+    }
+
+    /// Every solution within a turn either way, whatever the limits; `near` fixes what a singularity leaves open.
+    pub(super) fn solutions(
+        &self,
+        robot_from_nozzle: &RigidTransform,
+        near: Option<&Joints>,
+    ) -> Vec<Joints> {
+        let flange = self.base_from_robot * robot_from_nozzle * self.nozzle_from_flange;
+        let (t, q) = (flange.translation.vector, flange.rotation.quaternion());
+        let pose = Pose::try_from_parts(
+            DVec3::new(t.x, t.y, t.z),
+            DQuat::from_xyzw(q.i, q.j, q.k, q.w),
+        );
+        let Ok(pose) = pose else {
+            return Vec::new();
+        };
+        let mut found = match near {
+            Some(near) => self.opw.inverse_continuing(&pose, near),
+            None => self.opw.inverse(&pose),
+        };
+        found.retain(|joints| {
+            let off = self.forward(joints).map(|at| {
+                let shift = (at.translation.vector - robot_from_nozzle.translation.vector).norm();
+                shift.max(at.rotation.angle_to(&robot_from_nozzle.rotation))
+            });
+            off.is_some_and(|off| off < EXACT)
+        });
+        found
+    }
+
+    /// The solution with every whole turn of its joints that lies within the limits.
+    pub(super) fn within_limits(&self, joints: &Joints) -> Vec<Joints> {
+        let mut all = vec![*joints];
+        for (i, [low, high]) in self.arm.limits.into_iter().enumerate() {
+            all = all
+                .iter()
+                .flat_map(|joints| {
+                    let first = joints[i] + TAU * ((low - joints[i]) / TAU).ceil();
+                    let turns = std::iter::successors(Some(first), |angle| Some(angle + TAU));
+                    let within = turns.take_while(move |angle| *angle <= high);
+                    within.map(|angle| {
+                        let mut joints = *joints;
+                        joints[i] = angle;
+                        joints
+                    })
+                })
+                .collect();
+        }
+        all
+    }
+
+    /// The joint that is farthest beyond its limit, and its angle; none if none is.
+    pub(super) fn beyond_limit(&self, joints: &Joints) -> Option<(usize, f64)> {
+        let beyond = |i: usize| {
+            let [low, high] = self.arm.limits[i];
+            // The whole turn that comes nearest.
+            let middle = f64::midpoint(low, high);
+            let angle = joints[i] - TAU * ((joints[i] - middle) / TAU).round();
+            (i, angle, (low - angle).max(angle - high))
+        };
+        let worst = (0..6).map(beyond).max_by(|a, b| a.2.total_cmp(&b.2))?;
+        (worst.2 > 0.0).then_some((worst.0, worst.1))
+    }
+
+    /// Angles of the model, as the source has them.
+    fn model(&self, joints: &Joints) -> Joints {
+        std::array::from_fn(|i| joints[i] * f64::from(self.arm.signs[i]) - self.arm.offsets[i])
+    }
+
+    /// Distance of the wrist from joint 1, and the sines of the elbow and of joint 5.
+    fn shape(&self, joints: &Joints) -> [f64; 3] {
+        let [a1, a2, _, _, c2, c3, _] = self.arm.lengths;
+        let [_, q2, q3, _, q5, _] = self.model(joints);
+        let fold = q3 + a2.atan2(c3);
+        let ahead = c2 * q2.sin() + a2.hypot(c3) * (q2 + fold).sin() + a1;
+        [ahead, fold.sin(), q5.sin()]
+    }
+
+    /// Which of the eight configurations: wrist ahead, elbow up, wrist unflipped.
+    pub(super) fn configuration(&self, joints: &Joints) -> [bool; 3] {
+        self.shape(joints).map(|x| x > 0.0)
+    }
+
+    /// Which singularity is near, if one is.
+    pub(super) fn singularity(&self, joints: &Joints) -> Option<Singularity> {
+        let [ahead, elbow, wrist] = self.shape(joints).map(f64::abs);
+        let all = [
+            (wrist < NEAR, Singularity::Wrist),
+            (elbow < NEAR, Singularity::Elbow),
+            (ahead < NEAR_AXIS, Singularity::Shoulder),
+        ];
+        all.into_iter()
+            .find(|(is_near, _)| *is_near)
+            .map(|(_, which)| which)
+    }
+}

@@ -1,0 +1,141 @@
+//! What a six-axis arm reaches: a spray path through the inverse kinematics of the arm that is to run it.
+//!
+//! The arm has a spherical wrist and a parallel base (*ortho-parallel*), seven lengths and the signs and offsets of its
+//! joints: M. Brandstötter, A. Angerer, M. Hofbaur, "An Analytical Solution of the Inverse Kinematics Problem of
+//! Industrial Serial Manipulators with an Ortho-parallel Basis and a Spherical Wrist", Austrian Robotics Workshop 2014.
+//! Of the up to eight solutions of every point, with every whole turn that the joints' limits allow, dynamic programming
+//! picks those that move the joints least in time. A round jet leaves the turn about the nozzle open: it is tried in steps of
+//! 15°. Straight moves longer than 50 mm are followed in between.
+//!
+//! Known limits: no accelerations and no collisions. The rail stands still while the gun moves. Joint 3 of FANUC arms is
+//! coupled to joint 2 on the controller; its limit here is that of the sum.
+
+mod check;
+mod error;
+mod file;
+mod kinematics;
+mod models;
+mod place;
+#[cfg(test)]
+mod tests;
+
+use nalgebra::{Unit, Vector3};
+
+use crate::geometry::rigid::RigidTransform;
+
+pub use self::{
+    check::{ArmPoint, CheckParams, PathCheck, PointCheck, PointProblem, check_path},
+    error::ArmError,
+    kinematics::{Joints, Singularity},
+    models::ARM_NAMES,
+    place::{PlaceSuggestion, suggest_base, suggest_rail},
+};
+
+/// A six-axis arm with a spherical wrist.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arm {
+    /// What it is called.
+    pub name: String,
+    /// a1, a2, b, c1, c2, c3, c4 of the source, metres.
+    lengths: [f64; 7],
+    /// Added to a joint of the model before its sign, radians.
+    offsets: [f64; 6],
+    /// 1 or -1: which way a joint turns.
+    signs: [i8; 6],
+    /// Least and largest angle of each joint, radians.
+    limits: [[f64; 2]; 6],
+    /// Fastest speed of each joint, rad/s.
+    speeds: [f64; 6],
+    /// How far the controller's base frame is above the foot, metres.
+    base_height: f64,
+    /// The rail that it stands on.
+    pub rail: Option<Rail>,
+}
+
+/// A straight rail below an arm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rail {
+    /// Which way it runs, in the frame of the path.
+    pub direction: Unit<Vector3<f64>>,
+    /// From and to, metres from where the calibration was made.
+    pub range: [f64; 2],
+}
+
+/// An arm as it stands in the cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedArm {
+    /// The arm.
+    pub arm: Arm,
+    /// Its base in the frame of the path: the identity where the path is in the arm's own base frame.
+    pub robot_from_base: RigidTransform,
+    /// Where the nozzle is on the flange.
+    pub flange_from_nozzle: RigidTransform,
+}
+
+impl Arm {
+    /// The rail's position moves the base by this.
+    pub(super) fn rail_shift(&self, position: f64) -> Vector3<f64> {
+        self.rail.map_or_else(Vector3::zeros, |rail| {
+            rail.direction.into_inner() * position
+        })
+    }
+
+    /// How far the nozzle's end of the arm reaches from joint 2, metres.
+    pub fn reach(&self) -> f64 {
+        let [_, a2, _, _, c2, c3, _] = self.lengths;
+        c2.abs() + a2.hypot(c3)
+    }
+
+    fn checked(self) -> Result<Self, ArmError> {
+        for (i, [low, high]) in self.limits.into_iter().enumerate() {
+            if !(low < high) || !(low.abs().max(high.abs()) < 20.0) {
+                return Err(ArmError::Limits {
+                    joint: i + 1,
+                    low: low.to_degrees(),
+                    high: high.to_degrees(),
+                });
+            }
+            if !(self.speeds[i] > 0.0 && self.speeds[i] < 100.0) {
+                return Err(ArmError::Value {
+                    what: format!("the speed of joint {}", i + 1),
+                    value: self.speeds[i].to_degrees(),
+                });
+            }
+            if self.signs[i].abs() != 1 {
+                return Err(ArmError::Value {
+                    what: format!("the sign of joint {}", i + 1),
+                    value: f64::from(self.signs[i]),
+                });
+            }
+            // The solver panics beyond a whole turn.
+            if !(self.offsets[i].abs() <= std::f64::consts::TAU) {
+                return Err(ArmError::Value {
+                    what: format!("the offset of joint {}", i + 1),
+                    value: self.offsets[i].to_degrees(),
+                });
+            }
+        }
+        let names = ["a1", "a2", "b", "c1", "c2", "c3", "c4", "base_height"];
+        let lengths = self.lengths.into_iter().chain([self.base_height]);
+        for (name, value) in names.into_iter().zip(lengths) {
+            let is_link = matches!(name, "c2" | "c3");
+            if !(value.abs() <= 10.0) || (is_link && value < 0.01) {
+                return Err(ArmError::Value {
+                    what: name.into(),
+                    value: value * 1000.0,
+                });
+            }
+        }
+        if let Some(Rail {
+            range: [low, high], ..
+        }) = self.rail
+            && !(low < high && low.abs().max(high.abs()) <= 100.0)
+        {
+            return Err(ArmError::Rail {
+                low: low * 1000.0,
+                high: high * 1000.0,
+            });
+        }
+        Ok(self)
+    }
+}

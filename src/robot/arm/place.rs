@@ -1,0 +1,111 @@
+//! Where an arm would reach more of a path.
+
+use nalgebra::Translation3;
+
+use super::{
+    ArmError, ArmPoint, CheckParams, PlacedArm,
+    check::{check_path, is_reached, refuse_bad},
+    kinematics::Solver,
+};
+
+/// A better place, and what it reaches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaceSuggestion {
+    /// How far to move the base, metres along the axes of the path's frame; along the rail this is its first number.
+    pub shift: [f64; 3],
+    /// Points without a problem there.
+    pub num_reached: usize,
+}
+
+/// So many points stand for the path while places are compared.
+const NUM_SAMPLES: usize = 60;
+/// Turns that are tried meanwhile.
+const NUM_TURNS: usize = 8;
+/// So many of the best places are checked in full.
+const NUM_CHECKED: usize = 3;
+
+/// Moves the base by up to a metre sideways and half a metre up or down, in steps of 200 and 250 mm, and returns the place
+/// that reaches most points, if it reaches more than `num_reached`.
+pub fn suggest_base(
+    placed: &PlacedArm,
+    points: &[ArmPoint],
+    params: &CheckParams,
+    num_reached: usize,
+) -> Result<Option<PlaceSuggestion>, ArmError> {
+    let mut shifts = Vec::new();
+    for z in -2..=2 {
+        for y in -5..=5 {
+            for x in -5..=5 {
+                shifts.push([x, y, z].map(f64::from));
+            }
+        }
+    }
+    let shifts = shifts
+        .into_iter()
+        .map(|[x, y, z]| [0.2 * x, 0.2 * y, 0.25 * z]);
+    let at = |[x, y, z]: [f64; 3]| PlacedArm {
+        robot_from_base: Translation3::new(x, y, z) * placed.robot_from_base,
+        ..placed.clone()
+    };
+    best(shifts.collect(), points, num_reached, params, |shift| {
+        (at(shift), params.rail)
+    })
+}
+
+/// The same of a position of the rail, every 100 mm; none without a rail.
+pub fn suggest_rail(
+    placed: &PlacedArm,
+    points: &[ArmPoint],
+    params: &CheckParams,
+    num_reached: usize,
+) -> Result<Option<PlaceSuggestion>, ArmError> {
+    let Some(rail) = placed.arm.rail else {
+        return Ok(None);
+    };
+    let [low, high] = rail.range;
+    let num = ((high - low) / 0.1).ceil().clamp(1.0, 1000.0);
+    let shifts = (0..=num as usize).map(|i| [low + (high - low) * i as f64 / num, 0.0, 0.0]);
+    best(
+        shifts.collect(),
+        points,
+        num_reached,
+        params,
+        |[rail, ..]| (placed.clone(), rail),
+    )
+}
+
+fn best(
+    shifts: Vec<[f64; 3]>,
+    points: &[ArmPoint],
+    num_reached: usize,
+    params: &CheckParams,
+    at: impl Fn([f64; 3]) -> (PlacedArm, f64),
+) -> Result<Option<PlaceSuggestion>, ArmError> {
+    let every = points.len().div_ceil(NUM_SAMPLES).max(1);
+    let mut ranked = Vec::with_capacity(shifts.len());
+    for shift in shifts {
+        let (placed, rail) = at(shift);
+        refuse_bad(&placed, points, params)?;
+        let solver = Solver::new(&placed, rail);
+        let samples = points.iter().step_by(every);
+        let num = samples
+            .filter(|point| is_reached(&solver, point, NUM_TURNS))
+            .count();
+        let distance: f64 = shift.iter().map(|x| x * x).sum();
+        ranked.push((num, distance, shift));
+    }
+    // Most points first, then the shortest way.
+    ranked.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.total_cmp(&b.1)));
+    let mut found: Option<PlaceSuggestion> = None;
+    for (_, _, shift) in ranked.into_iter().take(NUM_CHECKED) {
+        let (placed, rail) = at(shift);
+        let num = check_path(&placed, points, &CheckParams { rail, ..*params })?.num_reached();
+        if num > found.map_or(num_reached, |found| found.num_reached) {
+            found = Some(PlaceSuggestion {
+                shift,
+                num_reached: num,
+            });
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,431 @@
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64;
+
+use super::{kinematics::Solver, *};
+use crate::{error::Advice as _, geometry::rigid::from_euler_zyx};
+
+/// The chain of links as the makers' drawings give it: the shift to each joint, its axis, and the turn of the flange.
+struct Chain {
+    name: &'static str,
+    joints: [([f64; 3], [f64; 3]); 6],
+    flange: ([f64; 3], [f64; 3]),
+    base_height: f64,
+}
+
+const X: [f64; 3] = [1.0, 0.0, 0.0];
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+fn back(axis: [f64; 3]) -> [f64; 3] {
+    axis.map(|x| -x)
+}
+
+fn chains() -> [Chain; 5] {
+    let abb = [0.0, FRAC_PI_2, 0.0];
+    let fanuc = [PI, -FRAC_PI_2, 0.0];
+    [
+        Chain {
+            name: "kr6-r900",
+            joints: [
+                ([0.0, 0.0, 0.4], back(Z)),
+                ([0.025, 0.0, 0.0], Y),
+                ([0.455, 0.0, 0.0], Y),
+                ([0.0, 0.0, 0.025], back(X)),
+                ([0.42, 0.0, 0.0], Y),
+                ([0.09, 0.0, 0.0], back(X)),
+            ],
+            flange: ([0.0; 3], abb),
+            base_height: 0.0,
+        },
+        Chain {
+            name: "m-20ia",
+            joints: [
+                ([0.0, 0.0, 0.525], Z),
+                ([0.15, 0.0, 0.0], Y),
+                ([0.0, 0.0, 0.79], back(Y)),
+                ([0.0, 0.0, 0.25], back(X)),
+                ([0.835, 0.0, 0.0], back(Y)),
+                ([0.1, 0.0, 0.0], back(X)),
+            ],
+            flange: ([0.0; 3], fanuc),
+            base_height: 0.525,
+        },
+        Chain {
+            name: "irb2600",
+            joints: [
+                ([0.0, 0.0, 0.445], Z),
+                ([0.15, 0.0, 0.0], Y),
+                ([0.0, 0.0, 0.7], Y),
+                ([0.0, 0.0, 0.115], X),
+                ([0.795, 0.0, 0.0], Y),
+                ([0.085, 0.0, 0.0], X),
+            ],
+            flange: ([0.0; 3], abb),
+            base_height: 0.0,
+        },
+        Chain {
+            name: "irb4600",
+            joints: [
+                ([0.0, 0.0, 0.495], Z),
+                ([0.175, 0.0, 0.0], Y),
+                ([0.0, 0.0, 1.095], Y),
+                ([0.0, 0.0, 0.175], X),
+                ([1.27, 0.0, 0.0], Y),
+                ([0.135, 0.0, 0.0], X),
+            ],
+            flange: ([0.0; 3], abb),
+            base_height: 0.0,
+        },
+        Chain {
+            name: "gp25",
+            joints: [
+                ([0.0, 0.0, 0.505], Z),
+                ([0.15, 0.0, 0.0], Y),
+                ([0.0, 0.0, 0.76], back(Y)),
+                ([0.0, 0.0, 0.2], back(X)),
+                ([0.795, 0.0, 0.0], back(Y)),
+                ([0.0, 0.0, 0.0], back(X)),
+            ],
+            flange: ([0.1, 0.0, 0.0], fanuc),
+            base_height: 0.505,
+        },
+    ]
+}
+
+impl Chain {
+    /// Products of 4×4 matrices, link after link.
+    fn forward(&self, angles: &Joints) -> Matrix4<f64> {
+        let shift = |[x, y, z]: [f64; 3]| Matrix4::new_translation(&Vector3::new(x, y, z));
+        let mut at = shift([0.0, 0.0, -self.base_height]);
+        for ((origin, axis), angle) in self.joints.iter().zip(angles) {
+            at = at * shift(*origin) * Matrix4::new_rotation(Vector3::from(*axis) * *angle);
+        }
+        let (origin, [r, p, y]) = self.flange;
+        at * shift(origin) * Matrix4::from_euler_angles(r, p, y)
+    }
+}
+
+fn placed(name: &str) -> PlacedArm {
+    PlacedArm {
+        arm: Arm::named(name).expect("known"),
+        robot_from_base: RigidTransform::identity(),
+        flange_from_nozzle: RigidTransform::identity(),
+    }
+}
+
+/// A gun held ahead of the flange and bent by 45°, so that its z axis is not joint 6.
+fn with_gun(name: &str) -> PlacedArm {
+    PlacedArm {
+        flange_from_nozzle: from_euler_zyx([0.0, 0.8, 0.0, 0.05, 0.0, 0.2]),
+        ..placed(name)
+    }
+}
+
+fn any_joints(random: &mut Pcg64, arm: &Arm) -> Joints {
+    arm.limits.map(|[low, high]| random.random_range(low..high))
+}
+
+#[test]
+fn forward_kinematics_is_the_product_of_the_links() {
+    let mut random = Pcg64::seed_from_u64(1);
+    for chain in chains() {
+        let placed = placed(chain.name);
+        let solver = Solver::new(&placed, 0.0);
+        for _ in 0..200 {
+            let joints = any_joints(&mut random, &placed.arm);
+            let found = solver.forward(&joints).expect("finite").to_homogeneous();
+            let off = (found - chain.forward(&joints)).amax();
+            assert!(off < 1e-9, "{}: {off}", chain.name);
+        }
+    }
+}
+
+#[test]
+fn every_solution_reproduces_its_pose_and_one_is_the_one_it_came_from() {
+    let mut random = Pcg64::seed_from_u64(2);
+    for chain in chains() {
+        let mut placed = with_gun(chain.name);
+        placed.robot_from_base = from_euler_zyx([0.1, -0.2, 0.7, 0.4, -0.3, 0.2]);
+        let solver = Solver::new(&placed, 0.0);
+        let foot_from_gun = |joints: &Joints| {
+            placed.robot_from_base.to_homogeneous()
+                * chain.forward(joints)
+                * placed.flange_from_nozzle.to_homogeneous()
+        };
+        let mut num_back = 0;
+        for _ in 0..200 {
+            let joints = any_joints(&mut random, &placed.arm);
+            let pose = solver.forward(&joints).expect("finite");
+            let found = solver.solutions(&pose, None);
+            assert!(!found.is_empty() && found.len() <= 8, "{}", found.len());
+            for solution in found.iter().flat_map(|found| solver.within_limits(found)) {
+                let off = (foot_from_gun(&solution) - pose.to_homogeneous()).amax();
+                assert!(off < 1e-6, "{}: {off}", chain.name);
+            }
+            let is_same = |found: &Joints| {
+                let all = found.iter().zip(&joints);
+                all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-5
+            };
+            let mut all = found.iter().flat_map(|found| solver.within_limits(found));
+            num_back += usize::from(all.any(|found| is_same(&found)));
+        }
+        // Random joints are hardly ever singular.
+        assert!(num_back >= 198, "{}: {num_back}", chain.name);
+    }
+}
+
+/// A row of points ahead of the arm, the nozzle pointing ahead.
+fn row(arm: &PlacedArm, num: usize, length: f64) -> Vec<ArmPoint> {
+    let ahead = 0.7 * arm.arm.reach() + 0.25;
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), FRAC_PI_2);
+    (0..num)
+        .map(|i| ArmPoint {
+            robot_from_nozzle: Isometry3::from_parts(
+                Translation3::new(ahead, length * (i as f64 / num as f64 - 0.5), 0.4),
+                turn,
+            ),
+            speed: 0.3,
+            is_turn_free: false,
+        })
+        .collect()
+}
+
+fn check(placed: &PlacedArm, points: &[ArmPoint]) -> PathCheck {
+    check_path(placed, points, &CheckParams::default()).expect("checked")
+}
+
+#[test]
+fn a_row_ahead_of_every_arm_is_reached_without_a_jump() {
+    for name in ARM_NAMES {
+        let placed = with_gun(name);
+        let points = row(&placed, 60, 0.3);
+        let found = check(&placed, &points);
+        let problems: Vec<_> = found.points.iter().map(|point| point.problem).collect();
+        assert_eq!(found.num_reached(), 60, "{name}: {problems:?}");
+        let solver = Solver::new(&placed, 0.0);
+        for (point, wanted) in found.points.iter().zip(&points) {
+            let joints = point.joints.expect("reached");
+            let at = solver.forward(&joints).expect("finite");
+            let off = at.translation.vector - wanted.robot_from_nozzle.translation.vector;
+            assert!(off.norm() < 1e-6);
+            assert!(at.rotation.angle_to(&wanted.robot_from_nozzle.rotation) < 1e-6);
+        }
+        for pair in found.points.windows(2) {
+            let (a, b) = (pair[0].joints.expect("one"), pair[1].joints.expect("one"));
+            // 5 mm at 0.3 m/s.
+            let time = 0.3 / 60.0 / 0.3;
+            for i in 0..6 {
+                assert!((a[i] - b[i]).abs() <= placed.arm.speeds[i] * time + 1e-9);
+            }
+        }
+    }
+}
+
+#[test]
+fn each_reason_is_named() {
+    let placed = with_gun("irb2600");
+    let far = row(&placed, 3, 20.0);
+    let found = check(&placed, &far);
+    assert_eq!(found.points[0].problem, Some(PointProblem::OutOfReach));
+    assert_eq!(found.points[0].joints, None);
+
+    // Joint 1 ends 10° to either side: a point at the left is not within it.
+    let mut narrow = placed.clone();
+    narrow.arm.limits[0] = [-0.17, 0.17];
+    let mut left = row(&narrow, 1, 0.0);
+    left[0].robot_from_nozzle = Translation3::new(-0.2, 0.8, 0.0) * left[0].robot_from_nozzle;
+    let problem = check(&narrow, &left).points[0].problem;
+    assert!(
+        matches!(problem, Some(PointProblem::JointLimit { joint: 1, .. })),
+        "{problem:?}"
+    );
+
+    // As fast as no joint turns.
+    let mut fast = row(&placed, 20, 0.8);
+    for point in &mut fast {
+        point.speed = 50.0;
+    }
+    let problem = check(&placed, &fast).points[10].problem;
+    let Some(PointProblem::TooFast { speed, joint }) = problem else {
+        panic!("{problem:?}");
+    };
+    assert!(speed > placed.arm.speeds[joint - 1]);
+
+    // The wrist straight: the nozzle along the forearm.
+    let mut bare = super::tests::placed("irb2600");
+    // No other configuration is left.
+    bare.arm.limits[0] = [-0.2, 0.2];
+    bare.arm.limits[1] = [0.1, 0.5];
+    bare.arm.limits[2] = [0.0, 0.4];
+    let solver = Solver::new(&bare, 0.0);
+    let straight = [0.0, 0.3, 0.2, 0.1, 0.0, 0.0];
+    let point = ArmPoint {
+        robot_from_nozzle: solver.forward(&straight).expect("finite"),
+        speed: 0.3,
+        is_turn_free: false,
+    };
+    let problem = check(&bare, &[point]).points[0].problem;
+    assert_eq!(
+        problem,
+        Some(PointProblem::NearSingularity(Singularity::Wrist))
+    );
+}
+
+#[test]
+fn a_long_way_through_a_limit_or_a_fold_is_found_between_its_ends() {
+    // From one side of the arm to the other, through its own base.
+    let placed = with_gun("irb2600");
+    let across = |y: f64| ArmPoint {
+        robot_from_nozzle: Isometry3::from_parts(
+            Translation3::new(0.05, y, 0.4),
+            UnitQuaternion::from_axis_angle(&Vector3::x_axis(), PI),
+        ),
+        speed: 0.3,
+        is_turn_free: false,
+    };
+    let found = check(&placed, &[across(-0.8), across(0.8)]);
+    assert!(found.points.iter().all(|point| point.joints.is_some()));
+    assert!(found.points[1].problem.is_some(), "{:?}", found.points[1]);
+}
+
+#[test]
+fn a_round_jet_reaches_more_because_the_nozzle_may_turn() {
+    let mut placed = with_gun("gp25");
+    // A wrist that hardly turns.
+    placed.arm.limits[3] = [-0.6, 0.6];
+    placed.arm.limits[5] = [-0.6, 0.6];
+    let mut points = row(&placed, 20, 0.3);
+    for point in &mut points {
+        point.robot_from_nozzle *= UnitQuaternion::from_euler_angles(0.0, 0.0, 2.0);
+    }
+    let fixed = check(&placed, &points).num_reached();
+    for point in &mut points {
+        point.is_turn_free = true;
+    }
+    let found = check(&placed, &points);
+    assert!(fixed < 20 && found.num_reached() == 20, "{fixed} {found:?}");
+    assert!(found.points[0].turn != 0.0);
+    // z still points the way of the path.
+    let solver = Solver::new(&placed, 0.0);
+    for (point, wanted) in found.points.iter().zip(&points) {
+        let at = solver.forward(&point.joints.expect("one")).expect("finite");
+        let off = at * Vector3::z() - wanted.robot_from_nozzle * Vector3::z();
+        assert!(off.norm() < 1e-6);
+        let shift = at.translation.vector - wanted.robot_from_nozzle.translation.vector;
+        assert!(shift.norm() < 1e-6);
+    }
+}
+
+#[test]
+fn a_better_place_is_suggested() {
+    let mut placed = with_gun("irb2600");
+    let points = row(&placed, 30, 0.4);
+    placed.robot_from_base = Translation3::new(-0.8, 0.0, 0.0).into();
+    let params = CheckParams::default();
+    let num = check(&placed, &points).num_reached();
+    assert!(num < 30);
+    let base = suggest_base(&placed, &points, &params, num).expect("searched");
+    let base = base.expect("a better one");
+    assert_eq!(base.num_reached, 30);
+    assert!(base.shift[0] > 0.1, "{base:?}");
+    assert_eq!(
+        suggest_base(&placed, &points, &params, 30).expect("searched"),
+        None
+    );
+
+    placed.arm.rail = Some(Rail {
+        direction: Vector3::x_axis(),
+        range: [-0.5, 2.0],
+    });
+    let rail = suggest_rail(&placed, &points, &params, num).expect("searched");
+    let rail = rail.expect("a better one");
+    assert_eq!(rail.num_reached, 30);
+    let there = CheckParams {
+        rail: rail.shift[0],
+        ..params
+    };
+    let again = check_path(&placed, &points, &there).expect("checked");
+    assert_eq!(again.num_reached(), 30);
+}
+
+#[test]
+fn bad_arms_and_paths_are_refused_with_advice() {
+    let refused = |error: ArmError| {
+        assert!(!error.advice().is_empty());
+        error.to_string()
+    };
+    assert!(refused(Arm::named("rx-78").expect_err("unknown")).contains("rx-78"));
+    assert!(refused(Arm::named("ur10e").expect_err("no wrist")).contains("spherical wrist"));
+    assert!(refused(Arm::named("none.toml").expect_err("no file")).contains("none.toml"));
+    let placed = with_gun("m-20ia");
+    let points = row(&placed, 3, 0.3);
+    let params = CheckParams::default();
+    assert!(refused(check_path(&placed, &[], &params).expect_err("empty")).contains("no points"));
+    let mut broken = points.clone();
+    broken[1].robot_from_nozzle.translation.vector.x = f64::NAN;
+    assert!(refused(check_path(&placed, &broken, &params).expect_err("NaN")).contains("point 2"));
+    broken = points.clone();
+    broken[2].speed = 0.0;
+    assert!(refused(check_path(&placed, &broken, &params).expect_err("0")).contains("point 3"));
+    let mut base = placed.clone();
+    base.robot_from_base.translation.vector.z = f64::INFINITY;
+    assert!(refused(check_path(&base, &points, &params).expect_err("base")).contains("base"));
+}
+
+#[test]
+fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("arm.toml");
+    let text = "name = \"Cell 3\"\n\
+        lengths_mm = [150, -200, 0, 505, 760, 795, 100]\n\
+        offsets_deg = [0, 0, -90, 0, 0, 180]\n\
+        signs = [1, 1, -1, -1, -1, -1]\n\
+        limits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]\n\
+        speeds_deg_s = [210, 210, 265, 420, 420, 885]\n\
+        base_height_mm = 505\n";
+    let read = |text: &str| {
+        std::fs::write(&path, text).expect("written");
+        Arm::named(path.to_str().expect("a path"))
+    };
+    let listed = Arm::named("gp25").expect("listed");
+    let found = read(text).expect("an arm");
+    assert_eq!(
+        Arm {
+            name: listed.name.clone(),
+            ..found
+        },
+        listed
+    );
+    let rail = "[rail]\ndirection = [0, 2, 0]\nfrom_mm = -2000\nto_mm = 1500\n";
+    let found = read(&format!("{text}{rail}")).expect("an arm").rail;
+    let wanted = Rail {
+        direction: Vector3::y_axis(),
+        range: [-2.0, 1.5],
+    };
+    assert_eq!(found, Some(wanted));
+    for (old, new, wanted) in [
+        ("[-86, 160]", "[160, -86]", "joint 3"),
+        ("210, 210", "210, 0", "speed of joint 2"),
+        ("[1, 1, -1", "[1, 2, -1", "sign of joint 2"),
+        ("760", "0", "c2"),
+        ("505, 760", "nan, 760", "c1"),
+        ("-90, 0", "-900, 0", "offset of joint 3"),
+        ("signs", "sings", "sings"),
+        ("[150, ", "[", "7"),
+    ] {
+        let error = read(&text.replace(old, new)).expect_err(new);
+        assert!(error.to_string().contains(wanted), "{new}: {error}");
+        assert!(!error.advice().is_empty());
+    }
+    for rail in [
+        rail.replace("2000", "nan"),
+        rail.replace("-2000", "3000"),
+        rail.replace("2, 0", "0, 0"),
+    ] {
+        let error = read(&format!("{text}{rail}")).expect_err("no rail");
+        assert!(error.to_string().contains("rail"), "{error}");
+    }
+}

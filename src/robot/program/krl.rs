@@ -1,0 +1,66 @@
+//! KUKA Robot Language: one `.src` whose points stand in the moves.
+
+use super::{JOINT_SPEED, Lines, Program, ProgramFormat, Step, text};
+use crate::geometry::rigid::RigidTransform;
+
+/// KRL takes 140; what stands behind `; ` is shorter.
+const WIDTH: usize = 100;
+
+pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
+    let mut lines = Lines::default();
+    for line in ["&ACCESS RVP", "&REL 1", "&COMMENT Partsight"] {
+        lines.add(line);
+    }
+    lines.add(format!("DEF {name} ( )"));
+    for comment in text::comments(header, WIDTH) {
+        lines.add(format!("; {comment}"));
+    }
+    let settings = program.settings;
+    let output = settings.gun_output;
+    lines.add("EXT BAS (BAS_COMMAND :IN,REAL :IN )");
+    lines.add("GLOBAL INTERRUPT DECL 3 WHEN $STOPMESS==TRUE DO IR_STOPM ( )");
+    lines.add("INTERRUPT ON 3");
+    lines.add("BAS (#INITMOV,0)");
+    lines.add(format!("BAS (#VEL_PTP,{:.0})", JOINT_SPEED * 100.0));
+    lines.add(format!("BAS (#TOOL,{})", program.tool(ProgramFormat::Krl)));
+    lines.add("BAS (#BASE,0)");
+    if let Some(tool) = &settings.flange_from_nozzle {
+        lines.add(format!("$TOOL={}", frame(tool)));
+    }
+    lines.add(format!("$APO.CDIS={}", text::fixed(settings.blend.mm(), 3)));
+    lines.add(format!("$OUT[{output}]=FALSE"));
+    let mut current = None;
+    for step in steps {
+        match step {
+            Step::Joints(to) => lines.instruct(format!("PTP {}", frame(to))),
+            Step::Line(line) => {
+                let speed = text::fixed(line.speed, 6);
+                if current.as_ref() != Some(&speed) {
+                    lines.instruct(format!("$VEL.CP={speed}"));
+                    current = Some(speed);
+                }
+                if let Some(is_on) = line.gun {
+                    let state = if is_on { "TRUE" } else { "FALSE" };
+                    // At the end of the move that follows: in the middle of its blend.
+                    lines.instruct(format!(
+                        "TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[{output}]={state}"
+                    ));
+                }
+                let blend = if line.blend > 0.0 { " C_DIS" } else { "" };
+                lines.instruct(format!("LIN {}{blend}", frame(&line.to)));
+            }
+        }
+    }
+    lines.add(format!("$OUT[{output}]=FALSE"));
+    lines.add("END");
+    lines
+}
+
+fn frame(pose: &RigidTransform) -> String {
+    let numbers = text::numbers(ProgramFormat::Krl, pose);
+    let named = ["X", "Y", "Z", "A", "B", "C"].iter().zip(numbers);
+    let named: Vec<String> = named
+        .map(|(name, number)| format!("{name} {number}"))
+        .collect();
+    format!("{{{}}}", named.join(","))
+}

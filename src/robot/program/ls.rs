@@ -1,0 +1,93 @@
+//! FANUC's teach pendant program as text.
+
+use jiff::tz::TimeZone;
+
+use super::{JOINT_SPEED, Lines, Program, ProgramFormat, Step, text};
+
+/// A remark holds 32 letters.
+const WIDTH: usize = 32;
+
+pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
+    let tool = program.tool(ProgramFormat::Ls);
+    let output = program.settings.gun_output;
+    let mut moves = Lines::default();
+    let mut add = |motion: &str, text: &str| {
+        let number = moves.num_instructions() + 1;
+        moves.instruct(format!("{number:4}:{motion}{text} ;"));
+    };
+    for comment in text::comments(header, WIDTH) {
+        add("  ", &format!("!{comment}"));
+    }
+    add("  ", "UFRAME_NUM=0");
+    add("  ", &format!("UTOOL_NUM={tool}"));
+    add("  ", &format!("DO[{output}]=OFF"));
+    let mut points = Lines::default();
+    for (i, step) in steps.iter().enumerate() {
+        let number = i + 1;
+        let to = match step {
+            Step::Joints(to) => {
+                add(
+                    "J ",
+                    &format!("P[{number}] {:.0}% FINE", JOINT_SPEED * 100.0),
+                );
+                to
+            }
+            Step::Line(line) => {
+                let speed = text::fixed((line.speed * 1000.0).max(1.0), 0);
+                let end = if line.blend_unless_gun() > 0.0 {
+                    "CNT100"
+                } else {
+                    "FINE"
+                };
+                add("L ", &format!("P[{number}] {speed}mm/sec {end}"));
+                if let Some(is_on) = line.gun {
+                    let state = if is_on { "ON" } else { "OFF" };
+                    add("  ", &format!("DO[{output}]={state}"));
+                }
+                &line.to
+            }
+        };
+        let numbers = text::numbers(ProgramFormat::Ls, to);
+        let [x, y, z, w, p, r] = numbers.as_slice() else {
+            continue;
+        };
+        points.add(format!("P[{number}]{{"));
+        points.add("   GP1:");
+        points.add(format!(
+            "\tUF : 0, UT : {tool},\t\tCONFIG : 'N U T, 0, 0, 0',"
+        ));
+        points.add(format!("\tX = {x} mm,\tY = {y} mm,\tZ = {z} mm,"));
+        points.add(format!("\tW = {w} deg,\tP = {p} deg,\tR = {r} deg"));
+        points.add("};");
+    }
+    add("  ", &format!("DO[{output}]=OFF"));
+    let at = program.at.to_zoned(TimeZone::UTC);
+    let at = at.strftime("DATE %y-%m-%d  TIME %H:%M:%S");
+    let mut lines = Lines::default();
+    lines.add(format!("/PROG  {}", name.to_uppercase()));
+    lines.add("/ATTR");
+    lines.add("OWNER\t\t= MNEDITOR;");
+    lines.add("COMMENT\t\t= \"Partsight\";");
+    lines.add("PROG_SIZE\t= 0;");
+    lines.add(format!("CREATE\t\t= {at};"));
+    lines.add(format!("MODIFIED\t= {at};"));
+    lines.add("FILE_NAME\t= ;");
+    lines.add("VERSION\t\t= 0;");
+    lines.add(format!("LINE_COUNT\t= {};", moves.num_instructions()));
+    lines.add("MEMORY_SIZE\t= 0;");
+    lines.add("PROTECT\t\t= READ_WRITE;");
+    lines.add("TCD:  STACK_SIZE\t= 0,");
+    lines.add("      TASK_PRIORITY\t= 50,");
+    lines.add("      TIME_SLICE\t= 0,");
+    lines.add("      BUSY_LAMP_OFF\t= 0,");
+    lines.add("      ABORT_REQUEST\t= 0,");
+    lines.add("      PAUSE_REQUEST\t= 0;");
+    lines.add("DEFAULT_GROUP\t= 1,*,*,*,*;");
+    lines.add("CONTROL_CODE\t= 00000000 00000000;");
+    lines.add("/MN");
+    lines.append(&moves);
+    lines.add("/POS");
+    lines.append(&points);
+    lines.add("/END");
+    lines
+}

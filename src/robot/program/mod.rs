@@ -1,0 +1,416 @@
+//! Programs for a robot's controller: the part's spray path as linear moves with speed, blending and gun.
+//!
+//! | format | pose | speed | blending | gun | source |
+//! | --- | --- | --- | --- | --- | --- |
+//! | KUKA KRL | X Y Z A B C | `$VEL.CP`, m/s | `C_DIS`, `$APO.CDIS` | `TRIGGER … DO $OUT` | KUKA, *System Software 8.3, Operating and Programming Instructions for System Integrators* and *System Variables* |
+//! | FANUC LS | X Y Z W P R | whole mm/sec | `CNT100` | `DO` | FANUC, *R-30iB Operator's Manual (Basic Operation)* |
+//! | ABB RAPID | pos, orient | speeddata, mm/s | zonedata | `MoveLDO` | ABB, *RAPID Instructions, Functions and Data types* |
+//! | `URScript` | p[…] | m/s | `r` | `set_standard_digital_out` | Universal Robots, *Script Manual* |
+//! | Yaskawa JBI | X Y Z Rx Ry Rz, RECTAN in BASE | `V`, mm/s | none but at `PL=0` | `DOUT OT#` | Yaskawa, *DX100 Options: Instructions for Data Transmission*, job data format |
+//! | Doosan DRL | posx | `vel`, mm/s | `radius` | `set_digital_output` | Doosan, *Programming Manual*, motion and I/O |
+//!
+//! Every program does the same: gun off; a joint move to the approach point, which lies behind the first point along the
+//! nozzle; the path; gun off; a linear move away. A point's gun and speed hold on the way to the next one. KRL and RAPID
+//! switch the gun while the robot moves; the others stop at a point where the gun changes, because they run outputs ahead
+//! of a blended move. All poses are `robot_from_nozzle` in the robot's base frame.
+//!
+//! Known limits: nothing here was tried on a controller. Acceleration is the controller's default. `CONFIG` of LS and
+//! `RCONF` of JBI name the usual arm: no flip, elbow up, front.
+
+mod error;
+mod jbi;
+mod krl;
+mod ls;
+mod rapid;
+mod steps;
+mod text;
+mod urscript_drl;
+
+#[cfg(test)]
+mod tests;
+
+use std::{io::Read as _, path::Path};
+
+use jiff::Timestamp;
+
+use self::{steps::Step, text::Lines};
+use crate::{
+    files::{FileError, disk, open_regular, write_atomically},
+    geometry::rigid::RigidTransform,
+    robot::Convention,
+    units::Metres,
+};
+
+pub use self::error::ProgramError;
+
+/// A controller's language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProgramFormat {
+    /// KUKA Robot Language, one `.src` without `.dat`.
+    Krl,
+    /// FANUC's teach pendant program as text.
+    Ls,
+    /// ABB's module.
+    Rapid,
+    /// Universal Robots' script.
+    UrScript,
+    /// Yaskawa's job.
+    Jbi,
+    /// Doosan Robot Language.
+    Drl,
+}
+
+/// One place of the nozzle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProgramPoint {
+    /// The tool's frame in the robot's base frame: origin at the mouth, z towards the part.
+    pub robot_from_nozzle: RigidTransform,
+    /// True if the gun sprays on the way to the next point.
+    pub is_gun_on: bool,
+    /// Speed on the way to the next point, m/s; none for that of the settings.
+    pub speed: Option<f64>,
+}
+
+/// What the cell needs to know beside the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProgramSettings {
+    /// The tool on the controller: a number for KRL, LS and JBI, a name for RAPID and DRL. Without it 1, or `tool1`.
+    pub tool: Option<String>,
+    /// Where the nozzle is on the flange; KRL, RAPID and `URScript` set it, otherwise the tool of the controller counts.
+    pub flange_from_nozzle: Option<RigidTransform>,
+    /// Number of the digital output that opens the gun.
+    pub gun_output: u16,
+    /// Speed where the path sets none, m/s.
+    pub speed: f64,
+    /// How far before the first and behind the last point the program begins and ends, 10..1000 mm.
+    pub approach: Metres,
+    /// Radius within which the robot may cut a corner, 0..100 mm; at most 0.45 of the way to the neighbouring points.
+    pub blend: Metres,
+}
+
+impl Default for ProgramSettings {
+    fn default() -> Self {
+        Self {
+            tool: None,
+            flange_from_nozzle: None,
+            gun_output: 1,
+            speed: 0.25,
+            approach: Metres(0.1),
+            blend: Metres(0.005),
+        }
+    }
+}
+
+/// Joint speed of the first move, as a share of the fastest.
+const JOINT_SPEED: f64 = 0.1;
+
+/// A path as a program, and what its header says.
+#[derive(Clone, Debug)]
+pub struct Program<'a> {
+    /// The points in their order.
+    pub points: &'a [ProgramPoint],
+    /// The settings.
+    pub settings: &'a ProgramSettings,
+    /// Name of the part.
+    pub part: &'a str,
+    /// Name of the capture; none for the standard position.
+    pub scene: Option<&'a str>,
+    /// The part's pose in the robot's base frame.
+    pub robot_from_part: RigidTransform,
+    /// By which calibration.
+    pub calibration: &'a str,
+    /// True if no real camera saw the scene, or none saw the part when it was enrolled.
+    pub is_simulated: bool,
+    /// Why the program should not have been written; it was forced.
+    pub doubts: &'a [String],
+    /// When.
+    pub at: Timestamp,
+}
+
+impl ProgramFormat {
+    /// Every format.
+    pub const ALL: [Self; 6] = [
+        Self::Krl,
+        Self::Ls,
+        Self::Rapid,
+        Self::UrScript,
+        Self::Jbi,
+        Self::Drl,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Krl => "krl",
+            Self::Ls => "ls",
+            Self::Rapid => "rapid",
+            Self::UrScript => "urscript",
+            Self::Jbi => "jbi",
+            Self::Drl => "drl",
+        }
+    }
+
+    /// The name for people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Krl => "KUKA KRL",
+            Self::Ls => "FANUC LS",
+            Self::Rapid => "ABB RAPID",
+            Self::UrScript => "URScript",
+            Self::Jbi => "Yaskawa JBI",
+            Self::Drl => "Doosan DRL",
+        }
+    }
+
+    /// How its files end, without the point.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Krl => "src",
+            Self::Ls => "ls",
+            Self::Rapid => "mod",
+            Self::UrScript => "script",
+            Self::Jbi => "jbi",
+            Self::Drl => "drl",
+        }
+    }
+
+    /// The format that a file's name ends in.
+    pub fn of(path: &Path) -> Result<Self, ProgramError> {
+        let ending = path.extension().unwrap_or_default();
+        let found = Self::ALL.into_iter();
+        let mut found = found.filter(|format| ending.eq_ignore_ascii_case(format.ending()));
+        found.next().ok_or_else(|| ProgramError::UnknownEnding {
+            path: path.to_owned(),
+        })
+    }
+
+    /// The convention of its poses.
+    pub fn convention(self) -> Convention {
+        match self {
+            Self::Krl => Convention::Kuka,
+            Self::Ls => Convention::Fanuc,
+            Self::Rapid => Convention::Abb,
+            Self::UrScript => Convention::UniversalRobots,
+            Self::Jbi => Convention::Yaskawa,
+            Self::Drl => Convention::Doosan,
+        }
+    }
+
+    /// Most letters of a program's name. A procedure of RAPID is called `run_` and the name.
+    fn longest_name(self) -> usize {
+        match self {
+            Self::Krl => 24,
+            Self::Rapid => 28,
+            Self::Ls => 36,
+            Self::Jbi => 32,
+            Self::UrScript | Self::Drl => 64,
+        }
+    }
+
+    /// Most instructions of one program.
+    fn most_lines(self) -> Option<usize> {
+        match self {
+            Self::Ls | Self::Jbi => Some(9999),
+            _ => None,
+        }
+    }
+
+    /// The slowest and the fastest speed that it takes, m/s.
+    fn speeds(self) -> [f64; 2] {
+        match self {
+            Self::Krl | Self::Ls => [0.001, 2.0],
+            Self::Rapid => [0.001, 5.0],
+            Self::UrScript => [0.001, 3.0],
+            Self::Jbi => [0.001, 1.5],
+            Self::Drl => [0.001, 1.0],
+        }
+    }
+
+    /// The numbers of its digital outputs.
+    fn outputs(self) -> [u16; 2] {
+        match self {
+            Self::Krl | Self::Jbi => [1, 4096],
+            Self::Ls => [1, 512],
+            Self::Rapid => [0, 9999],
+            Self::UrScript => [0, 7],
+            Self::Drl => [1, 16],
+        }
+    }
+
+    /// The largest number of a tool; none if tools have names.
+    fn most_tools(self) -> Option<u8> {
+        match self {
+            Self::Krl => Some(16),
+            Self::Ls => Some(10),
+            Self::Jbi => Some(63),
+            _ => None,
+        }
+    }
+}
+
+/// In the header of every program, by which an earlier one is known.
+const MARK: &str = "Partsight robot program";
+/// A longer file is no program of ours.
+const MAX_BYTES: u64 = 64 << 20;
+
+/// Takes an earlier program of this name away, so that no robot runs it for the next part; true if there was one. Anything
+/// else of that name stays.
+pub fn remove_previous_program(path: &Path) -> Result<bool, FileError> {
+    let mut bytes = Vec::new();
+    let read = open_regular(path).and_then(|file| file.take(MAX_BYTES).read_to_end(&mut bytes));
+    // Whatever is wrong with it shows when the next one is written.
+    let is_ours = read.is_ok()
+        && bytes
+            .windows(MARK.len())
+            .any(|part| part == MARK.as_bytes());
+    if is_ours {
+        disk::remove_file(path).map_err(|source| FileError::Write {
+            path: path.to_owned(),
+            source,
+        })?;
+    }
+    Ok(is_ours)
+}
+
+impl Program<'_> {
+    /// Writes the program, whole or not at all; it is called as the file.
+    pub fn save(&self, path: &Path, format: ProgramFormat) -> Result<(), ProgramError> {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let text = self.text(format, &name)?;
+        write_atomically(path, |writer| writer.write_all(text.as_bytes()))?;
+        Ok(())
+    }
+
+    /// The program's text.
+    pub fn text(&self, format: ProgramFormat, name: &str) -> Result<String, ProgramError> {
+        self.check(format, name)?;
+        let steps = steps::steps_of(self.points, self.settings);
+        let header = self.header(format);
+        let lines = match format {
+            ProgramFormat::Krl => krl::write(self, &steps, &header, name),
+            ProgramFormat::Ls => ls::write(self, &steps, &header, name),
+            ProgramFormat::Rapid => rapid::write(self, &steps, &header, name),
+            ProgramFormat::UrScript => urscript_drl::write_urscript(self, &steps, &header, name),
+            ProgramFormat::Jbi => jbi::write(self, &steps, &header, name),
+            ProgramFormat::Drl => urscript_drl::write_drl(self, &steps, &header),
+        };
+        lines.finish(format)
+    }
+
+    fn check(&self, format: ProgramFormat, name: &str) -> Result<(), ProgramError> {
+        let is_name = name.len() <= format.longest_name() && text::is_identifier(name);
+        if !is_name {
+            return Err(ProgramError::Name {
+                format,
+                name: name.to_owned(),
+            });
+        }
+        let settings = self.settings;
+        let lengths = [
+            ("approach", settings.approach, [0.01, 1.0]),
+            ("blend", settings.blend, [0.0, 0.1]),
+        ];
+        for (name, value, [low, high]) in lengths {
+            if !(low..=high).contains(&value.0) {
+                return Err(ProgramError::Length {
+                    name,
+                    value,
+                    low: Metres(low),
+                    high: Metres(high),
+                });
+            }
+        }
+        let [low, high] = format.outputs();
+        if !(low..=high).contains(&settings.gun_output) {
+            return Err(ProgramError::Output {
+                format,
+                output: settings.gun_output,
+            });
+        }
+        let tool = self.tool(format);
+        let is_tool = format.most_tools().map_or_else(
+            || text::is_identifier(&tool) && tool.len() <= 32,
+            |most| (tool.parse::<u8>()).is_ok_and(|tool| (1..=most).contains(&tool)),
+        );
+        if !is_tool {
+            return Err(ProgramError::Tool { format, tool });
+        }
+        if self.points.is_empty() {
+            return Err(ProgramError::NoPoints);
+        }
+        let is_finite = |pose: &RigidTransform| {
+            let vector = pose.translation.vector;
+            (vector.iter().chain(pose.rotation.coords.iter())).all(|number| number.is_finite())
+        };
+        let [low, high] = format.speeds();
+        for (i, point) in self.points.iter().enumerate() {
+            if !is_finite(&point.robot_from_nozzle) {
+                return Err(ProgramError::NotFinite { point: i + 1 });
+            }
+            let speed = point.speed.unwrap_or(settings.speed);
+            if !(low..=high).contains(&speed) {
+                return Err(ProgramError::Speed {
+                    format,
+                    point: i + 1,
+                    speed,
+                });
+            }
+        }
+        let is_sound =
+            settings.flange_from_nozzle.iter().all(is_finite) && is_finite(&self.robot_from_part);
+        if !is_sound {
+            return Err(ProgramError::NotFinite { point: 0 });
+        }
+        Ok(())
+    }
+
+    /// The tool's number or name on the controller.
+    fn tool(&self, format: ProgramFormat) -> String {
+        let standard = match format.most_tools() {
+            Some(_) => "1",
+            None => "tool1",
+        };
+        self.settings
+            .tool
+            .clone()
+            .unwrap_or_else(|| standard.into())
+    }
+
+    /// What stands above the moves, in lines of any length.
+    fn header(&self, format: ProgramFormat) -> Vec<String> {
+        let convention = format.convention();
+        let seen = match self.scene {
+            Some(scene) => format!("scene: {scene}"),
+            None => "standard position".into(),
+        };
+        let mut lines = vec![MARK.to_owned(), format!("part: {}", self.part), seen];
+        if self.is_simulated {
+            lines.push("SIMULATED: not seen by a camera".into());
+        }
+        for doubt in self.doubts {
+            lines.push(format!("FORCED: {doubt}"));
+        }
+        lines.push(format!("made: {:.0}", self.at));
+        lines.push(format!("calibration: {}", self.calibration));
+        lines.push(format!(
+            "robot_from_part: {}",
+            convention.write(&self.robot_from_part).line()
+        ));
+        let tool = self.tool(format);
+        lines.push(match &self.settings.flange_from_nozzle {
+            Some(tool) => format!("flange_from_nozzle: {}", convention.write(tool).line()),
+            None if format == ProgramFormat::UrScript => {
+                "tool: the active TCP at the nozzle's mouth, z towards the part".into()
+            }
+            None => format!("tool: {tool}, at the nozzle's mouth, z towards the part"),
+        });
+        lines.push("frame: robot base".into());
+        lines.push(format!(
+            "{} points, gun: output {}",
+            self.points.len(),
+            self.settings.gun_output
+        ));
+        lines.push("Begin where the arm reaches the first pose freely.".into());
+        lines
+    }
+}

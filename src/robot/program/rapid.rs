@@ -1,0 +1,83 @@
+//! ABB's RAPID: one module with one procedure.
+
+use super::{Lines, Program, ProgramFormat, Step, text};
+use crate::geometry::rigid::RigidTransform;
+
+const WIDTH: usize = 78;
+/// The tool that is declared where the settings say where the nozzle is.
+const OWN_TOOL: &str = "tPartsight";
+/// TCP, orientation and external axes of the first move: a tenth of what v1000 has.
+const SLOW: &str = "[100,50,500,100]";
+
+pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
+    let settings = program.settings;
+    let mut lines = Lines::default();
+    lines.add(format!("MODULE {name}"));
+    for comment in text::comments(header, WIDTH) {
+        lines.add(format!("  ! {comment}"));
+    }
+    let mut tool = program.tool(ProgramFormat::Rapid);
+    if let Some(place) = &settings.flange_from_nozzle {
+        tool = OWN_TOOL.into();
+        lines.add("  ! Set the load of the tool: its mass is assumed.");
+        lines.add(format!(
+            "  LOCAL PERS tooldata {OWN_TOOL}:=[TRUE,{},[1,[0,0,50],[1,0,0,0],0,0,0]];",
+            pose(place)
+        ));
+    }
+    let signal = format!("doGun{}", settings.gun_output);
+    lines.add(format!("  PROC run_{name}()"));
+    lines.add("    ConfJ\\Off;");
+    lines.add("    ConfL\\Off;");
+    lines.add(format!("    SetDO {signal},0;"));
+    for step in steps {
+        match step {
+            Step::Joints(to) => lines.instruct(format!(
+                "    MoveJ {},{SLOW},fine,{tool}\\WObj:=wobj0;",
+                target(to)
+            )),
+            Step::Line(line) => {
+                let speed = text::fixed(line.speed * 1000.0, 3);
+                let zone = zone(line.blend);
+                let (verb, signal) = match line.gun {
+                    Some(is_on) => ("MoveLDO", format!(",{signal},{}", u8::from(is_on))),
+                    None => ("MoveL", String::new()),
+                };
+                lines.instruct(format!(
+                    "    {verb} {},[{speed},500,5000,1000],{zone},{tool}\\WObj:=wobj0{signal};",
+                    target(&line.to)
+                ));
+            }
+        }
+    }
+    lines.add(format!("    SetDO {signal},0;"));
+    lines.add("  ENDPROC");
+    lines.add("ENDMODULE");
+    lines
+}
+
+fn pose(place: &RigidTransform) -> String {
+    let numbers = text::numbers(ProgramFormat::Rapid, place);
+    format!(
+        "[[{}],[{}]]",
+        numbers[..3].join(","),
+        numbers[3..].join(",")
+    )
+}
+
+fn target(place: &RigidTransform) -> String {
+    let pose = pose(place);
+    let inner = &pose[1..pose.len() - 1];
+    format!("[{inner},[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]")
+}
+
+/// As z5 and its kin are made: the tool turns within one and a half times the radius.
+fn zone(blend: f64) -> String {
+    if blend <= 0.0 {
+        return "fine".into();
+    }
+    let radius = text::fixed(blend * 1000.0, 2);
+    let turn = text::fixed(blend * 1500.0, 2);
+    let degrees = text::fixed(blend * 150.0, 3);
+    format!("[FALSE,{radius},{turn},{turn},{degrees},{turn},{degrees}]")
+}

@@ -1,0 +1,329 @@
+mod parse;
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64;
+
+use super::*;
+use crate::{error::Advice as _, geometry::rigid::from_euler_zyx};
+
+fn any_rotation(random: &mut Pcg64) -> UnitQuaternion<f64> {
+    // Every fifth lies in or near a gimbal lock, or at half a turn.
+    let lock = random.random_range(0..10);
+    let mut angle = || random.random_range(-3.1..3.1);
+    match lock {
+        0 => UnitQuaternion::from_euler_angles(angle(), std::f64::consts::FRAC_PI_2, angle()),
+        1 => UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI),
+        _ => UnitQuaternion::from_euler_angles(angle(), angle(), angle()),
+    }
+}
+
+fn any_path(seed: u64) -> Vec<ProgramPoint> {
+    let mut random = Pcg64::seed_from_u64(seed);
+    let num = random.random_range(1..60);
+    let mut at = Vector3::new(1.2, -0.4, 0.8);
+    let mut is_gun_on = false;
+    let points = (0..num).map(|i| {
+        at += Vector3::from_fn(|_, _| random.random_range(-0.08..0.08));
+        is_gun_on ^= random.random_range(0..4) == 0;
+        if i % 9 == 8 {
+            // Twice at one place, as where a gun is opened.
+            at = at.map(|x| (x * 100.0_f64).round() / 100.0);
+        }
+        ProgramPoint {
+            robot_from_nozzle: Isometry3::from_parts(
+                Translation3::from(at),
+                any_rotation(&mut random),
+            ),
+            is_gun_on,
+            speed: (random.random_range(0..3) > 0).then(|| random.random_range(0.02..0.9)),
+        }
+    });
+    points.collect()
+}
+
+fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Program<'a> {
+    Program {
+        points,
+        settings,
+        part: "Tür_links",
+        scene: Some("door; \"x\".pcd"),
+        robot_from_part: from_euler_zyx([0.1, -0.2, 0.3, 1.5, -0.2, 2.0]),
+        calibration: "Cell 2 (00112233)",
+        is_simulated: true,
+        doubts: &[],
+        at: Timestamp::UNIX_EPOCH,
+    }
+}
+
+/// How far a written speed may be from the wanted one, m/s.
+fn speed_step(format: ProgramFormat) -> f64 {
+    match format {
+        ProgramFormat::Ls => 0.5e-3,
+        ProgramFormat::Jbi => 0.05e-3,
+        _ => 0.5e-6,
+    }
+}
+
+#[test]
+fn every_format_reads_back_to_the_path() {
+    for seed in 0..40 {
+        let points = any_path(seed);
+        let settings = ProgramSettings {
+            gun_output: 3,
+            ..ProgramSettings::default()
+        };
+        let before = Translation3::new(0.0, 0.0, -settings.approach.0);
+        let speed_of = |i: usize| points[i].speed.unwrap_or(settings.speed);
+        let last = points.len() - 1;
+        for format in ProgramFormat::ALL {
+            let text = program(&points, &settings)
+                .text(format, "paint")
+                .expect("text");
+            assert!(text.is_ascii());
+            let read = parse::read(format, &text);
+            assert_eq!(read.output, "3");
+            assert!(!read.is_gun_on, "the gun is closed at the end");
+            // The approach, every point, and the way back.
+            let mut expected = vec![(points[0].robot_from_nozzle * before, None, false)];
+            for (i, point) in points.iter().enumerate() {
+                let came_from = i.saturating_sub(1);
+                let is_on = i > 0 && points[came_from].is_gun_on;
+                expected.push((point.robot_from_nozzle, Some(speed_of(came_from)), is_on));
+            }
+            let back = points[last].robot_from_nozzle * before;
+            expected.push((back, Some(speed_of(last)), false));
+            assert_eq!(read.moves.len(), expected.len(), "{format:?} {seed}");
+            for (found, (to, speed, is_on)) in read.moves.iter().zip(&expected) {
+                let off = (found.to.translation.vector - to.translation.vector).norm();
+                assert!(off <= 1e-6, "{format:?} {seed}: {off}");
+                let turned = found.to.rotation.angle_to(&to.rotation);
+                assert!(turned < 5e-6, "{format:?} {seed}: {turned}");
+                assert_eq!(found.speed.is_some(), speed.is_some());
+                if let (Some(found), Some(speed)) = (found.speed, speed) {
+                    assert!((found - speed).abs() <= speed_step(format) * 1.001);
+                }
+                assert_eq!(found.is_gun_on, *is_on, "{format:?} {seed}");
+            }
+            // Where an output would run ahead of a blend, the robot stops before it switches.
+            let is_ahead = !matches!(format, ProgramFormat::Krl | ProgramFormat::Rapid);
+            for pair in read.moves.windows(2) {
+                let changes = pair[0].is_gun_on != pair[1].is_gun_on;
+                assert!(!(changes && is_ahead) || pair[0].is_exact);
+            }
+            assert!(read.moves[0].is_exact && read.moves[read.moves.len() - 1].is_exact);
+        }
+    }
+}
+
+fn row() -> Vec<ProgramPoint> {
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), 3.0);
+    (0..5)
+        .map(|i| ProgramPoint {
+            robot_from_nozzle: Isometry3::from_parts(
+                Translation3::new(1.0, 0.1 * f64::from(i), 0.7),
+                turn,
+            ),
+            is_gun_on: (1..3).contains(&i),
+            speed: None,
+        })
+        .collect()
+}
+
+#[test]
+fn a_header_says_part_pose_time_and_that_nothing_was_seen() {
+    let points = row();
+    let settings = ProgramSettings::default();
+    let doubts = ["the part was not accepted".to_owned()];
+    for format in ProgramFormat::ALL {
+        let program = Program {
+            doubts: &doubts,
+            ..program(&points, &settings)
+        };
+        let text = program.text(format, "paint").expect("text");
+        let read = parse::read(format, &text);
+        let words = read.comments.join(" ");
+        for wanted in [
+            MARK,
+            "T_r_links",
+            "SIMULATED",
+            "FORCED: the part was not",
+            "1970-01-01T00:00:00Z",
+            "Cell 2 (00112233)",
+            "robot_from_part:",
+            "5 points, gun: output 1",
+        ] {
+            let wanted = wanted.to_owned();
+            assert!(words.contains(&wanted), "{format:?} {wanted}: {words}");
+        }
+        let name = match format {
+            ProgramFormat::Ls | ProgramFormat::Jbi => "PAINT",
+            ProgramFormat::Drl => "",
+            _ => "paint",
+        };
+        assert_eq!(read.name, name);
+        let tool = match format {
+            ProgramFormat::Rapid | ProgramFormat::Drl => "tool1",
+            ProgramFormat::UrScript => "",
+            _ => "1",
+        };
+        assert_eq!(read.tool, tool);
+    }
+}
+
+#[test]
+fn corners_are_blended_where_the_gun_does_not_change() {
+    let settings = ProgramSettings::default();
+    let points = row();
+    for format in ProgramFormat::ALL {
+        let text = program(&points, &settings)
+            .text(format, "paint")
+            .expect("text");
+        let exact: Vec<bool> = (parse::read(format, &text).moves.iter())
+            .map(|found| found.is_exact)
+            .collect();
+        // Approach, five points, away; the gun opens at the second point and closes at the fourth.
+        let expected = match format {
+            ProgramFormat::Krl | ProgramFormat::Rapid => {
+                [true, true, false, false, false, true, true]
+            }
+            _ => [true, true, true, false, true, true, true],
+        };
+        assert_eq!(exact, expected, "{format:?}");
+        let none = ProgramSettings {
+            blend: Metres(0.0),
+            ..settings.clone()
+        };
+        let text = program(&points, &none).text(format, "paint").expect("text");
+        assert!(
+            parse::read(format, &text)
+                .moves
+                .iter()
+                .all(|found| found.is_exact)
+        );
+    }
+}
+
+#[test]
+fn a_given_tool_is_set_where_the_controller_can() {
+    let points = row();
+    let settings = ProgramSettings {
+        flange_from_nozzle: Some(from_euler_zyx([0.0, 0.0, 0.0, 0.0, 0.01, 0.25])),
+        ..ProgramSettings::default()
+    };
+    let text = |format| {
+        program(&points, &settings)
+            .text(format, "paint")
+            .expect("text")
+    };
+    for (format, wanted) in [
+        (
+            ProgramFormat::Krl,
+            "$TOOL={X 0.000,Y 10.000,Z 250.000,A 0.0000,",
+        ),
+        (
+            ProgramFormat::Rapid,
+            "tooldata tPartsight:=[TRUE,[[0.000,10.000,250.000],[1.00000000,",
+        ),
+        (
+            ProgramFormat::UrScript,
+            "set_tcp(p[0.000000, 0.010000, 0.250000, ",
+        ),
+        (ProgramFormat::Ls, "flange_from_nozzle:"),
+        (ProgramFormat::Jbi, "flange_from_nozzle:"),
+        (ProgramFormat::Drl, "flange_from_nozzle:"),
+    ] {
+        assert!(
+            text(format).contains(wanted),
+            "{format:?}: {}",
+            text(format)
+        );
+    }
+}
+
+#[test]
+fn what_a_controller_would_not_take_is_refused_with_advice() {
+    let points = row();
+    let with = |change: &dyn Fn(&mut ProgramSettings)| {
+        let mut settings = ProgramSettings::default();
+        change(&mut settings);
+        settings
+    };
+    let refused = |points: &[ProgramPoint], settings: &ProgramSettings, format, name: &str| {
+        let error = program(points, settings)
+            .text(format, name)
+            .expect_err("refused");
+        assert!(!error.advice().is_empty());
+        error.to_string()
+    };
+    let usual = ProgramSettings::default();
+    for format in ProgramFormat::ALL {
+        for name in ["", "1st", "bon jour", "tür", &"x".repeat(65)] {
+            assert!(refused(&points, &usual, format, name).contains("called"));
+        }
+        assert!(refused(&[], &usual, format, "p").contains("no points"));
+        for bad in [f64::NAN, f64::INFINITY] {
+            let mut broken = points.clone();
+            broken[2].robot_from_nozzle.translation.vector.y = bad;
+            assert!(refused(&broken, &usual, format, "p").contains("point 3"));
+            let tool = with(&|s| {
+                s.flange_from_nozzle = Some(from_euler_zyx([0.0, 0.0, 0.0, bad, 0.0, 0.0]));
+            });
+            assert!(refused(&points, &tool, format, "p").contains("tool or part"));
+        }
+        for speed in [0.0, -1.0, 6.0, f64::NAN] {
+            let settings = with(&|s| s.speed = speed);
+            assert!(refused(&points, &settings, format, "p").contains("point 1"));
+        }
+        for length in [-0.1, 1.5, f64::NAN] {
+            let settings = with(&|s| s.approach = Metres(length));
+            assert!(refused(&points, &settings, format, "p").contains("approach"));
+            let settings = with(&|s| s.blend = Metres(length));
+            assert!(refused(&points, &settings, format, "p").contains("blend"));
+        }
+        let settings = with(&|s| s.gun_output = 60_000);
+        assert!(refused(&points, &settings, format, "p").contains("output"));
+        if format != ProgramFormat::UrScript {
+            for tool in ["0", "64", "gun 1", ""] {
+                let settings = with(&|s| s.tool = Some(tool.into()));
+                assert!(refused(&points, &settings, format, "p").contains("no tool"));
+            }
+        }
+    }
+    let long: Vec<ProgramPoint> = points.iter().copied().cycle().take(20_000).collect();
+    for format in ProgramFormat::ALL {
+        match program(&long, &usual).text(format, "p") {
+            Err(error) => assert!(error.to_string().contains("holds 9999"), "{error}"),
+            Ok(text) => assert_eq!(parse::read(format, &text).moves.len(), 20_002),
+        }
+    }
+}
+
+#[test]
+fn a_program_is_saved_by_its_ending_and_only_a_program_is_taken_away() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let points = row();
+    let settings = ProgramSettings::default();
+    for format in ProgramFormat::ALL {
+        let path = folder.path().join(format!("paint.{}", format.ending()));
+        assert_eq!(ProgramFormat::of(&path).expect("known"), format);
+        assert!(!remove_previous_program(&path).expect("nothing there"));
+        program(&points, &settings)
+            .save(&path, format)
+            .expect("saved");
+        assert!(remove_previous_program(&path).expect("removed"));
+        assert!(!path.exists());
+        std::fs::write(&path, "mine").expect("written");
+        assert!(!remove_previous_program(&path).expect("not ours"));
+        assert!(path.exists());
+    }
+    let error = ProgramFormat::of(Path::new("paint.txt")).expect_err("unknown");
+    assert!(
+        error
+            .advice()
+            .contains(".src, .ls, .mod, .script, .jbi, .drl")
+    );
+    let name = folder.path().join("1 door.src");
+    let failed = program(&points, &settings).save(&name, ProgramFormat::Krl);
+    assert!(failed.is_err() && !name.exists());
+}

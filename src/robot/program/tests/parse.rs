@@ -1,0 +1,315 @@
+//! Reads programs back by what the controllers' manuals say, knowing nothing of the writers.
+
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
+
+use crate::{geometry::rigid::RigidTransform, robot::program::ProgramFormat};
+
+/// A move as a controller would run it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Move {
+    pub(super) to: RigidTransform,
+    /// None for a joint move.
+    pub(super) speed: Option<f64>,
+    /// The gun on the way.
+    pub(super) is_gun_on: bool,
+    /// True if the point is reached, false if the corner may be cut.
+    pub(super) is_exact: bool,
+}
+
+/// What was read.
+#[derive(Debug, Default)]
+pub(super) struct Read {
+    pub(super) name: String,
+    pub(super) tool: String,
+    pub(super) output: String,
+    pub(super) comments: Vec<String>,
+    pub(super) moves: Vec<Move>,
+    /// After the last line.
+    pub(super) is_gun_on: bool,
+}
+
+pub(super) fn read(format: ProgramFormat, text: &str) -> Read {
+    match format {
+        ProgramFormat::Krl => krl(text),
+        ProgramFormat::Ls => ls(text),
+        ProgramFormat::Rapid => rapid(text),
+        ProgramFormat::UrScript => urscript(text),
+        ProgramFormat::Jbi => jbi(text),
+        ProgramFormat::Drl => drl(text),
+    }
+}
+
+/// All numbers in a text.
+fn numbers(text: &str) -> Vec<f64> {
+    text.split(|c: char| !(c.is_ascii_digit() || matches!(c, '-' | '.')))
+        .filter_map(|word| word.parse().ok())
+        .collect()
+}
+
+fn between<'a>(text: &'a str, begin: &str, end: &str) -> &'a str {
+    let (_, rest) = text
+        .split_once(begin)
+        .unwrap_or_else(|| panic!("{begin} in {text}"));
+    rest.split_once(end)
+        .unwrap_or_else(|| panic!("{end} in {text}"))
+        .0
+}
+
+fn about(axis: Vector3<f64>, degrees: f64) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_scaled_axis(axis * degrees.to_radians())
+}
+
+/// Millimetres and a rotation.
+fn placed(mm: &[f64], rotation: UnitQuaternion<f64>) -> RigidTransform {
+    Isometry3::from_parts(
+        Translation3::new(mm[0] / 1000.0, mm[1] / 1000.0, mm[2] / 1000.0),
+        rotation,
+    )
+}
+
+/// First about the fixed x, then about the fixed y, then about the fixed z.
+fn fixed_xyz(mm: &[f64], rx: f64, ry: f64, rz: f64) -> RigidTransform {
+    let turn = about(Vector3::z(), rz) * about(Vector3::y(), ry) * about(Vector3::x(), rx);
+    placed(mm, turn)
+}
+
+fn krl(text: &str) -> Read {
+    let mut read = Read::default();
+    let frame = |line: &str| {
+        let inner = between(line, "{", "}");
+        let value = |name: &str| {
+            let cell = inner.split(',').find(|cell| cell.trim().starts_with(name));
+            numbers(cell.expect(name))[0]
+        };
+        let mm = [value("X "), value("Y "), value("Z ")];
+        fixed_xyz(&mm, value("C "), value("B "), value("A "))
+    };
+    let (mut speed, mut pending) = (f64::NAN, None);
+    for line in text.split("\r\n") {
+        assert!(line.len() <= 140, "{line}");
+        if let Some(comment) = line.strip_prefix("; ") {
+            read.comments.push(comment.into());
+        } else if let Some(rest) = line.strip_prefix("DEF ") {
+            read.name = rest.trim_end_matches(" ( )").into();
+        } else if let Some(rest) = line.strip_prefix("BAS (#TOOL,") {
+            read.tool = rest.trim_end_matches(')').into();
+        } else if let Some(rest) = line.strip_prefix("$VEL.CP=") {
+            speed = rest.parse().expect("a speed");
+        } else if let Some(rest) = line.strip_prefix("$OUT[") {
+            read.output = rest.split(']').next().expect("a number").into();
+            read.is_gun_on = rest.ends_with("=TRUE");
+        } else if let Some(rest) = line.strip_prefix("TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[") {
+            assert_eq!(rest.split(']').next(), Some(read.output.as_str()));
+            pending = Some(rest.ends_with("=TRUE"));
+        } else if line.starts_with("PTP") || line.starts_with("LIN") {
+            read.moves.push(Move {
+                to: frame(line),
+                speed: line.starts_with("LIN").then_some(speed),
+                is_gun_on: read.is_gun_on,
+                is_exact: !line.ends_with("C_DIS"),
+            });
+            read.is_gun_on = pending.take().unwrap_or(read.is_gun_on);
+        }
+    }
+    assert!(text.trim_end().ends_with("END"));
+    read
+}
+
+fn ls(text: &str) -> Read {
+    let mut read = Read::default();
+    let (program, points) = text.split_once("/POS\r\n").expect("positions");
+    let (head, program) = program.split_once("/MN\r\n").expect("moves");
+    let place = |number: &str| {
+        let body = between(points, &format!("P[{number}]{{"), "};");
+        assert!(body.contains("UF : 0") && body.contains("CONFIG : 'N U T, 0, 0, 0'"));
+        let value = |name: &str| {
+            let (_, rest) = body.split_once(&format!("\t{name} = ")).expect(name);
+            numbers(rest)[0]
+        };
+        let mm = [value("X"), value("Y"), value("Z")];
+        fixed_xyz(&mm, value("W"), value("P"), value("R"))
+    };
+    read.name = between(head, "/PROG  ", "\r\n").into();
+    let count = between(head, "LINE_COUNT\t= ", ";")
+        .parse::<usize>()
+        .expect("a count");
+    assert_eq!(program.lines().count(), count);
+    for (i, line) in program.lines().enumerate() {
+        let (number, rest) = line.split_once(':').expect("a number");
+        assert_eq!(number.trim(), (i + 1).to_string());
+        let rest = rest.trim_end_matches(" ;");
+        if let Some(comment) = rest.strip_prefix("  !") {
+            assert!(comment.len() <= 32);
+            read.comments.push(comment.into());
+        } else if let Some(tool) = rest.strip_prefix("  UTOOL_NUM=") {
+            read.tool = tool.into();
+        } else if let Some(output) = rest.strip_prefix("  DO[") {
+            read.output = output.split(']').next().expect("a number").into();
+            read.is_gun_on = output.ends_with("=ON");
+        } else if rest.starts_with(['J', 'L']) {
+            let speed = rest
+                .split("mm/sec")
+                .next()
+                .and_then(|head| head.split(' ').next_back());
+            let is_line = rest.starts_with('L');
+            read.moves.push(Move {
+                to: place(between(rest, "P[", "]")),
+                speed: is_line.then(|| speed.expect("one").parse::<f64>().expect("mm/s") / 1000.0),
+                is_gun_on: read.is_gun_on,
+                is_exact: rest.ends_with("FINE"),
+            });
+        } else {
+            assert_eq!(rest, "  UFRAME_NUM=0");
+        }
+    }
+    assert!(points.ends_with("/END\r\n"));
+    read
+}
+
+fn rapid(text: &str) -> Read {
+    let mut read = Read::default();
+    for line in text.lines().map(str::trim) {
+        if let Some(comment) = line.strip_prefix("! ") {
+            read.comments.push(comment.into());
+        } else if let Some(name) = line.strip_prefix("MODULE ") {
+            read.name = name.into();
+        } else if let Some(rest) = line.strip_prefix("SetDO doGun") {
+            let (output, state) = rest.trim_end_matches(';').split_once(',').expect("two");
+            read.output = output.into();
+            read.is_gun_on = state == "1";
+        } else if line.starts_with("Move") {
+            let n = numbers(line);
+            let turn = Quaternion::new(n[3], n[4], n[5], n[6]);
+            assert!((turn.norm() - 1.0).abs() < 1e-6);
+            // Behind the target: its configuration and external axes.
+            let rest = between(line, ",[9E9,9E9,9E9,9E9,9E9,9E9]],", ";");
+            let (speed, rest) = rest.split_once("],").expect("a speed");
+            let (tool, gun) = rest.split_once("\\WObj:=wobj0").expect("a frame");
+            let is_exact = tool.starts_with("fine,");
+            read.tool = tool.rsplit_once(',').expect("a tool").1.into();
+            read.moves.push(Move {
+                to: placed(&n, UnitQuaternion::from_quaternion(turn)),
+                speed: (!line.starts_with("MoveJ ")).then(|| numbers(speed)[0] / 1000.0),
+                is_gun_on: read.is_gun_on,
+                is_exact,
+            });
+            assert_eq!(line.starts_with("MoveLDO "), !gun.is_empty());
+            if let Some(gun) = gun.strip_prefix(",doGun") {
+                read.is_gun_on = gun.ends_with(",1");
+            }
+        }
+    }
+    assert!(text.ends_with("ENDPROC\r\nENDMODULE\r\n"));
+    read
+}
+
+fn urscript(text: &str) -> Read {
+    let mut read = Read::default();
+    let pose = |line: &str| {
+        let n = numbers(between(line, "p[", "]"));
+        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(n[3], n[4], n[5]));
+        Isometry3::from_parts(Translation3::new(n[0], n[1], n[2]), turn)
+    };
+    for line in text.lines().map(str::trim) {
+        if let Some(comment) = line.strip_prefix("# ") {
+            read.comments.push(comment.into());
+        } else if let Some(name) = line.strip_prefix("def ") {
+            read.name = name.trim_end_matches("():").into();
+        } else if let Some(rest) = line.strip_prefix("set_standard_digital_out(") {
+            let (output, state) = rest.split_once(", ").expect("two");
+            read.output = output.into();
+            read.is_gun_on = state == "True)";
+        } else if let Some(tool) = line.strip_prefix("set_tcp") {
+            read.tool = tool.into();
+        } else if line.starts_with("move") {
+            let is_line = line.starts_with("movel(");
+            let value = |name: &str| numbers(line.split_once(name).expect(name).1)[0];
+            read.moves.push(Move {
+                to: pose(line),
+                speed: is_line.then(|| value(" v=")),
+                is_gun_on: read.is_gun_on,
+                is_exact: !is_line || value(" r=") == 0.0,
+            });
+        }
+    }
+    assert!(text.ends_with("end\n"));
+    read
+}
+
+fn jbi(text: &str) -> Read {
+    let mut read = Read::default();
+    let mut places = Vec::new();
+    let mut num_places = 0;
+    for line in text.split("\r\n") {
+        if let Some(name) = line.strip_prefix("//NAME ") {
+            read.name = name.into();
+        } else if let Some(tool) = line.strip_prefix("///TOOL ") {
+            read.tool = tool.into();
+        } else if let Some(counts) = line.strip_prefix("///NPOS ") {
+            num_places = numbers(counts)[0] as usize;
+        } else if let Some(place) = line.strip_prefix('C') {
+            let (number, numbers_of) = place.split_once('=').expect("a place");
+            assert_eq!(number, format!("{:05}", places.len()));
+            let n = numbers(numbers_of);
+            places.push(fixed_xyz(&n, n[3], n[4], n[5]));
+        } else if let Some(comment) = line.strip_prefix('\'') {
+            assert!(comment.len() <= 32);
+            read.comments.push(comment.into());
+        } else if let Some(rest) = line.strip_prefix("DOUT OT#(") {
+            let (output, state) = rest.split_once(") ").expect("two");
+            read.output = output.into();
+            read.is_gun_on = state == "ON";
+        } else if line.starts_with("MOV") {
+            let mut words = line.split(' ');
+            let is_line = words.next() == Some("MOVL");
+            let number: usize = words.next().expect("a place")[1..].parse().expect("number");
+            let speed = words.next().expect("a speed");
+            read.moves.push(Move {
+                to: places[number],
+                speed: is_line.then(|| speed[2..].parse::<f64>().expect("mm/s") / 1000.0),
+                is_gun_on: read.is_gun_on,
+                is_exact: words.next() == Some("PL=0"),
+            });
+        }
+    }
+    assert_eq!(places.len(), num_places);
+    for line in [
+        "///POSTYPE BASE",
+        "///RECTAN",
+        "////FRAME BASE",
+        "NOP",
+        "END",
+    ] {
+        assert!(text.contains(&format!("\r\n{line}\r\n")), "{line}");
+    }
+    read
+}
+
+fn drl(text: &str) -> Read {
+    let mut read = Read::default();
+    for line in text.lines() {
+        if let Some(comment) = line.strip_prefix("# ") {
+            read.comments.push(comment.into());
+        } else if let Some(tool) = line.strip_prefix("set_tcp(") {
+            read.tool = tool.trim_end_matches(')').trim_matches('"').into();
+        } else if let Some(rest) = line.strip_prefix("set_digital_output(") {
+            let (output, state) = rest.split_once(", ").expect("two");
+            read.output = output.into();
+            read.is_gun_on = state == "ON)";
+        } else if line.starts_with("move") {
+            let n = numbers(between(line, "posx(", ")"));
+            let turn =
+                about(Vector3::z(), n[3]) * about(Vector3::y(), n[4]) * about(Vector3::z(), n[5]);
+            let is_line = line.starts_with("movel(");
+            assert!(line.contains("ref=DR_BASE"));
+            let value = |name: &str| numbers(line.split_once(name).expect(name).1)[0];
+            read.moves.push(Move {
+                to: placed(&n, turn),
+                speed: is_line.then(|| value(" vel=") / 1000.0),
+                is_gun_on: read.is_gun_on,
+                is_exact: !is_line || value(" radius=") == 0.0,
+            });
+        }
+    }
+    read
+}

@@ -1,0 +1,117 @@
+//! Lines of a program, and numbers in them.
+
+use super::{ProgramError, ProgramFormat};
+use crate::{geometry::rigid::RigidTransform, robot::RobotPose};
+
+/// A program's text as it grows, and how many instructions it has.
+#[derive(Debug, Default)]
+pub(super) struct Lines {
+    text: String,
+    num_instructions: usize,
+}
+
+impl Lines {
+    /// One line that is no instruction.
+    pub(super) fn add(&mut self, line: impl AsRef<str>) {
+        self.text.push_str(line.as_ref());
+        self.text.push('\n');
+    }
+
+    /// One instruction.
+    pub(super) fn instruct(&mut self, line: impl AsRef<str>) {
+        self.num_instructions += 1;
+        self.add(line);
+    }
+
+    /// Everything of `other` behind this.
+    pub(super) fn append(&mut self, other: &Self) {
+        self.text.push_str(&other.text);
+        self.num_instructions += other.num_instructions;
+    }
+
+    pub(super) fn num_instructions(&self) -> usize {
+        self.num_instructions
+    }
+
+    /// The text, with the line ends of the controller.
+    pub(super) fn finish(self, format: ProgramFormat) -> Result<String, ProgramError> {
+        if let Some(most) = format
+            .most_lines()
+            .filter(|most| self.num_instructions > *most)
+        {
+            return Err(ProgramError::TooMany {
+                format,
+                found: self.num_instructions,
+                most,
+            });
+        }
+        Ok(match format {
+            ProgramFormat::UrScript | ProgramFormat::Drl => self.text,
+            _ => self.text.replace('\n', "\r\n"),
+        })
+    }
+}
+
+/// A letter, then letters, digits and _, all ASCII.
+pub(super) fn is_identifier(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_')
+}
+
+/// Header lines as comments of at most `width` letters, ASCII only: controllers refuse or garble the rest.
+pub(super) fn comments(header: &[String], width: usize) -> Vec<String> {
+    let mut lines = Vec::new();
+    for text in header {
+        let ascii: String = text.chars().map(ascii_of).collect();
+        let mut line = String::new();
+        for word in ascii.split_whitespace() {
+            let mut word = word;
+            if !line.is_empty() && line.len() + 1 + word.len() > width {
+                lines.push(std::mem::take(&mut line));
+            }
+            while word.len() > width {
+                let (head, rest) = word.split_at(width);
+                lines.push(head.to_owned());
+                word = rest;
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+        lines.push(line);
+    }
+    lines
+}
+
+/// Marks that end a comment or a line somewhere become _ too.
+fn ascii_of(c: char) -> char {
+    match c {
+        '°' => 'd',
+        ';' | '"' | '\'' | '{' | '}' => '_',
+        c if c.is_ascii_graphic() || c == ' ' => c,
+        c if c.is_whitespace() => ' ',
+        _ => '_',
+    }
+}
+
+/// The number with so many decimals, without a minus before zero.
+pub(super) fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_zero = text.bytes().all(|c| matches!(c, b'-' | b'.' | b'0'));
+    let text = if is_zero {
+        text.trim_start_matches('-')
+    } else {
+        &text
+    };
+    text.to_owned()
+}
+
+/// The pose's numbers in the language's convention: micrometres, and angles to 1e-4° or 1e-6 rad.
+pub(super) fn numbers(format: ProgramFormat, pose: &RigidTransform) -> Vec<String> {
+    let RobotPose { values, .. } = format.convention().write(pose);
+    values
+        .iter()
+        .map(crate::robot::RobotValue::rounded)
+        .collect()
+}

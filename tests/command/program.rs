@@ -1,0 +1,148 @@
+//! Programs for a robot's controller.
+
+use std::{
+    fs::File,
+    time::{Duration, SystemTime},
+};
+
+use crate::workplace::Workplace;
+
+/// A cell, a door before its camera, and a stored path of three points.
+fn shop() -> Workplace {
+    let shop = Workplace::new();
+    let cell = "kuka 1200 -400 1900 86 -5 120";
+    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+    hang(&shop, "front_door");
+    shop
+}
+
+fn hang(shop: &Workplace, part: &str) {
+    let placed = [
+        "simulate",
+        "--part",
+        part,
+        "--placement",
+        "facing",
+        "--seed",
+        "5",
+        "--out",
+    ];
+    shop.coded(0, &[&placed[..], &["door.pcd"]].concat());
+}
+
+fn store_path(shop: &Workplace) {
+    shop.write(
+        "path.csv",
+        "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n\
+         -40,150,1130,0,0,1\n0,150,1130,0,0,1\n40,150,1130,0,0,1\n",
+    );
+    shop.coded(0, &["library", "path", "front_door", "path.csv"]);
+}
+
+#[test]
+fn an_accepted_part_is_painted_by_a_program_of_each_controller() {
+    let shop = shop();
+    let ran = shop.coded(2, &["inspect", "door.pcd", "--program", "paint.src"]);
+    assert!(ran.err.contains("no spray path"), "{}", ran.err);
+    store_path(&shop);
+    for (file, wanted) in [
+        ("paint.src", "DEF paint ( )"),
+        ("paint.ls", "/PROG  PAINT"),
+        ("paint.mod", "PROC run_paint()"),
+        ("paint.script", "def paint():"),
+        ("paint.jbi", "//NAME PAINT"),
+        ("paint.drl", "movejx(posx("),
+    ] {
+        shop.coded(0, &["inspect", "door.pcd", "--program", file]);
+        let text = shop.read(file);
+        for wanted in [
+            wanted,
+            "SIMULATED",
+            "part: front_door",
+            "3 points, gun: output 1",
+        ] {
+            assert!(text.contains(wanted), "{file} {wanted}: {text}");
+        }
+        assert!(!text.contains("FORCED"));
+    }
+    let ran = shop.coded(2, &["inspect", "door.pcd", "--program", "paint.txt"]);
+    assert!(ran.err.contains("--robot-program-format"), "{}", ran.err);
+    let as_drl = ["--program", "paint.txt", "--robot-program-format", "drl"];
+    shop.coded(0, &[&["inspect", "door.pcd"][..], &as_drl].concat());
+    assert!(shop.read("paint.txt").contains("posx("));
+    let ran = shop.coded(2, &["inspect", "door.pcd", "--program", "1 door.src"]);
+    assert!(
+        ran.err.contains("Name the file with letters"),
+        "{}",
+        ran.err
+    );
+}
+
+#[test]
+fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unless_forced() {
+    let shop = shop();
+    store_path(&shop);
+    let inspect = ["inspect", "door.pcd", "--program", "paint.src"];
+    shop.coded(0, &inspect);
+    // Refused.
+    hang(&shop, "empty");
+    shop.coded(1, &inspect);
+    assert!(!shop.path("paint.src").exists());
+    // Out of reach: the arm is nowhere near.
+    hang(&shop, "front_door");
+    shop.coded(0, &inspect);
+    let nozzle = "kuka 0 0 250 0 0 0";
+    let arm = ["--arm", "kr6-r900", "--nozzle", nozzle];
+    let ran = shop.coded(1, &[&inspect[..], &arm].concat());
+    assert!(ran.err.contains("reaches"), "{}", ran.err);
+    assert!(!shop.path("paint.src").exists());
+    let ran = shop.coded(
+        2,
+        &[&inspect[..], &["--arm", "ur10e", "--nozzle", nozzle]].concat(),
+    );
+    assert!(ran.err.contains("spherical wrist"), "{}", ran.err);
+    shop.coded(0, &[&inspect[..], &arm, &["--force"]].concat());
+    assert!(
+        shop.read("paint.src")
+            .contains("FORCED: KUKA KR 6 R900-2 reaches")
+    );
+    // Old.
+    let long_ago = SystemTime::now() - Duration::from_hours(1);
+    let file = File::options().write(true).open(shop.path("door.pcd"));
+    file.and_then(|file| file.set_modified(long_ago))
+        .expect("an old file");
+    let ran = shop.coded(1, &inspect);
+    assert!(ran.err.contains("10 minutes old"), "{}", ran.err);
+    assert!(!shop.path("paint.src").exists());
+    shop.coded(0, &[&inspect[..], &["--force"]].concat());
+    assert!(shop.read("paint.src").contains("FORCED: the capture"));
+    // What is no program is not taken away.
+    shop.write("notes.src", "mine");
+    shop.coded(1, &["inspect", "door.pcd", "--program", "notes.src"]);
+    assert_eq!(shop.read("notes.src"), "mine");
+}
+
+#[test]
+fn a_path_is_checked_against_an_arm() {
+    let shop = shop();
+    let check = [
+        "path",
+        "check",
+        "front_door",
+        "--nozzle",
+        "kuka 0 0 250 0 45 0",
+        "--arm",
+    ];
+    let ran = shop.coded(2, &[&check[..], &["irb4600"]].concat());
+    assert!(ran.err.contains("no spray path"), "{}", ran.err);
+    store_path(&shop);
+    let ran = shop.coded(2, &[&check[..], &["ur10e"]].concat());
+    assert!(ran.err.contains("spherical wrist"), "{}", ran.err);
+    let far = ["kr6-r900", "--base", "kuka 90000 0 0 0 0 0"];
+    let ran = shop.coded(1, &[&check[..], &far].concat());
+    assert!(ran.out.contains("point 1: out of reach"), "{}", ran.out);
+    let ran = shop.coded(1, &[&check[..], &far, &["--json"]].concat());
+    let line = ran.json();
+    assert_eq!(line["num_points"], 3);
+    assert_eq!(line["num_reached"], 0);
+}
