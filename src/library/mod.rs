@@ -55,7 +55,9 @@ pub use self::{
     shared_title::SharedTitle,
     shipped::{EnrolledAt, shipped_enrolled_at},
     similarity::{Similarity, likenesses, most_similar},
-    spray_path::{MAX_PATH_POINTS, PathLineProblem, PathPoint, SprayPath, SprayPathError},
+    spray_path::{
+        MAX_PATH_POINTS, MAX_SPEED, PathLineProblem, PathPoint, SprayPath, SprayPathError,
+    },
     store::{LibraryFolder, Renamed, Restored, Saved},
     trash::TrashEntry,
     truth::Truth,

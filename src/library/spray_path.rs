@@ -11,7 +11,9 @@
 //! 12.0, -40.5, 1291.0, 0, 0, -1, 150           a place of the surface, its normal towards the nozzle, the distance
 //! ```
 //!
-//! Lengths are in `_mm` or `_m`; the last column may be missing, and is 150 mm then. Further columns are read over. The
+//! Lengths are in `_mm` or `_m`; the last column may be missing, and is 150 mm then. Two more columns may follow, each
+//! for the way from its point to the next: `gun_on` (1 or 0; 1 where there is no such column) and `speed_mm_s` or
+//! `speed_m_s`. `fan_x`, `fan_y` and `fan_z` point along the long side of a flat jet. Further columns are read over. The
 //! part's frame is that of its reference cloud: the camera's at the moment of enrolling (x right, y down, z forward).
 
 mod error;
@@ -38,6 +40,12 @@ pub struct PathPoint {
     pub direction: Unit<Vector3<f64>>,
     /// How far the surface was when the path was taught, where that is known.
     pub stand_off: Option<Metres>,
+    /// True if the gun sprays on the way from this point to the next.
+    pub is_gun_on: bool,
+    /// Speed on the way from this point to the next, m/s, above 0 and at most [`MAX_SPEED`]; where the path sets one.
+    pub speed: Option<f64>,
+    /// Along the long side of the fan, at right angles to `direction`; none for a round jet.
+    pub fan: Option<Unit<Vector3<f64>>>,
 }
 
 /// A path of the nozzle, in its order; never empty.
@@ -54,6 +62,8 @@ pub(super) const MAX_BYTES: u64 = 8 << 20;
 const TAUGHT: f64 = 0.15;
 /// No part and no arm reaches farther: the numbers are in another unit.
 const FARTHEST: f64 = 20.0;
+/// Faster than any robot moves a gun, m/s: the numbers are in another unit.
+pub const MAX_SPEED: f64 = 5.0;
 
 /// What a column holds.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -63,6 +73,9 @@ enum Column {
     Surface(usize),
     Normal(usize),
     StandOff,
+    GunOn,
+    Speed,
+    Fan(usize),
 }
 
 impl SprayPath {
@@ -117,26 +130,32 @@ impl SprayPath {
     pub(super) fn to_text(&self) -> String {
         let mut text = String::from(
             "# Partsight spray path, in the frame of the part's reference cloud: nozzle positions, and the way it points.\n\
-             nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z,stand_off_mm\n",
+             nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z,stand_off_mm,gun_on,speed_mm_s,fan_x,fan_y,fan_z\n",
         );
         for PathPoint {
             nozzle,
             direction,
             stand_off,
+            is_gun_on,
+            speed,
+            fan,
         } in &self.points
         {
             let mm = nozzle.coords * 1000.0;
             // Writing to memory does not fail.
             let _ = writeln!(
                 text,
-                "{:.3},{:.3},{:.3},{:.8},{:.8},{:.8},{}",
+                "{:.3},{:.3},{:.3},{:.8},{:.8},{:.8},{},{},{},{}",
                 mm.x,
                 mm.y,
                 mm.z,
                 direction.x,
                 direction.y,
                 direction.z,
-                stand_off.map_or(String::new(), |d| format!("{:.3}", d.mm()))
+                stand_off.map_or(String::new(), |d| format!("{:.3}", d.mm())),
+                u8::from(*is_gun_on),
+                speed.map_or(String::new(), |v| format!("{:.3}", v * 1000.0)),
+                fan.map_or(",,".into(), |f| format!("{:.8},{:.8},{:.8}", f.x, f.y, f.z))
             );
         }
         text
@@ -170,13 +189,18 @@ impl Columns {
     }
 
     fn point(&self, line: Row<'_>) -> Result<PathPoint, PathLineProblem> {
-        let (mut at, mut along) = ([None; 3], [None; 3]);
-        let mut stand_off = None;
+        let (mut at, mut along, mut fan) = ([None; 3], [None; 3], [None; 3]);
+        let (mut stand_off, mut speed) = (None, None);
+        let mut is_gun_on = true;
         for (i, cell) in line.cells().enumerate() {
             let Some(Some((column, factor))) = self.known.get(i) else {
                 continue;
             };
-            if cell.is_empty() && *column == Column::StandOff {
+            let is_optional = matches!(
+                column,
+                Column::StandOff | Column::GunOn | Column::Speed | Column::Fan(_)
+            );
+            if cell.is_empty() && is_optional {
                 continue;
             }
             let number = line.number(cell).filter(|number| number.is_finite());
@@ -192,6 +216,15 @@ impl Columns {
                     along[axis] = Some(number);
                 }
                 (Column::StandOff, _) => stand_off = Some(number),
+                (Column::Fan(axis), _) => fan[axis] = Some(number),
+                (Column::Speed, _) => speed = Some(number),
+                (Column::GunOn, _) if number.abs() < f64::EPSILON => is_gun_on = false,
+                (Column::GunOn, _) if (number - 1.0).abs() < f64::EPSILON => is_gun_on = true,
+                (Column::GunOn, _) => {
+                    return Err(PathLineProblem::GunOn {
+                        cell: cell.to_owned(),
+                    });
+                }
                 _ => {}
             }
         }
@@ -209,20 +242,40 @@ impl Columns {
                 distance: Metres(distance),
             });
         }
+        if let Some(speed) = speed.filter(|speed| !(*speed > 0.0 && *speed <= MAX_SPEED)) {
+            return Err(PathLineProblem::Speed { speed });
+        }
         let along = Vector3::new(u, v, w);
         let unit = Unit::try_new(along, 1e-6).ok_or(PathLineProblem::NoDirection)?;
+        let fan = match fan {
+            [Some(x), Some(y), Some(z)] => {
+                let beside = Vector3::new(x, y, z);
+                let across = beside - unit.into_inner() * unit.dot(&beside);
+                // A fan along the jet says nothing; rounded numbers are squared up.
+                let is_across = across.norm() > 0.9 * beside.norm();
+                let fan = Unit::try_new(across, 1e-6).filter(|_| is_across);
+                Some(fan.ok_or(PathLineProblem::Fan)?)
+            }
+            _ => None,
+        };
         Ok(if self.is_surface {
             let distance = stand_off.unwrap_or(TAUGHT);
             PathPoint {
                 nozzle: at + unit.into_inner() * distance,
                 direction: -unit,
                 stand_off: Some(Metres(distance)),
+                is_gun_on,
+                speed,
+                fan,
             }
         } else {
             PathPoint {
                 nozzle: at,
                 direction: unit,
                 stand_off: stand_off.map(Metres),
+                is_gun_on,
+                speed,
+                fan,
             }
         })
     }
@@ -231,6 +284,12 @@ impl Columns {
 /// What the heading calls a column, and the factor to metres.
 fn column(cell: &str) -> Option<(Column, f64)> {
     let name = cell.trim_matches(['"', '\'']).trim().to_lowercase();
+    match name.as_str() {
+        "gun_on" => return Some((Column::GunOn, 1.0)),
+        "speed_mm_s" => return Some((Column::Speed, 0.001)),
+        "speed_m_s" => return Some((Column::Speed, 1.0)),
+        _ => {}
+    }
     let axis_of = |name: &str| ["x", "y", "z"].iter().position(|axis| *axis == name);
     let length = [("_mm", 0.001), ("_m", 1.0)]
         .into_iter()
@@ -245,8 +304,10 @@ fn column(cell: &str) -> Option<(Column, f64)> {
     }
     let direction = name.strip_prefix("direction_").and_then(axis_of);
     let normal = name.strip_prefix("normal_").and_then(axis_of);
+    let fan = name.strip_prefix("fan_").and_then(axis_of);
     let column = direction
         .map(Column::Direction)
-        .or(normal.map(Column::Normal));
+        .or(normal.map(Column::Normal))
+        .or(fan.map(Column::Fan));
     Some((column?, 1.0))
 }

@@ -112,6 +112,9 @@ mod tests {
             nozzle: Point3::new(x, 0.0, 1.0),
             direction: Vector3::z_axis(),
             stand_off: None,
+            is_gun_on: true,
+            speed: None,
+            fan: None,
         };
         SprayPath::new(vec![point; 3]).expect("points")
     }

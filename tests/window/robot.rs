@@ -330,6 +330,9 @@ pub(crate) fn door_path() -> SprayPath {
         nozzle: Point3::new(x, y, z),
         direction: Vector3::z_axis(),
         stand_off: None,
+        is_gun_on: true,
+        speed: None,
+        fan: None,
     });
     SprayPath::new(points.into()).expect("points")
 }

@@ -180,6 +180,7 @@ impl ProgramFile {
         let camera_from_part = pose.camera_from_part();
         let carried = carry(&path, &camera_from_part, &part.cloud, seen.params);
         let mut points = points_of(&carried, frame);
+        let are_round: Vec<bool> = carried.points.iter().map(|point| point.is_round).collect();
         let mut doubts = Vec::new();
         if !inspection.verdict.is_accepted() {
             doubts.push("the part was not accepted".to_owned());
@@ -187,7 +188,7 @@ impl ProgramFile {
         if is_stale(Path::new(seen.scene)) {
             doubts.push("the capture is more than 10 minutes old".to_owned());
         }
-        doubts.extend(self.unreached(&mut points)?);
+        doubts.extend(self.unreached(&mut points, &are_round)?);
         if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
             console.note(&format_args!("no program was written: {doubt}"));
             console.note(
@@ -220,16 +221,23 @@ impl ProgramFile {
         Ok(Outcome::Accepted)
     }
 
-    /// Turns each nozzle about its axis as the arm reaches it, and says how many points it does not reach.
-    fn unreached(&self, points: &mut [ProgramPoint]) -> anyhow::Result<Option<String>> {
+    /// Turns each nozzle of a round jet about its axis as the arm reaches it, and says how many points it does not reach.
+    fn unreached(
+        &self,
+        points: &mut [ProgramPoint],
+        are_round: &[bool],
+    ) -> anyhow::Result<Option<String>> {
         let Some(arm) = &self.arm else {
             return Ok(None);
         };
-        let wanted = points.iter().map(|point| ArmPoint {
-            robot_from_nozzle: point.robot_from_nozzle,
-            speed: point.speed.unwrap_or(self.settings.speed),
-            is_turn_free: true,
-        });
+        let wanted = points
+            .iter()
+            .zip(are_round)
+            .map(|(point, is_round)| ArmPoint {
+                robot_from_nozzle: point.robot_from_nozzle,
+                speed: point.speed.unwrap_or(self.settings.speed),
+                is_turn_free: *is_round,
+            });
         let wanted: Vec<ArmPoint> = wanted.collect();
         let found = check_path(arm, &wanted, &CheckParams::default()).advised()?;
         for (point, checked) in points.iter_mut().zip(&found.points) {
@@ -244,8 +252,8 @@ impl ProgramFile {
 fn points_of(carried: &CarriedPath, frame: &RobotFrame) -> Vec<ProgramPoint> {
     let points = carried.points.iter().map(|point| ProgramPoint {
         robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
-        is_gun_on: true,
-        speed: None,
+        is_gun_on: point.is_gun_on,
+        speed: point.speed,
     });
     points.collect()
 }

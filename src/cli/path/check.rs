@@ -37,7 +37,7 @@ pub(super) struct CheckArgs {
     /// The arm's base in the frame of the calibration; without it they are the same
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     base: Option<WrittenPose>,
-    /// Speed of the nozzle, mm/s
+    /// Speed of the nozzle where the path sets none, mm/s
     #[arg(long, value_name = "MM/S", default_value_t = 250.0)]
     speed: f64,
     /// Write one line of JSON
@@ -78,8 +78,8 @@ pub(super) fn run(
     );
     let points = carried.points.iter().map(|point| ArmPoint {
         robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
-        speed: args.speed / 1000.0,
-        is_turn_free: true,
+        speed: point.speed.unwrap_or(args.speed / 1000.0),
+        is_turn_free: point.is_round,
     });
     let points: Vec<ArmPoint> = points.collect();
     let placed = PlacedArm {

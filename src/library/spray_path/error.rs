@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::MAX_PATH_POINTS;
+use super::{MAX_PATH_POINTS, MAX_SPEED};
 use crate::{
     error::Advice,
     files::{FileError, shortened},
@@ -93,6 +93,21 @@ pub enum PathLineProblem {
         /// What it says.
         distance: Metres,
     },
+    /// A mark of the gun that is neither 1 nor 0.
+    #[error("{:?} under gun_on, expected 1 or 0", shortened(cell))]
+    GunOn {
+        /// What is there.
+        cell: String,
+    },
+    /// A speed that is none, or that no robot reaches.
+    #[error("a speed of {:.0} mm/s, expected more than 0 and at most {:.0}", speed * 1000.0, MAX_SPEED * 1000.0)]
+    Speed {
+        /// What it says, m/s.
+        speed: f64,
+    },
+    /// A long side of the fan that is not across the jet.
+    #[error("the fan's long side is not at right angles to the direction")]
+    Fan,
     /// A direction of no length.
     #[error("the direction has no length")]
     NoDirection,
@@ -109,6 +124,16 @@ impl Advice for SprayPathError {
             Self::Line { problem, .. } => match problem {
                 PathLineProblem::FarAway { .. } | PathLineProblem::StandOff { .. } => {
                     "Check the unit in the heading: _mm or _m".into()
+                }
+                PathLineProblem::GunOn { .. } => {
+                    "Write 1 where the gun sprays from this point to the next, and 0 where it does not"
+                        .into()
+                }
+                PathLineProblem::Fan => {
+                    "Let fan_x, fan_y, fan_z point along the long side of the jet, or leave them empty for a round one".into()
+                }
+                PathLineProblem::Speed { .. } => {
+                    "Check the unit in the heading: speed_mm_s or speed_m_s".into()
                 }
                 _ => "Correct this line in a text editor or a spreadsheet".into(),
             },

@@ -40,6 +40,41 @@ fn a_surface_point_is_a_nozzle_before_it() {
 }
 
 #[test]
+fn the_gun_and_its_speed_are_read_and_written() {
+    let text = "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z,speed_mm_s,gun_on\n\
+                1,2,3,0,0,1,250,1\n1,2,3,0,0,1,,0\n1,2,3,0,0,1,5000,\n";
+    let path = parse(text).expect("a path");
+    let state = |path: &SprayPath| -> Vec<(bool, Option<f64>)> {
+        let points = path.points().iter();
+        points.map(|p| (p.is_gun_on, p.speed)).collect()
+    };
+    let expected = [(true, Some(0.25)), (false, None), (true, Some(5.0))];
+    assert_eq!(state(&path), expected);
+    assert_eq!(
+        state(&parse(&path.to_text()).expect("its own text")),
+        expected
+    );
+    // In metres, in a path over the surface; and a file without these columns sprays everywhere.
+    let surface = "x_m,y_m,z_m,normal_x,normal_y,normal_z,speed_m_s,gun_on\n0,0,1,0,0,-1,0.4,0\n";
+    let path = parse(surface).expect("a path");
+    assert_eq!(state(&path), [(false, Some(0.4))]);
+    let path = parse("x_m,y_m,z_m,normal_x,normal_y,normal_z\n0,0,1,0,0,-1\n").expect("a path");
+    assert_eq!(state(&path), [(true, None)]);
+}
+
+#[test]
+fn the_long_side_of_the_fan_is_read_and_squared_up() {
+    let text = "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z,fan_x,fan_y,fan_z\n\
+                1,2,3,0,0,1,0,2,0.1\n1,2,3,0,0,1,,,\n";
+    let path = parse(text).expect("a path");
+    let fans: Vec<_> = path.points().iter().map(|p| p.fan).collect();
+    assert_eq!(fans, [Some(Vector3::y_axis()), None]);
+    let again = parse(&path.to_text()).expect("its own text");
+    assert_eq!(again.points()[0].fan, fans[0]);
+    assert_eq!(again.points()[1].fan, None);
+}
+
+#[test]
 fn what_is_no_path_is_named() {
     const HEAD: &str = "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n";
     for (text, expected) in [
@@ -67,6 +102,29 @@ fn what_is_no_path_is_named() {
         (
             "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_m\n1,2,3,0,0,1,150\n".into(),
             "150000.0 mm",
+        ),
+        (
+            format!("{}1,2,3,0,0,1,2\n", HEAD.replace('\n', ",gun_on\n")),
+            "\"2\" under gun_on",
+        ),
+        (
+            format!("{}1,2,3,0,0,1,0\n", HEAD.replace('\n', ",speed_mm_s\n")),
+            "a speed of 0 mm/s",
+        ),
+        (
+            format!("{}1,2,3,0,0,1,350\n", HEAD.replace('\n', ",speed_m_s\n")),
+            "a speed of 350000 mm/s",
+        ),
+        (
+            format!("{}1,2,3,0,0,1,-inf\n", HEAD.replace('\n', ",speed_m_s\n")),
+            "is not a number",
+        ),
+        (
+            format!(
+                "{}1,2,3,0,0,1,0,1,3\n",
+                HEAD.replace('\n', ",fan_x,fan_y,fan_z\n")
+            ),
+            "the fan's long side",
         ),
         (
             format!("{HEAD}{}", "1,2,3,0,0,1\n".repeat(MAX_PATH_POINTS + 1)),

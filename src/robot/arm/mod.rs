@@ -8,7 +8,7 @@
 //! 15°. Straight moves longer than 50 mm are followed in between.
 //!
 //! Known limits: no accelerations and no collisions. The rail stands still while the gun moves. Joint 3 of FANUC arms is
-//! coupled to joint 2 on the controller; its limit here is that of the sum.
+//! coupled to joint 2 on the controller; here it is the angle against the upper arm, and so is its limit.
 
 mod check;
 mod error;

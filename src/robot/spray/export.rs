@@ -108,10 +108,12 @@ struct JsonPoint {
     stand_off_mm: Option<f64>,
     tilt_deg: Option<f64>,
     band: BandStatus,
+    gun_on: bool,
+    speed_mm_s: Option<f64>,
 }
 
 const FRAME: &str = "the robot's base frame";
-const TOOL: &str = "origin at the nozzle's mouth, z the way it points (towards the part), x nearest to the part's x axis, y = z × x";
+const TOOL: &str = "origin at the nozzle's mouth, z the way it points (towards the part), x along the fan's long side or, for a round jet, nearest to the part's x axis, y = z × x";
 
 impl SprayExport<'_> {
     /// Writes the file, whole or not at all.
@@ -175,19 +177,26 @@ impl SprayExport<'_> {
                     })
                     .collect();
                 // Writing to memory does not fail.
-                let _ = writeln!(text, "index,{},stand_off_mm,tilt_deg,band", names.join(","));
+                let _ = writeln!(
+                    text,
+                    "index,{},stand_off_mm,tilt_deg,band,gun_on,speed_mm_s",
+                    names.join(",")
+                );
             }
             let numbers: Vec<String> = pose.values.iter().map(RobotValue::rounded).collect();
             let (distance, tilt) = point.meets.map_or_else(Default::default, |met| {
                 let (distance, tilt) = (met.distance.mm(), met.tilt.degrees());
                 (format!("{distance:.1}"), format!("{tilt:.1}"))
             });
+            let speed = point.speed.map(|v| format!("{:.1}", v * 1000.0));
+            let speed = speed.unwrap_or_default();
             let _ = writeln!(
                 text,
-                "{},{},{distance},{tilt},{}",
+                "{},{},{distance},{tilt},{},{},{speed}",
                 i + 1,
                 numbers.join(","),
-                point.band.name()
+                point.band.name(),
+                u8::from(point.is_gun_on),
             );
         }
         text
@@ -203,6 +212,8 @@ impl SprayExport<'_> {
             stand_off_mm: point.meets.map(|met| met.distance.mm()),
             tilt_deg: point.meets.map(|met| met.tilt.degrees()),
             band: point.band,
+            gun_on: point.is_gun_on,
+            speed_mm_s: point.speed.map(|speed| speed * 1000.0),
         });
         let json = Json {
             schema: SCHEMA,

@@ -5,8 +5,9 @@
 //! sees it*: how far the nozzle's ray is from the surface, and how flat on it meets it. A part that is bent, another model,
 //! or a pose that is off shows there, since carrying a path changes nothing about its distance to the enrolled surface.
 //!
-//! The tool's frame: its origin is the nozzle's mouth, z the way the nozzle points (towards the part), x as near as can be
-//! to the part's own x axis, y = z × x. A round jet leaves the turn about z free; this choice turns with the part and
+//! The tool's frame: its origin is the nozzle's mouth, z the way the nozzle points (towards the part), x along the long
+//! side of the fan or, for a round jet, as near as can be to the part's own x axis, y = z × x. A round jet leaves the turn
+//! about z free; this choice turns with the part and
 //! does not spin from point to point.
 //!
 //! Source of the band: the paper's section V-B, eq. 14 (10 to 20 cm, normal at the nozzle). It gives no limit for the angle;
@@ -57,6 +58,12 @@ pub struct CarriedPoint {
     pub meets: Option<SurfaceHit>,
     /// What is to be thought of it.
     pub band: BandStatus,
+    /// True if the gun sprays from here to the next point.
+    pub is_gun_on: bool,
+    /// Speed from here to the next point, m/s, where the path sets one.
+    pub speed: Option<f64>,
+    /// True if the jet is round, so that the nozzle may turn about its z axis.
+    pub is_round: bool,
 }
 
 /// Where a ray meets the part.
@@ -143,6 +150,9 @@ pub fn carry(
             part_from_nozzle,
             meets,
             band: band_of(meets, params),
+            is_gun_on: point.is_gun_on,
+            speed: point.speed,
+            is_round: point.fan.is_none(),
         }
     });
     CarriedPath {
@@ -186,20 +196,35 @@ pub fn default_path(reference: &Reference, params: &StandOffParams) -> Option<Sp
         nozzle: at.cast::<f64>() + normal.into_inner() * params.taught.0,
         direction: -normal,
         stand_off: Some(params.taught),
+        is_gun_on: true,
+        speed: None,
+        fan: None,
     }])
 }
 
-/// z along the direction, x as near to the part's x as can be, or to its y where the nozzle points along x.
+/// z along the direction; x along the fan's long side, towards the part's x, or as near to the part's x as can be where the
+/// jet is round. Where x would be along the nozzle or across the fan, the part's y takes its place.
 fn tool_frame(point: &PathPoint) -> RigidTransform {
     /// Cosine of 20°.
     const ALONG: f64 = 0.94;
     let z = point.direction.into_inner();
+    if let Some(fan) = point.fan {
+        /// Cosine of 80°: flatter, and the sign could change from point to point.
+        const ACROSS: f64 = 0.17;
+        let sign = if fan.x.abs() > ACROSS { fan.x } else { fan.y };
+        let x = fan.into_inner() * sign.signum();
+        return framed(point, z, x);
+    }
     let near = if z.x.abs() < ALONG {
         Vector3::x()
     } else {
         Vector3::y()
     };
-    let x = (near - z * z.dot(&near)).normalize();
+    framed(point, z, (near - z * z.dot(&near)).normalize())
+}
+
+/// The frame at the nozzle with these axes, which are at right angles.
+fn framed(point: &PathPoint, z: Vector3<f64>, x: Vector3<f64>) -> RigidTransform {
     let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
     let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
     Isometry3::from_parts(Translation3::from(point.nozzle.coords), rotation)

@@ -17,6 +17,9 @@ fn before(x: f64, y: f64, distance: f64) -> PathPoint {
         nozzle: Point3::new(x, y, 1.2 - distance),
         direction: Vector3::z_axis(),
         stand_off: None,
+        is_gun_on: true,
+        speed: None,
+        fan: None,
     }
 }
 
@@ -122,11 +125,23 @@ fn the_tools_frame_is_right_handed_and_turns_with_the_part() {
             nozzle: Point3::new(0.1, 0.2, 0.3),
             direction: Unit::new_normalize(direction),
             stand_off: None,
+            is_gun_on: true,
+            speed: None,
+            fan: None,
         };
         let frame = tool_frame(&point);
         let matrix = frame.rotation.to_rotation_matrix().into_inner();
         assert!((matrix.determinant() - 1.0).abs() < 1e-9);
         assert!((frame * Vector3::z() - point.direction.into_inner()).norm() < 1e-9);
+    }
+    for fan in [Vector3::new(0.6, 0.8, 0.0), -Vector3::new(0.6, 0.8, 0.0)] {
+        let point = PathPoint {
+            fan: Some(Unit::new_normalize(fan)),
+            ..before(0.0, 0.0, 0.15)
+        };
+        // A fan has no front: both signs are one frame.
+        let x = tool_frame(&point) * Vector3::x();
+        assert!((x - Vector3::new(0.6, 0.8, 0.0)).norm() < 1e-9, "{x}");
     }
     let square_on = tool_frame(&before(0.0, 0.0, 0.15));
     assert!((square_on * Vector3::x() - Vector3::x()).norm() < 1e-12);
@@ -165,16 +180,16 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
         let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
         let heading = lines.next().expect("a heading");
         assert!(
-            heading.ends_with(",stand_off_mm,tilt_deg,band"),
+            heading.ends_with(",stand_off_mm,tilt_deg,band,gun_on,speed_mm_s"),
             "{heading}"
         );
         let num = convention.names().len();
         let json: serde_json::Value = serde_json::from_str(&export.json()).expect("JSON");
         for (i, (line, point)) in lines.zip(&carried.points).enumerate() {
             let cells: Vec<&str> = line.split(',').collect();
-            assert_eq!(cells.len(), num + 4, "{line}");
+            assert_eq!(cells.len(), num + 6, "{line}");
             assert_eq!(cells[0], (i + 1).to_string());
-            assert_eq!(cells[num + 3], "inside");
+            assert_eq!(cells[num + 3..], ["inside", "1", ""]);
             let text = format!("{} {}", convention.name(), cells[1..=num].join(" "));
             let read = parse_written_pose(&text).expect("a pose").pose;
             let expected = frame.robot_from_camera * pose * point.part_from_nozzle;
