@@ -103,6 +103,8 @@ fn action_buttons(
     theme: &Theme,
     actions: &mut Vec<InspectAction>,
 ) {
+    /// Left and right of a button's text, logical pixels.
+    const PADDING: f32 = 4.0;
     let ways = [
         (
             text!("inspect-export"),
@@ -123,12 +125,27 @@ fn action_buttons(
     let num = if pose.is_some() { 3 } else { 2 };
     ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
         ui.horizontal(|ui| {
-            ui.spacing_mut().button_padding.x = 4.0;
+            ui.spacing_mut().button_padding.x = PADDING;
             let gaps = ui.spacing().item_spacing.x * (num - 1) as f32;
-            let size = vec2((ui.available_width() - gaps) / num as f32, space::TARGET);
-            for (label, says, action) in ways.into_iter().take(num) {
+            let room = ui.available_width() - gaps;
+            let needed = |(label, ..): &(String, String, InspectAction)| {
+                let colour = theme.text;
+                let galley = ui
+                    .painter()
+                    .layout_no_wrap(label.clone(), font::small(), colour);
+                galley.size().x + 2.0 * PADDING
+            };
+            let mut widths: Vec<f32> = ways.iter().take(num).map(needed).collect();
+            let even = room / num as f32;
+            // Of one width, unless a text needs more.
+            if widths.iter().all(|width| *width <= even) {
+                widths.fill(even);
+            }
+            let spare = (room - widths.iter().sum::<f32>()) / num as f32;
+            for ((label, says, action), width) in ways.into_iter().zip(widths) {
                 let text = RichText::new(label).font(font::small());
-                let button = ui.add(Button::new(text).min_size(size));
+                let size = vec2(width + spare, space::TARGET);
+                let button = ui.add_sized(size, Button::new(text).truncate());
                 focus_ring(ui, button.rect, &button, theme);
                 if button.on_hover_text(says).clicked() {
                     actions.push(action);
