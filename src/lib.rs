@@ -51,6 +51,8 @@ pub mod history;
 #[doc(hidden)]
 pub mod library;
 #[doc(hidden)]
+pub mod paint;
+#[doc(hidden)]
 pub mod pipeline;
 #[cfg(feature = "cli")]
 #[doc(hidden)]

@@ -1,18 +1,21 @@
 //! `partsight path`: what can be done with a part's spray path.
 
 mod check;
+mod paint;
 
 use clap::{Args, Subcommand};
 
 use super::{LibraryChoice, Outcome, console::Console};
 
-/// Check a part's stored spray path against an arm
+/// Plan a part's spray path, simulate its film, and check it against an arm
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
+  partsight path plan front_door --coat primer --propose --output path.csv
+  partsight path simulate front_door --coat primer --path path.csv
   partsight path check front_door --arm irb4600 --nozzle \"kuka 0 0 250 0 45 0\" --calibration cell.toml
 
-Exit codes: 0 every point is reached, 1 some are not, 2 could not run.")]
+Exit codes: 0 every point is reached, or 90 % of the film is within its tolerance; 1 not so; 2 could not run.")]
 pub(super) struct PathArgs {
     #[command(flatten)]
     library: LibraryChoice,
@@ -22,11 +25,15 @@ pub(super) struct PathArgs {
 
 #[derive(Debug, Subcommand)]
 enum PathCommand {
+    Plan(paint::PlanArgs),
+    Simulate(paint::SimulateArgs),
     Check(check::CheckArgs),
 }
 
 pub(super) fn run(args: &PathArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     match &args.command {
+        PathCommand::Plan(plan) => paint::run_plan(&args.library, plan, console),
+        PathCommand::Simulate(simulate) => paint::run_simulate(&args.library, simulate, console),
         PathCommand::Check(check) => check::run(&args.library, check, console),
     }
 }

@@ -10,7 +10,7 @@ use crate::{
     pipeline::{
         BUILT_IN, NamedRecipe, PoseChoice, Recipe, RecipeFile, RecipeFolder, RecipeLabel,
         open_recipe,
-        parameters::{Parameter, Setting, changed},
+        parameters::{Parameter, Parameters, Setting, changed},
     },
     stages::{pose::PoseMethod, rank::Matcher},
 };
@@ -85,7 +85,7 @@ pub(super) struct RecipeSource {
     /// The recipe, by its name (partsight recipe list) or as a file; without it your default recipe
     #[arg(long, value_name = "NAME|FILE")]
     recipe: Option<String>,
-    #[arg(long, value_name = "NAME=VALUE", value_parser = parse_setting, help = SET_HELP)]
+    #[arg(long, value_name = "NAME=VALUE", value_parser = parse_setting::<Recipe>, help = SET_HELP)]
     set: Vec<Setting>,
 }
 
@@ -143,8 +143,8 @@ pub(super) fn show_recipe(recipe: &NamedRecipe, console: &mut Console) {
     }
 }
 
-fn parse_setting(text: &str) -> Result<Setting, String> {
-    let setting = text.parse::<Setting>();
+pub(super) fn parse_setting<R: Parameters>(text: &str) -> Result<Setting<R>, String> {
+    let setting = text.parse::<Setting<R>>();
     setting.map_err(|error| format!("{error}\n  to do: {}", error.advice()))
 }
 

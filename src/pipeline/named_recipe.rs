@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Recipe,
-    parameters::{Setting, changed},
+    parameters::{Parameters, Setting, changed},
     recipe_error::RecipeError,
 };
 use crate::{
@@ -136,13 +136,13 @@ impl From<&NamedRecipe> for RecipeBlock {
 
 /// What a recipe file holds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RecipeFile {
+pub struct RecipeFile<R = Recipe> {
     /// The name.
     pub name: PartName,
     /// What a person remarks; may be empty.
     pub notes: String,
     /// All parameters.
-    pub recipe: Recipe,
+    pub recipe: R,
 }
 
 /// The file, before its parameters are checked.
@@ -173,13 +173,16 @@ impl RecipeFile {
             recipe: Recipe::default(),
         }
     }
+}
 
+impl<R: Parameters> RecipeFile<R> {
     /// Reads a file; one bad parameter, and nothing of it counts.
     pub fn read(path: &Path) -> Result<Self, RecipeError> {
         Self::parse(path, &read_text(path, MAX_BYTES)?)
     }
 
-    fn parse(path: &Path, text: &str) -> Result<Self, RecipeError> {
+    /// The recipe in a text; errors name it as this file.
+    pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, RecipeError> {
         let garbled = |error: toml::de::Error| {
             let message = error.message();
             RecipeError::Garbled {
@@ -199,9 +202,9 @@ impl RecipeFile {
         }
         let mut settings = Vec::new();
         flatten(&written.parameters, "", &mut settings);
-        let mut recipe = Recipe::default();
+        let mut recipe = R::default();
         for setting in settings {
-            let setting = setting.parse::<Setting>();
+            let setting = setting.parse::<Setting<R>>();
             let setting = setting.map_err(|source| RecipeError::BadParameter {
                 path: path.to_owned(),
                 source,
@@ -362,15 +365,15 @@ mod tests {
     fn a_file_that_is_none_or_too_large_is_refused() {
         let folder = tempfile::tempdir().expect("a folder");
         let at = |name: &str| folder.path().join(name);
-        assert!(RecipeFile::read(&at("missing.toml")).is_err());
-        assert!(RecipeFile::read(folder.path()).is_err());
+        assert!(RecipeFile::<Recipe>::read(&at("missing.toml")).is_err());
+        assert!(RecipeFile::<Recipe>::read(folder.path()).is_err());
         let valid = named(Recipe::default()).text();
         let padded = format!("{valid}#{}", " ".repeat(MAX_BYTES as usize));
         std::fs::write(at("large.toml"), padded).expect("written");
-        let error = RecipeFile::read(&at("large.toml")).expect_err("too large");
+        let error = RecipeFile::<Recipe>::read(&at("large.toml")).expect_err("too large");
         assert!(error.to_string().contains("large.toml"), "{error}");
         std::fs::write(at("bytes.toml"), [0xff, 0xfe, 0]).expect("written");
-        assert!(RecipeFile::read(&at("bytes.toml")).is_err());
+        assert!(RecipeFile::<Recipe>::read(&at("bytes.toml")).is_err());
     }
 
     #[test]

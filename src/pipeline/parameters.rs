@@ -1,7 +1,8 @@
 //! The parameters of a [`Recipe`], as a person sees them: name, unit, range, default and what each does.
 //!
 //! [`PARAMETERS`] is their only list. The sliders of the window, the option `--set` ([`Setting`]) and the tables of
-//! `docs/guide/parameters.md` follow from it; defaults are those of `Recipe::default()`.
+//! `docs/guide/parameters.md` follow from it; defaults are those of `Recipe::default()`. Other recipes have lists of their
+//! own by [`Parameters`], and the same settings and files.
 
 mod table;
 
@@ -10,6 +11,19 @@ use std::str::FromStr;
 pub use self::table::PARAMETERS;
 use super::Recipe;
 use crate::{error::Advice, files::nearest_name};
+
+/// What is made of parameters, such as a [`Recipe`].
+pub trait Parameters: Clone + Default + PartialEq + 'static {
+    /// What its parameters are grouped by.
+    type Group: Copy + std::fmt::Debug + 'static;
+    /// All of them, group by group.
+    const ALL: &'static [Parameter<Self>];
+}
+
+impl Parameters for Recipe {
+    type Group = Group;
+    const ALL: &'static [Parameter] = PARAMETERS;
+}
 
 /// Where in the flow a parameter acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,6 +96,14 @@ pub enum DisplayUnit {
     SquareMillimetres,
     /// Degrees.
     Degrees,
+    /// Millimetres a second; inside it is metres a second.
+    MillimetresPerSecond,
+    /// Millilitres a minute; inside it is cubic metres a second.
+    MillilitresPerMinute,
+    /// Thousandths of a millimetre.
+    Micrometres,
+    /// Hundredths; inside it is a share of 1.
+    Percent,
 }
 
 impl DisplayUnit {
@@ -93,6 +115,10 @@ impl DisplayUnit {
             Self::SquareCentimetres => " cm²",
             Self::SquareMillimetres => " mm²",
             Self::Degrees => "°",
+            Self::MillimetresPerSecond => " mm/s",
+            Self::MillilitresPerMinute => " ml/min",
+            Self::Micrometres => " µm",
+            Self::Percent => " %",
         }
     }
 
@@ -100,48 +126,54 @@ impl DisplayUnit {
     pub fn per_inner(self) -> f64 {
         match self {
             Self::None => 1.0,
-            Self::Millimetres => 1000.0,
+            Self::Millimetres | Self::MillimetresPerSecond => 1000.0,
             Self::SquareCentimetres => 1e4,
-            Self::SquareMillimetres => 1e6,
+            Self::SquareMillimetres | Self::Micrometres => 1e6,
+            Self::MillilitresPerMinute => 6e7,
+            Self::Percent => 100.0,
             Self::Degrees => 180.0 / std::f64::consts::PI,
         }
     }
 }
 
 /// A number among the parameters, in the unit it is shown in.
-#[derive(Clone, Copy, Debug)]
-pub struct Number {
+#[derive(Debug)]
+pub struct Number<R = Recipe> {
     /// The unit.
     pub unit: DisplayUnit,
     /// Least and greatest valid value.
     pub range: [f64; 2],
     /// Digits after the point.
     pub decimals: usize,
-    get: fn(&Recipe) -> f64,
-    set: fn(&mut Recipe, f64),
+    /// Reads it, in the unit used inside.
+    pub get: fn(&R) -> f64,
+    /// Writes it, in the unit used inside.
+    pub set: fn(&mut R, f64),
 }
 
 /// A choice among the parameters.
-#[derive(Clone, Copy, Debug)]
-pub struct Choice {
+#[derive(Debug)]
+pub struct Choice<R = Recipe> {
     /// The options, as a person reads them.
     pub options: &'static [&'static str],
-    get: fn(&Recipe) -> usize,
-    set: fn(&mut Recipe, usize),
+    /// Reads the place of the option.
+    pub get: fn(&R) -> usize,
+    /// Takes the option at a place.
+    pub set: fn(&mut R, usize),
 }
 
 /// What a parameter is.
-#[derive(Clone, Copy, Debug)]
-pub enum Kind {
+#[derive(Debug)]
+pub enum Kind<R = Recipe> {
     /// A number.
-    Number(Number),
+    Number(Number<R>),
     /// One of a few.
-    Choice(Choice),
+    Choice(Choice<R>),
 }
 
 /// A parameter of the recipe.
-#[derive(Clone, Copy, Debug)]
-pub struct Parameter {
+#[derive(Debug)]
+pub struct Parameter<R: Parameters = Recipe> {
     /// Its path in the recipe as it is written, such as `segment.plane_distance`.
     pub key: &'static str,
     /// What a person calls it.
@@ -149,11 +181,11 @@ pub struct Parameter {
     /// What it does, and what raising it costs.
     pub help: &'static str,
     /// Where it acts.
-    pub group: Group,
+    pub group: R::Group,
     /// Where it is found.
     pub place: Place,
     /// What it is.
-    pub kind: Kind,
+    pub kind: Kind<R>,
 }
 
 /// A value that a parameter cannot have.
@@ -192,14 +224,14 @@ impl Advice for BadValue {
     }
 }
 
-impl Parameter {
+impl<R: Parameters> Parameter<R> {
     /// The parameter of this key.
     pub fn of_key(key: &str) -> Option<&'static Self> {
-        PARAMETERS.iter().find(|parameter| parameter.key == key)
+        R::ALL.iter().find(|parameter| parameter.key == key)
     }
 
     /// Its number in the unit shown, or the place of its option.
-    pub fn value(&self, recipe: &Recipe) -> f64 {
+    pub fn value(&self, recipe: &R) -> f64 {
         match &self.kind {
             // 0.01 is 10 mm, not 10.000000000000002.
             Kind::Number(number) => {
@@ -210,7 +242,7 @@ impl Parameter {
     }
 
     /// Gives it a number in the unit shown, or an option by its place; what is not valid is refused.
-    pub fn set(&self, recipe: &mut Recipe, value: f64) -> Result<(), BadValue> {
+    pub fn set(&self, recipe: &mut R, value: f64) -> Result<(), BadValue> {
         match &self.kind {
             Kind::Number(number) => {
                 let [least, most] = number.range;
@@ -236,7 +268,7 @@ impl Parameter {
     }
 
     /// Gives it the value that it has in another recipe.
-    pub fn copy(&self, from: &Recipe, to: &mut Recipe) {
+    pub fn copy(&self, from: &R, to: &mut R) {
         match &self.kind {
             Kind::Number(number) => (number.set)(to, (number.get)(from)),
             Kind::Choice(choice) => (choice.set)(to, (choice.get)(from)),
@@ -244,7 +276,7 @@ impl Parameter {
     }
 
     /// True if the two recipes differ in it.
-    pub fn differs(&self, a: &Recipe, b: &Recipe) -> bool {
+    pub fn differs(&self, a: &R, b: &R) -> bool {
         self.value(a).to_bits() != self.value(b).to_bits()
     }
 
@@ -260,7 +292,7 @@ impl Parameter {
     }
 
     /// Its value in words.
-    pub fn text(&self, recipe: &Recipe) -> String {
+    pub fn text(&self, recipe: &R) -> String {
         let value = self.value(recipe);
         match &self.kind {
             Kind::Number(number) => number.text(value),
@@ -272,9 +304,9 @@ impl Parameter {
     }
 }
 
-impl Parameter {
+impl<R: Parameters> Parameter<R> {
     /// Its value as a [`Setting`] takes it, with all digits.
-    pub fn setting_text(&self, recipe: &Recipe) -> String {
+    pub fn setting_text(&self, recipe: &R) -> String {
         match &self.kind {
             Kind::Number(number) => format!("{}{}", self.value(recipe), number.unit.sign()),
             Kind::Choice(_) => self.text(recipe),
@@ -282,7 +314,7 @@ impl Parameter {
     }
 }
 
-impl Number {
+impl<R> Number<R> {
     /// A value with its unit.
     pub fn text(&self, value: f64) -> String {
         format!("{value:.*}{}", self.decimals, self.unit.sign())
@@ -295,30 +327,28 @@ fn round_to_12_digits(value: f64) -> f64 {
 }
 
 /// The parameters in which a recipe differs from the default one.
-pub fn changed(recipe: &Recipe) -> impl Iterator<Item = &'static Parameter> {
-    let default = Recipe::default();
-    PARAMETERS
-        .iter()
-        .filter(move |p| p.differs(recipe, &default))
+pub fn changed<R: Parameters>(recipe: &R) -> impl Iterator<Item = &'static Parameter<R>> {
+    let default = R::default();
+    R::ALL.iter().filter(move |p| p.differs(recipe, &default))
 }
 
 /// How many they are.
-pub fn num_changed(recipe: &Recipe) -> usize {
+pub fn num_changed<R: Parameters>(recipe: &R) -> usize {
     changed(recipe).count()
 }
 
 /// A parameter with a valid value for it, written as `segment.plane_distance=12`: the value in the unit of the
 /// parameter, which may follow it, or the name of an option.
-#[derive(Clone, Copy, Debug)]
-pub struct Setting {
-    parameter: &'static Parameter,
+#[derive(Clone, Debug)]
+pub struct Setting<R: Parameters = Recipe> {
+    parameter: &'static Parameter<R>,
     /// As [`Parameter::set`] takes it.
     value: f64,
 }
 
-impl Setting {
+impl<R: Parameters> Setting<R> {
     /// Gives the recipe this value.
-    pub fn apply(&self, recipe: &mut Recipe) {
+    pub fn apply(&self, recipe: &mut R) {
         let is_set = self.parameter.set(recipe, self.value);
         assert!(is_set.is_ok(), "checked when it was read");
     }
@@ -373,11 +403,11 @@ pub enum SettingError {
 
 impl Advice for SettingError {
     fn advice(&self) -> String {
-        "Write NAME=VALUE; docs/guide/parameters.md lists names, units and ranges".into()
+        "Write NAME=VALUE; docs/guide/parameters.md and docs/guide/paint.md list names, units and ranges".into()
     }
 }
 
-impl FromStr for Setting {
+impl<R: Parameters> FromStr for Setting<R> {
     type Err = SettingError;
 
     fn from_str(text: &str) -> Result<Self, SettingError> {
@@ -385,7 +415,7 @@ impl FromStr for Setting {
         let (name, written) = (name.trim(), written.trim());
         let unknown = || SettingError::UnknownName {
             name: name.to_owned(),
-            nearest: nearest_key(name),
+            nearest: nearest_key::<R>(name),
         };
         let parameter = Parameter::of_key(name).ok_or_else(unknown)?;
         let (key, found) = (parameter.key, written.to_owned());
@@ -408,7 +438,7 @@ impl FromStr for Setting {
                 })? as f64
             }
         };
-        let mut recipe = Recipe::default();
+        let mut recipe = R::default();
         let set = parameter.set(&mut recipe, value);
         set.map_err(|error| error.written_as(key))?;
         let is_kept = (parameter.value(&recipe) - value).abs() <= 1e-9 * value.abs();
@@ -421,8 +451,8 @@ impl FromStr for Setting {
 }
 
 /// The key that is most like a name, or ends with it.
-fn nearest_key(name: &str) -> &'static str {
-    let keys = || PARAMETERS.iter().map(|parameter| parameter.key);
+fn nearest_key<R: Parameters>(name: &str) -> &'static str {
+    let keys = || R::ALL.iter().map(|parameter| parameter.key);
     let ends_so = keys().find(|key| key.rsplit('.').next() == Some(name));
     ends_so
         .or_else(|| nearest_name(keys(), name))

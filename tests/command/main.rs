@@ -12,6 +12,7 @@ mod inspect;
 #[path = "../kit/mod.rs"]
 mod kit;
 mod library;
+mod paint;
 mod program;
 mod recipe;
 mod report;

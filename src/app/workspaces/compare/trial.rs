@@ -41,7 +41,7 @@ impl CompareState {
         let Some(tried) = self.tried.take() else {
             return;
         };
-        let num = num_changed(&tried);
+        let num = num_changed::<Recipe>(&tried);
         let recipe = title_of(&tried.label);
         let text = text!("compare-recipe-used", recipe = recipe, count = num);
         self.say(text, cx);

@@ -1,0 +1,222 @@
+//! `partsight path plan` and `path simulate`: a path over an enrolled part, and the film that it leaves.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+
+use crate::{
+    cli::{
+        LibraryChoice, Outcome,
+        console::{Advised as _, Console, advised_error},
+        recipe::parse_setting,
+    },
+    files::write_atomically,
+    library::{PartName, SprayPath, StoredPart},
+    paint::{Coat, CoatFolder, Film, PaintSurface, plan, propose, simulate},
+    pipeline::parameters::Setting,
+    stages::reference::ReferenceParams,
+};
+
+/// Plan a spray path over the side of a part that was seen when it was enrolled, and simulate its film
+#[derive(Debug, Args)]
+pub(super) struct PlanArgs {
+    /// Name of the part
+    part: PartName,
+    #[command(flatten)]
+    coat: CoatChoice,
+    /// Find the row spacing and the speed that bring the film to the coat's target
+    #[arg(long)]
+    propose: bool,
+    /// Write the path as a table, as library path reads it
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Store the path with the part
+    #[arg(long)]
+    store: bool,
+    /// Write one line of JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Simulate the film that a part's stored path leaves
+#[derive(Debug, Args)]
+pub(super) struct SimulateArgs {
+    /// Name of the part
+    part: PartName,
+    #[command(flatten)]
+    coat: CoatChoice,
+    /// A file of a path; without it the path that is stored with the part
+    #[arg(long, value_name = "FILE")]
+    path: Option<PathBuf>,
+    /// Write one line of JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// A coat, and parameters that are given another value.
+#[derive(Debug, Args)]
+struct CoatChoice {
+    /// The coat: `primer`, `base_coat`, `clear_coat`, one of your own, or a file
+    #[arg(long, value_name = "NAME|FILE")]
+    coat: String,
+    /// Give a parameter of the coat another value, in its own unit, such as spacing=60; may be given several times.
+    /// docs/guide/paint.md lists names, units and ranges
+    #[arg(long, value_name = "NAME=VALUE", value_parser = parse_setting::<Coat>)]
+    set: Vec<Setting<Coat>>,
+}
+
+impl CoatChoice {
+    fn open(&self) -> anyhow::Result<Coat> {
+        let mut coat = CoatFolder::of_user()
+            .and_then(|folder| folder.open(&self.coat))
+            .advised()?
+            .recipe;
+        for setting in &self.set {
+            setting.apply(&mut coat);
+        }
+        Ok(coat)
+    }
+}
+
+/// 1 if a tenth of what the gun can face is not within the tolerance.
+const GOOD_ENOUGH: f64 = 0.9;
+
+pub(super) fn run_plan(
+    choice: &LibraryChoice,
+    args: &PlanArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let name = &args.part;
+    let coat = args.coat.open()?;
+    let surface = surface_of(&read(choice, name, console)?)?;
+    let (coat, path, film) = if args.propose {
+        let found = propose(&surface, &coat, &[]).advised()?;
+        (found.coat, found.path, found.film)
+    } else {
+        let path = plan(&surface, &coat, &[]).advised()?;
+        let film = simulate(&surface, &path, &coat).advised()?;
+        (coat, path, film)
+    };
+    if let Some(file) = &args.output {
+        let text = path.to_text();
+        write_atomically(file, |to| to.write_all(text.as_bytes())).advised()?;
+    }
+    if args.store {
+        let folder = choice.open_to_change()?;
+        folder.set_spray_path(name, Some(&path)).advised()?;
+    }
+    if !args.json {
+        console.line(&format_args!(
+            "{name}: {} points over {}; rows {:.0} mm apart at {:.0} mm/s",
+            path.points().len(),
+            surface.scope(),
+            1000.0 * coat.spacing,
+            1000.0 * coat.speed
+        ));
+        if let Some(file) = &args.output {
+            console.line(&format_args!("  written to {}", file.display()));
+        }
+        if args.store {
+            console.line(&format_args!("  stored with {name}"));
+        }
+    }
+    Ok(show(
+        name, &surface, &coat, &path, &film, args.json, console,
+    ))
+}
+
+pub(super) fn run_simulate(
+    choice: &LibraryChoice,
+    args: &SimulateArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let name = &args.part;
+    let coat = args.coat.open()?;
+    let part = read(choice, name, console)?;
+    let path = match &args.path {
+        Some(file) => Some(SprayPath::read(file).advised()?),
+        None => choice.open(console)?.spray_path(name.as_str()).advised()?,
+    };
+    let Some(path) = path else {
+        return Err(advised_error(
+            format!("{name} has no spray path"),
+            format!("Plan one: partsight path plan {name} --coat primer --store"),
+        ));
+    };
+    let surface = surface_of(&part)?;
+    let film = simulate(&surface, &path, &coat).advised()?;
+    Ok(show(
+        name, &surface, &coat, &path, &film, args.json, console,
+    ))
+}
+
+fn read(choice: &LibraryChoice, name: &PartName, console: &Console) -> anyhow::Result<StoredPart> {
+    let place = choice.open(console)?;
+    let part = place.read(name.as_str(), &ReferenceParams::default());
+    part.advised()?.advised()
+}
+
+fn surface_of(part: &StoredPart) -> anyhow::Result<PaintSurface> {
+    PaintSurface::of(&part.reference, part.meta.coverage).advised()
+}
+
+fn show(
+    name: &PartName,
+    surface: &PaintSurface,
+    coat: &Coat,
+    path: &SprayPath,
+    film: &Film,
+    is_json: bool,
+    console: &mut Console,
+) -> Outcome {
+    let (figures, takes) = (&film.figures, &film.path);
+    let micrometres = |metres: f64| 1e6 * metres;
+    if is_json {
+        console.line(&json!({
+            "part": name.as_str(),
+            "scope": surface.scope(),
+            "num_points": path.points().len(),
+            "spacing_mm": 1000.0 * coat.spacing,
+            "speed_mm_s": 1000.0 * coat.speed,
+            "target_um": micrometres(coat.target),
+            "reachable": figures.reachable,
+            "within": figures.within,
+            "missed": figures.missed,
+            "double": figures.double,
+            "mean_um": micrometres(figures.mean),
+            "min_um": micrometres(figures.min),
+            "max_um": micrometres(figures.max),
+            "histogram": figures.histogram,
+            "paint_ml": 1e6 * takes.paint,
+            "landed": takes.landed,
+            "time_s": takes.time,
+            "length_m": takes.length,
+        }));
+    } else {
+        console.line(&format_args!(
+            "  film {:.1} µm on average, {:.1} to {:.1} µm, wanted {:.1} µm; {:.1} % within {:.0} %, {:.1} % missed, {:.1} % double",
+            micrometres(figures.mean),
+            micrometres(figures.min),
+            micrometres(figures.max),
+            micrometres(coat.target),
+            100.0 * figures.within,
+            100.0 * coat.tolerance,
+            100.0 * figures.missed,
+            100.0 * figures.double
+        ));
+        console.line(&format_args!(
+            "  {:.1} m in {:.0} s, {:.0} ml of paint, {:.0} % of its solids on the part; the gun can face {:.1} % of the surface",
+            takes.length,
+            takes.time,
+            1e6 * takes.paint,
+            100.0 * takes.landed,
+            100.0 * figures.reachable
+        ));
+    }
+    if figures.within >= GOOD_ENOUGH {
+        Outcome::Accepted
+    } else {
+        Outcome::NotAccepted
+    }
+}

@@ -1,0 +1,181 @@
+//! The user's coats: a file each, beside the recipes of inspections.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use super::{
+    Coat,
+    built_in::{BUILT_IN_COATS, built_in},
+};
+use crate::{
+    error::Advice,
+    files::{FileError, disk, nearest_name},
+    library::PartName,
+    pipeline::{RecipeError, RecipeFile, RecipeFolder},
+};
+
+/// A folder of coats; it need not be there until the first is saved.
+#[derive(Clone, Debug)]
+pub struct CoatFolder {
+    path: PathBuf,
+}
+
+/// Why a coat cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum CoatError {
+    /// The file.
+    #[error(transparent)]
+    File(#[from] RecipeError),
+    /// No coat of this name.
+    #[error("there is no coat named {name}")]
+    NotFound {
+        /// The name given.
+        name: String,
+        /// Those that are there.
+        available: Vec<String>,
+    },
+    /// The program's own coat, or one that is there already.
+    #[error("there is a coat named {name} already")]
+    Exists {
+        /// The name.
+        name: String,
+    },
+}
+
+impl Advice for CoatError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(RecipeError::BadParameter { .. }) => {
+                "Correct the file, nothing of it was used; docs/guide/paint.md lists names, units and ranges".into()
+            }
+            Self::File(error) => error.advice(),
+            Self::NotFound { name, available } => {
+                let nearest = nearest_name(available.iter().map(String::as_str), name);
+                format!(
+                    "The nearest name is {}; partsight path plan --help names the coats of the program",
+                    nearest.unwrap_or(BUILT_IN_COATS[0])
+                )
+            }
+            Self::Exists { .. } => "Choose another name".into(),
+        }
+    }
+}
+
+impl CoatFolder {
+    /// The folder at this path.
+    pub fn at(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// The user's own, beside the recipes.
+    pub fn of_user() -> Result<Self, CoatError> {
+        Ok(Self::at(
+            RecipeFolder::of_user()?.path().with_file_name("coats"),
+        ))
+    }
+
+    fn file(&self, name: &PartName) -> PathBuf {
+        self.path.join(format!("{name}.toml"))
+    }
+
+    /// Names of all coats, the program's own first.
+    pub fn names(&self) -> Result<Vec<String>, CoatError> {
+        let reading = |error| CoatError::File(FileError::reading(&self.path, error).into());
+        let mut own = Vec::new();
+        match fs::read_dir(&self.path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(reading(error)),
+            Ok(entries) => {
+                for entry in entries {
+                    let path = PathBuf::from(entry.map_err(reading)?.file_name());
+                    let stem = path.file_stem().and_then(|stem| stem.to_str());
+                    let name = stem.and_then(|stem| PartName::new(stem).ok());
+                    let is_coat = path.extension().is_some_and(|ending| ending == "toml");
+                    own.extend(name.filter(|_| is_coat).map(String::from));
+                }
+            }
+        }
+        own.retain(|name| !BUILT_IN_COATS.contains(&name.as_str()));
+        own.sort();
+        Ok(BUILT_IN_COATS
+            .map(String::from)
+            .into_iter()
+            .chain(own)
+            .collect())
+    }
+
+    /// The coat of a name, or in a file: whatever cannot be a name is a path.
+    pub fn open(&self, given: &str) -> Result<RecipeFile<Coat>, CoatError> {
+        let Ok(name) = PartName::new(given) else {
+            return Ok(RecipeFile::read(Path::new(given))?);
+        };
+        if let Some(own) = built_in(given) {
+            return Ok(own);
+        }
+        match RecipeFile::read(&self.file(&name)) {
+            // The name of the file counts: it may have been copied.
+            Ok(file) => Ok(RecipeFile { name, ..file }),
+            Err(RecipeError::File(FileError::NotFound { .. })) => Err(CoatError::NotFound {
+                name: given.to_owned(),
+                available: self.names()?,
+            }),
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// Keeps a coat under a name that none has.
+    pub fn save(&self, coat: &RecipeFile<Coat>) -> Result<PathBuf, CoatError> {
+        let path = self.file(&coat.name);
+        if built_in(coat.name.as_str()).is_some() || path.symlink_metadata().is_ok() {
+            let name = coat.name.to_string();
+            return Err(CoatError::Exists { name });
+        }
+        disk::create_dir_all(&self.path)
+            .map_err(|error| RecipeError::from(FileError::writing(&self.path, error)))?;
+        coat.write(&path)?;
+        Ok(path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coat_is_kept_and_opened_by_name_and_by_file() {
+        let data = tempfile::tempdir().expect("a folder");
+        let folder = CoatFolder::at(data.path().join("coats"));
+        assert_eq!(folder.names().expect("names"), BUILT_IN_COATS);
+        let mut coat = folder.open("primer").expect("built in");
+        assert!(matches!(folder.save(&coat), Err(CoatError::Exists { .. })));
+        coat.name = PartName::new("my_primer").expect("a name");
+        coat.recipe.spacing = 0.05;
+        let file = folder.save(&coat).expect("saved");
+        assert_eq!(folder.open("my_primer").expect("opened"), coat);
+        assert_eq!(
+            folder.open(&file.display().to_string()).expect("opened"),
+            coat
+        );
+        assert_eq!(folder.names().expect("names").len(), 4);
+        assert!(matches!(folder.save(&coat), Err(CoatError::Exists { .. })));
+        let missing = folder.open("my_premier").expect_err("no such coat");
+        assert!(
+            missing.advice().contains("my_primer"),
+            "{}",
+            missing.advice()
+        );
+        std::fs::write(
+            &file,
+            "schema = 1\nname = \"my_primer\"\n[parameters]\nspacing = \"0 mm\"\n",
+        )
+        .expect("written");
+        let refused = folder.open("my_primer").expect_err("spacing 0");
+        assert!(
+            refused.to_string().contains("from 5 to 500 mm"),
+            "{refused}"
+        );
+        assert!(refused.advice().contains("paint.md"));
+    }
+}

@@ -1,0 +1,167 @@
+use std::f64::consts::PI;
+
+use super::*;
+use crate::{
+    paint::{
+        plan,
+        surface::tests::{grid, plate},
+    },
+    stages::reference::Coverage,
+    units::Metres,
+};
+
+/// Straight ways with the gun on, from a to b each.
+fn stripes(
+    ways: impl Iterator<Item = (Point3<f64>, Point3<f64>, Vector3<f64>, Vector3<f64>)>,
+    speed: f64,
+) -> SprayPath {
+    let points = ways.flat_map(|(a, b, jet, fan)| {
+        [(a, true), (b, false)].map(|(nozzle, is_gun_on)| PathPoint {
+            nozzle,
+            direction: Unit::new_normalize(jet),
+            stand_off: Some(Metres(0.15)),
+            is_gun_on,
+            speed: Some(speed),
+            fan: Some(Unit::new_normalize(fan)),
+        })
+    });
+    SprayPath::new(points.collect()).expect("points")
+}
+
+fn flat_stripes(levels: impl Iterator<Item = f64>, coat: &Coat) -> SprayPath {
+    let way = |y: f64| {
+        (
+            Point3::new(-1.0, y, 0.15),
+            Point3::new(1.0, y, 0.15),
+            -Vector3::z(),
+            Vector3::y(),
+        )
+    };
+    stripes(levels.map(way), coat.speed)
+}
+
+#[test]
+fn rows_without_end_leave_the_mean_and_the_ripple_of_the_closed_form() {
+    let coat = Coat {
+        spacing: 0.15,
+        ..Coat::default()
+    };
+    let surface = plate(0.6, 0.6);
+    let path = flat_stripes((-8..=8).map(|k| f64::from(k) * coat.spacing), &coat);
+    let film = simulate(&surface, &path, &coat).expect("simulated");
+    // A sum of Gaussians is its mean and, all but, one harmonic (Poisson's sum).
+    let sigma = coat.gun.width / 4.0;
+    let mean = coat.flat_thickness();
+    for (p, t) in surface.points.iter().zip(&film.thickness) {
+        let turn = 2.0 * PI / coat.spacing;
+        let ripple = 2.0 * (-0.5 * (turn * sigma).powi(2)).exp() * (turn * p.y).cos();
+        assert!(
+            (t / mean - 1.0 - ripple).abs() < 2e-3,
+            "{p}: {}",
+            t / mean - 1.0 - ripple
+        );
+    }
+}
+
+#[test]
+fn beyond_the_last_row_the_film_ends_as_the_normal_distribution() {
+    let coat = Coat {
+        spacing: 0.01,
+        ..Coat::default()
+    };
+    let surface = plate(0.4, 0.4);
+    let path = flat_stripes(
+        (-50..=0).map(|k| f64::from(k) * coat.spacing - 0.005),
+        &coat,
+    );
+    let film = simulate(&surface, &path, &coat).expect("simulated");
+    let sigma = coat.gun.width / 4.0;
+    // Φ by its integral, in steps of a thousandth.
+    let cumulated = |z: f64| {
+        let density = |k: i32| (-0.5 * (z - (f64::from(k) + 0.5) * 1e-3).powi(2)).exp();
+        (0..8000).map(density).sum::<f64>() * 1e-3 / (2.0 * PI).sqrt()
+    };
+    for (p, t) in surface.points.iter().zip(&film.thickness) {
+        let expected = cumulated(-p.y / sigma);
+        let found = t / coat.flat_thickness();
+        assert!((found - expected).abs() < 3e-3, "{p}: {found} {expected}");
+    }
+}
+
+#[test]
+fn around_a_cylinder_all_the_paint_lands_evenly() {
+    let (coat, radius, num) = (Coat::default(), 0.5, 60);
+    // Half of a cylinder, painted all around: no row is missing anywhere.
+    let surface = grid(60, 150, Coverage::OneSide, |i, j| {
+        let (x, angle) = (0.4 * i - 0.2, 2.6 * (j - 0.5));
+        let normal = Vector3::new(0.0, angle.sin(), angle.cos());
+        (Point3::from(normal * radius + Vector3::x() * x), normal)
+    });
+    let ways = (0..num).map(|k| {
+        let angle = 2.0 * PI * f64::from(k) / f64::from(num);
+        let out = Vector3::new(0.0, angle.sin(), angle.cos());
+        let mouth = Point3::from(out * (radius + 0.15));
+        (
+            mouth - Vector3::x(),
+            mouth + Vector3::x(),
+            -out,
+            out.cross(&Vector3::x()),
+        )
+    });
+    let film = simulate(&surface, &stripes(ways, coat.speed), &coat).expect("simulated");
+    let expected = coat.gun.film_rate() / (coat.speed * radius * 2.0 * PI / f64::from(num));
+    for t in &film.thickness {
+        assert!((t / expected - 1.0).abs() < 5e-3, "{}", t / expected);
+    }
+}
+
+#[test]
+fn a_planned_path_covers_a_plate_to_its_edges_and_figures_add_up() {
+    let surface = plate(1.0, 0.7);
+    let coat = Coat {
+        target: Coat::default().flat_thickness(),
+        ..Coat::default()
+    };
+    let path = plan(&surface, &coat, &[]).expect("planned");
+    let film = simulate(&surface, &path, &coat).expect("simulated");
+    let figures = &film.figures;
+    assert!(figures.within > 0.97, "{figures:?}");
+    assert_eq!((figures.missed, figures.double), (0.0, 0.0));
+    assert!((figures.histogram.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+    assert!((figures.reachable - 1.0).abs() < 1e-9);
+    assert!(figures.min <= figures.mean && figures.mean <= figures.max);
+    // What lands is the mean over the area, out of what was sprayed.
+    let area = surface.point_area * surface.points.len() as f64;
+    let expected = figures.mean * area / (film.path.paint * coat.gun.solids);
+    assert!((film.path.landed / expected - 1.0).abs() < 1e-9);
+    assert!(film.path.landed < coat.gun.transfer && film.path.landed > 0.3);
+    assert!((film.path.length / film.path.time / coat.speed - 1.0).abs() < 0.02);
+    let again = simulate(&surface, &path, &coat).expect("simulated");
+    assert_eq!(again.thickness, film.thickness);
+}
+
+#[test]
+fn half_the_speed_is_twice_the_film_and_a_gun_that_is_off_paints_nothing() {
+    let surface = plate(0.4, 0.4);
+    let coat = Coat::default();
+    let film = |path: &SprayPath| simulate(&surface, path, &coat);
+    let path = flat_stripes([0.0].into_iter(), &coat);
+    let slow = path.points().iter().map(|p| PathPoint {
+        speed: Some(coat.speed / 2.0),
+        ..*p
+    });
+    let slow = SprayPath::new(slow.collect()).expect("points");
+    let (fast, slow) = (
+        film(&path).expect("simulated"),
+        film(&slow).expect("simulated"),
+    );
+    for (one, two) in fast.thickness.iter().zip(&slow.thickness) {
+        assert!((2.0 * one - two).abs() < 1e-12);
+    }
+    let off = path.points().iter().map(|p| PathPoint {
+        is_gun_on: false,
+        ..*p
+    });
+    let off = SprayPath::new(off.collect()).expect("points");
+    assert_eq!(film(&off).expect_err("off"), PaintError::NeverSprays);
+}

@@ -1,0 +1,205 @@
+//! A spray path over the side of a part.
+//!
+//! Rows ([`lay_rows`]) run over the smoothed surface, there and back. The gun stands off along the smoothed normal, leans no
+//! further than the coat allows, and turns its fan across the row. Its speed is set so that the jet runs over the surface
+//! at the coat's speed: around an outer curve the nozzle has the longer way and runs faster.
+//!
+//! What is painted is one layer, seen from the side; of folded sheet the upper one.
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use super::{
+    coat::{Coat, Pattern, RowDirection},
+    error::PaintError,
+    height_map::HeightMap,
+    region::{KeepOut, KeepOuts},
+    rows::{RowParams, RowPlace, lay_rows},
+    surface::PaintSurface,
+};
+use crate::{
+    library::{MAX_PATH_POINTS, MAX_SPEED, PathPoint, SprayPath},
+    units::Metres,
+};
+
+/// The nozzle runs at most so many times as fast or slow as the jet over the surface, or tight curves would stop it.
+const MOST_SCALING: f64 = 4.0;
+
+/// Plans the path of a coat over a surface; keep-out regions are left out.
+pub fn plan(
+    surface: &PaintSurface,
+    coat: &Coat,
+    keep_outs: &[KeepOut],
+) -> Result<SprayPath, PaintError> {
+    coat.check()?;
+    for region in keep_outs {
+        region.check()?;
+    }
+    let along = row_direction(surface, coat);
+    let mut points = raster(surface, coat, keep_outs, &along)?;
+    if coat.pattern == Pattern::CrossHatch {
+        let across = surface.side.cross(&along);
+        points.extend(raster(surface, coat, keep_outs, &across)?);
+    }
+    if points.len() > MAX_PATH_POINTS {
+        return Err(PaintError::TooLong {
+            found: points.len(),
+        });
+    }
+    SprayPath::new(points).ok_or(PaintError::NoRows)
+}
+
+/// Which way the rows run, at right angles to the side.
+fn row_direction(surface: &PaintSurface, coat: &Coat) -> Vector3<f64> {
+    if coat.direction == RowDirection::Principal {
+        return surface.longest;
+    }
+    let wanted = Vector3::new(coat.angle.cos(), coat.angle.sin(), 0.0);
+    let flat = wanted - surface.side * surface.side.dot(&wanted);
+    flat.try_normalize(1e-3).unwrap_or(surface.longest)
+}
+
+fn raster(
+    surface: &PaintSurface,
+    coat: &Coat,
+    regions: &[KeepOut],
+    along: &Vector3<f64>,
+) -> Result<Vec<PathPoint>, PaintError> {
+    let reach = coat.overrun + coat.lead + coat.spacing;
+    let frame = HeightMap::axes_of(surface, along);
+    let inside = KeepOuts::new(regions, |p| HeightMap::in_axes(surface, &frame, p));
+    let is_kept_out = |p: &Point3<f64>| {
+        let [u, v, _] = HeightMap::in_axes(surface, &frame, p);
+        inside.distance(p, [u, v]) < 0.0
+    };
+    let map = HeightMap::new(
+        surface,
+        along,
+        coat.smoothing,
+        coat.opening,
+        reach,
+        &is_kept_out,
+    )?;
+    let params = RowParams {
+        spacing: coat.spacing,
+        overrun: coat.overrun,
+        lead: coat.lead,
+        margin: coat.margin,
+    };
+    let mut points = Vec::new();
+    for (k, mut row) in lay_rows(&map, &inside, &params).into_iter().enumerate() {
+        if k % 2 == 1 {
+            row.reverse();
+        }
+        points.extend(path_of_row(&map, &row, coat, &surface.side));
+        if points.len() > MAX_PATH_POINTS {
+            return Err(PaintError::TooLong {
+                found: points.len(),
+            });
+        }
+    }
+    Ok(points)
+}
+
+/// Where the gun points to and how it stands there.
+struct Stance {
+    surface: Point3<f64>,
+    nozzle: Point3<f64>,
+    normal: Vector3<f64>,
+    is_gun_on: bool,
+}
+
+fn path_of_row(
+    map: &HeightMap,
+    row: &[RowPlace],
+    coat: &Coat,
+    side: &Vector3<f64>,
+) -> Vec<PathPoint> {
+    let stances: Vec<Stance> = evenly(map, row, coat.point_spacing)
+        .into_iter()
+        .map(|place| {
+            let spot = map.spot(place.at);
+            let normal = leaning(&spot.normal, side, coat.tilt_limit);
+            Stance {
+                surface: spot.at,
+                nozzle: spot.at + normal * coat.stand_off,
+                normal,
+                is_gun_on: place.is_gun_on,
+            }
+        })
+        .collect();
+    let each = (0..stances.len()).map(|i| {
+        let own = &stances[i];
+        let (before, after) = (
+            &stances[i.saturating_sub(1)],
+            &stances[(i + 1).min(stances.len() - 1)],
+        );
+        let tangent = after.surface - before.surface;
+        let scaling = (after.nozzle - own.nozzle).norm() / (after.surface - own.surface).norm();
+        let scaling = if scaling.is_finite() { scaling } else { 1.0 };
+        let scaling = scaling.clamp(MOST_SCALING.recip(), MOST_SCALING);
+        PathPoint {
+            nozzle: own.nozzle,
+            direction: Unit::new_normalize(-own.normal),
+            stand_off: Some(Metres(coat.stand_off)),
+            is_gun_on: own.is_gun_on,
+            speed: Some((coat.speed * scaling).min(MAX_SPEED)),
+            fan: Unit::try_new(own.normal.cross(&tangent), 1e-9),
+        }
+    });
+    each.collect()
+}
+
+/// Points at even distances along the surface; the gun changes at points alone. A point's gun is that of the way to the
+/// next one, off at the last.
+fn evenly(map: &HeightMap, row: &[RowPlace], spacing: f64) -> Vec<RowPlace> {
+    let spots: Vec<Point3<f64>> = row.iter().map(|place| map.spot(place.at).at).collect();
+    let mut points = Vec::new();
+    let mut start = 0;
+    while start + 1 < row.len() {
+        let is_gun_on = row[start].is_gun_on && row[start + 1].is_gun_on;
+        let mut end = start + 1;
+        while end + 1 < row.len() && (row[end].is_gun_on && row[end + 1].is_gun_on) == is_gun_on {
+            end += 1;
+        }
+        let mut lengths = vec![0.0];
+        for i in start..end {
+            lengths.push(lengths[i - start] + (spots[i + 1] - spots[i]).norm());
+        }
+        let total = lengths[end - start];
+        let num = (total / spacing).ceil().max(1.0) as usize;
+        let mut next = 0;
+        for k in 0..num {
+            let wanted = total * k as f64 / num as f64;
+            while next + 2 < lengths.len() && lengths[next + 1] <= wanted {
+                next += 1;
+            }
+            let share = (wanted - lengths[next]) / (lengths[next + 1] - lengths[next]);
+            let (a, b) = (row[start + next].at, row[start + next + 1].at);
+            points.push(RowPlace {
+                at: [0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis])),
+                is_gun_on,
+            });
+        }
+        start = end;
+    }
+    if let Some(last) = row.last() {
+        points.push(RowPlace {
+            is_gun_on: false,
+            ..*last
+        });
+    }
+    points
+}
+
+/// The normal, leaning no further from the side than allowed.
+fn leaning(normal: &Vector3<f64>, side: &Vector3<f64>, limit: f64) -> Vector3<f64> {
+    let cosine = normal.dot(side).clamp(-1.0, 1.0);
+    if cosine.acos() <= limit {
+        return *normal;
+    }
+    let beside = (normal - side * cosine).try_normalize(1e-9);
+    beside.map_or(*side, |beside| side * limit.cos() + beside * limit.sin())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,87 @@
+//! Row spacing and speed that bring a film to its target.
+//!
+//! The thickness is inversely proportional to the speed. So each spacing needs one simulation: of all factors on the
+//! thickness, the one that brings most of the surface within the tolerance is found exactly, by a window over the sorted thicknesses.
+
+use super::{
+    coat::Coat,
+    error::PaintError,
+    film::{Film, simulate},
+    plan::plan,
+    region::KeepOut,
+    surface::PaintSurface,
+};
+use crate::library::SprayPath;
+
+/// Spacings that are tried, shares of the pattern's width at the stand-off, the quickest first.
+const SPACINGS: [f64; 4] = [0.4, 0.35, 0.3, 0.25];
+/// A share of the reachable area within the tolerance that is good enough.
+const GOOD: f64 = 0.95;
+/// Speeds that a coat may have, m/s.
+const SPEEDS: [f64; 2] = [0.01, 3.0];
+
+/// A coat with the spacing and the speed that were found, its path and film.
+#[derive(Clone, Debug)]
+pub struct Proposal {
+    /// The coat.
+    pub coat: Coat,
+    /// Its path.
+    pub path: SprayPath,
+    /// The film of the path.
+    pub film: Film,
+}
+
+/// The widest spacing that brings 95 % of the reachable area within the tolerance, else the one that brings most.
+pub fn propose(
+    surface: &PaintSurface,
+    coat: &Coat,
+    keep_outs: &[KeepOut],
+) -> Result<Proposal, PaintError> {
+    coat.check()?;
+    let width = coat.gun.width * coat.stand_off / coat.gun.distance;
+    let mut best: Option<(f64, Coat)> = None;
+    for share in SPACINGS {
+        let spaced = Coat {
+            spacing: share * width,
+            ..*coat
+        };
+        let film = simulate(surface, &plan(surface, &spaced, keep_outs)?, &spaced)?;
+        let (factor, within) = best_factor(&film, coat);
+        let speed = (coat.speed / factor).clamp(SPEEDS[0], SPEEDS[1]);
+        if best.as_ref().is_none_or(|(most, _)| within > *most) {
+            best = Some((within, Coat { speed, ..spaced }));
+        }
+        if within >= GOOD {
+            break;
+        }
+    }
+    let (_, coat) = best.ok_or(PaintError::NoRows)?;
+    let path = plan(surface, &coat, keep_outs)?;
+    let film = simulate(surface, &path, &coat)?;
+    Ok(Proposal { coat, path, film })
+}
+
+/// The factor on all thicknesses that brings most of the reachable points within the tolerance, and the share that it brings.
+fn best_factor(film: &Film, coat: &Coat) -> (f64, f64) {
+    let each = film.thickness.iter().zip(&film.is_reachable);
+    let mut reached: Vec<f64> = each.filter(|(_, is)| **is).map(|(t, _)| *t).collect();
+    reached.sort_by(f64::total_cmp);
+    let ratio = (1.0 + coat.tolerance) / (1.0 - coat.tolerance);
+    let (mut best, mut factor, mut first) = (0, 1.0, 0);
+    for (last, most) in reached.iter().enumerate() {
+        while *most > reached[first] * ratio {
+            first += 1;
+        }
+        let num = last + 1 - first;
+        if num > best && reached[first] > 0.0 {
+            best = num;
+            // Both ends as far from the limits of the tolerance.
+            let limits = (1.0 - coat.tolerance) * (1.0 + coat.tolerance);
+            factor = coat.target * limits.sqrt() / (reached[first] * most).sqrt();
+        }
+    }
+    (factor, best as f64 / reached.len() as f64)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,295 @@
+//! The surface of a part that is painted: points, normals and the area that each stands for.
+//!
+//! A part is painted from one direction, the *side*: against the mean normal of what was seen, or, of a part that is known
+//! all around, from the front along its thinnest extent. Only points that face that side are painted in one go; a part
+//! enrolled from one view has no others.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Point3, Vector3};
+
+use super::error::PaintError;
+use crate::{
+    geometry::{nearest::KdTree, principal::principal_axes},
+    stages::reference::{Coverage, Reference},
+};
+
+/// Points that a surface needs at least.
+const LEAST_POINTS: usize = 50;
+/// Smaller extents are no part, metres.
+const LEAST_EXTENT: f64 = 0.03;
+/// Larger ones are a file in another unit, metres.
+const MOST_EXTENT: f64 = 10.0;
+/// Cosine between a normal and the side of the flattest points that belong to the side: 80°.
+const LEAST_FACING: f64 = 0.17;
+/// Normals are averaged over so many spacings.
+const SMOOTHED_OVER: f64 = 2.5;
+
+/// The side of a part that is painted, part space, metres.
+#[derive(Clone, Debug)]
+pub struct PaintSurface {
+    /// Points, about evenly spaced.
+    pub points: Vec<Point3<f64>>,
+    /// Unit normals, smoothed over a few points, towards the gun.
+    pub normals: Vec<Vector3<f64>>,
+    /// Area that each point stands for, square metres.
+    pub point_area: f64,
+    /// Distance between neighbouring points.
+    pub spacing: f64,
+    /// Unit vector from the part towards where it is painted from.
+    pub side: Vector3<f64>,
+    /// The first principal axis, at right angles to `side`.
+    pub longest: Vector3<f64>,
+    /// Middle of the points.
+    pub middle: Point3<f64>,
+    /// What of the part this is.
+    pub coverage: Coverage,
+}
+
+impl PaintSurface {
+    /// The surface of an enrolled part.
+    pub fn of(reference: &Reference, coverage: Coverage) -> Result<Self, PaintError> {
+        let cloud = &reference.cloud;
+        let normals = cloud.normals.as_ref().ok_or(PaintError::NoNormals)?;
+        let points: Vec<Point3<f64>> = cloud.points.iter().map(|p| p.cast()).collect();
+        let normals: Vec<Vector3<f64>> = normals.iter().map(|n| n.cast()).collect();
+        Self::new(&points, &normals, coverage)
+    }
+
+    /// The side to be painted of points with unit normals that point outwards.
+    pub fn new(
+        points: &[Point3<f64>],
+        normals: &[Vector3<f64>],
+        coverage: Coverage,
+    ) -> Result<Self, PaintError> {
+        let num_bad = points
+            .iter()
+            .zip(normals)
+            .filter(|(p, n)| {
+                !p.coords.iter().all(|x| x.is_finite()) || !((n.norm() - 1.0).abs() < 0.1)
+            })
+            .count();
+        if num_bad > 0 || points.len() != normals.len() {
+            let num_bad = num_bad + points.len().abs_diff(normals.len());
+            return Err(PaintError::NotFinite { num_bad });
+        }
+        check_size(points)?;
+        let axes = principal_axes(points.iter().map(|p| (*p, 1.0)));
+        let axes = axes.ok_or(PaintError::TooFew {
+            found: points.len(),
+        })?;
+        let side = side_of(normals, &axes.axes.column(2).into_owned(), coverage)?;
+        let chosen: Vec<usize> = (0..points.len())
+            .filter(|i| normals[*i].dot(&side) > LEAST_FACING)
+            .collect();
+        if chosen.len() < LEAST_POINTS {
+            return Err(PaintError::TooFew {
+                found: chosen.len(),
+            });
+        }
+        let points: Vec<Point3<f64>> = chosen.iter().map(|i| points[*i]).collect();
+        let stored: Vec<Point3<f32>> = points.iter().map(|p| p.cast()).collect();
+        let tree = KdTree::new(&stored);
+        let spacing = median_spacing(&stored, &tree);
+        if !(spacing > 0.0) {
+            return Err(PaintError::Folded);
+        }
+        let normals = smoothed(&stored, &tree, &chosen, normals, SMOOTHED_OVER * spacing);
+        let first: Vector3<f64> = axes.axes.column(0).into_owned();
+        let longest = (first - side * side.dot(&first)).try_normalize(1e-6);
+        let longest = longest.unwrap_or_else(|| across(&side));
+        // The sign of a principal axis is free; the rows of one part always begin at the same end.
+        let largest = longest.iamax();
+        Ok(Self {
+            longest: longest * longest[largest].signum(),
+            point_area: area_of_point(&points, &normals, &side, spacing),
+            middle: axes.mean,
+            points,
+            normals,
+            spacing,
+            side,
+            coverage,
+        })
+    }
+
+    /// What of the part is painted, for a person.
+    pub fn scope(&self) -> &'static str {
+        match self.coverage {
+            Coverage::OneSide => "only the side that the camera saw when the part was enrolled",
+            Coverage::AllAround => "the front; the part is known all around",
+            Coverage::SeveralSides => {
+                "what faces one side of the part, which was enrolled from several"
+            }
+        }
+    }
+}
+
+/// Some vector at right angles to another, of unit length.
+pub(super) fn across(axis: &Vector3<f64>) -> Vector3<f64> {
+    let other = if axis.x.abs() < 0.9 {
+        Vector3::x()
+    } else {
+        Vector3::y()
+    };
+    (other - axis * axis.dot(&other)).normalize()
+}
+
+fn check_size(points: &[Point3<f64>]) -> Result<(), PaintError> {
+    let first = points.first().ok_or(PaintError::TooFew { found: 0 })?;
+    if points.len() < LEAST_POINTS {
+        return Err(PaintError::TooFew {
+            found: points.len(),
+        });
+    }
+    let (low, high) = points
+        .iter()
+        .fold((*first, *first), |(low, high), p| (low.inf(p), high.sup(p)));
+    let extent = (high - low).amax();
+    if !(LEAST_EXTENT..=MOST_EXTENT).contains(&extent) {
+        return Err(PaintError::Extent { metres: extent });
+    }
+    Ok(())
+}
+
+/// The direction that it is painted from.
+fn side_of(
+    normals: &[Vector3<f64>],
+    thinnest: &Vector3<f64>,
+    coverage: Coverage,
+) -> Result<Vector3<f64>, PaintError> {
+    if coverage == Coverage::AllAround {
+        // Parts are enrolled with their outside towards the camera, which looks along z.
+        return Ok(thinnest * if thinnest.z > 0.0 { -1.0 } else { 1.0 });
+    }
+    let mean: Vector3<f64> = normals.iter().sum::<Vector3<f64>>() / normals.len() as f64;
+    // Normals that cancel out belong to a surface that is folded, or seen from all around.
+    if mean.norm() < 0.2 {
+        return Err(PaintError::Folded);
+    }
+    Ok(mean.normalize())
+}
+
+/// The area that a point stands for, the same for all as they are evenly spaced: of squares over the plane across the
+/// side, each by the slope of the surface and the number of points in it, the median. Squares that an edge cuts are few.
+fn area_of_point(
+    points: &[Point3<f64>],
+    normals: &[Vector3<f64>],
+    side: &Vector3<f64>,
+    spacing: f64,
+) -> f64 {
+    let square = 4.0 * spacing;
+    let u = across(side);
+    let v = side.cross(&u);
+    let of = |p: &Point3<f64>| [u, v].map(|axis| (axis.dot(&p.coords) / square).floor() as i64);
+    let mut num_in: BTreeMap<[i64; 2], f64> = BTreeMap::new();
+    for p in points {
+        *num_in.entry(of(p)).or_default() += 1.0;
+    }
+    let each = points.iter().zip(normals).map(|(p, n)| {
+        let slope = n.dot(side).max(LEAST_FACING);
+        square * square / slope / num_in[&of(p)]
+    });
+    let mut areas: Vec<f64> = each.collect();
+    areas.sort_by(f64::total_cmp);
+    areas[areas.len() / 2]
+}
+
+/// Median distance to the nearest other point.
+fn median_spacing(points: &[Point3<f32>], tree: &KdTree) -> f64 {
+    let step = points.len().div_ceil(2000);
+    let nearest = (0..points.len())
+        .step_by(step)
+        .filter_map(|i| tree.nearest_other(&points[i], i));
+    let mut distances: Vec<f32> = nearest.map(|found| found.distance_sq.sqrt()).collect();
+    distances.sort_by(f32::total_cmp);
+    distances
+        .get(distances.len() / 2)
+        .map_or(0.0, |d| f64::from(*d))
+}
+
+/// Normals of the chosen points, averaged over those within a radius.
+fn smoothed(
+    points: &[Point3<f32>],
+    tree: &KdTree,
+    chosen: &[usize],
+    normals: &[Vector3<f64>],
+    radius: f64,
+) -> Vec<Vector3<f64>> {
+    let mut around = Vec::new();
+    let each = points.iter().zip(chosen).map(|(p, own)| {
+        around.clear();
+        tree.within(p, radius as f32, |found| around.push(found.index));
+        // The order of a search is not that of the points; a sum must be.
+        around.sort_unstable();
+        let sum: Vector3<f64> = around.iter().map(|i| normals[chosen[*i]]).sum();
+        sum.try_normalize(1e-9).unwrap_or(normals[*own])
+    });
+    each.collect()
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A surface of `columns` by `rows` points; places run from 0 to 1.
+    pub(in crate::paint) fn grid(
+        columns: usize,
+        rows: usize,
+        coverage: Coverage,
+        at: impl Fn(f64, f64) -> (Point3<f64>, Vector3<f64>),
+    ) -> PaintSurface {
+        let share = |i: usize, num: usize| i as f64 / (num - 1) as f64;
+        let each =
+            (0..columns * rows).map(|i| at(share(i % columns, columns), share(i / columns, rows)));
+        let (points, normals): (Vec<_>, Vec<_>) = each.unzip();
+        PaintSurface::new(&points, &normals, coverage).expect("a surface")
+    }
+
+    /// A plate around the origin that faces z, in steps of 10 mm.
+    pub(in crate::paint) fn plate(length: f64, width: f64) -> PaintSurface {
+        let num = |extent: f64| (extent / 0.01).round() as usize + 1;
+        grid(num(length), num(width), Coverage::OneSide, |i, j| {
+            let at = Point3::new(length * (i - 0.5), width * (j - 0.5), 0.0);
+            (at, Vector3::z())
+        })
+    }
+
+    #[test]
+    fn a_plate_has_its_spacing_side_and_area() {
+        let surface = plate(1.0, 0.6);
+        assert!((surface.spacing - 0.01).abs() < 1e-6);
+        assert!((surface.side - Vector3::z()).norm() < 1e-9);
+        assert!((surface.longest - Vector3::x()).norm() < 1e-6);
+        let area = surface.point_area * surface.points.len() as f64;
+        assert!((area / 0.6 - 1.0).abs() < 0.05, "{area}");
+    }
+
+    #[test]
+    fn what_cannot_be_painted_is_refused_by_name() {
+        let new = |points: &[Point3<f64>], normals: &[Vector3<f64>]| {
+            PaintSurface::new(points, normals, Coverage::OneSide).expect_err("refused")
+        };
+        let surface = plate(0.5, 0.5);
+        let (points, mut normals) = (surface.points.clone(), surface.normals.clone());
+        assert!(matches!(
+            new(&points[..10], &normals[..10]),
+            PaintError::TooFew { found: 10 }
+        ));
+        assert!(matches!(
+            new(&points, &normals[1..]),
+            PaintError::NotFinite { num_bad: 1 }
+        ));
+        let tiny: Vec<Point3<f64>> = points.iter().map(|p| p / 100.0).collect();
+        assert!(matches!(new(&tiny, &normals), PaintError::Extent { .. }));
+        let huge: Vec<Point3<f64>> = points.iter().map(|p| p * 1000.0).collect();
+        assert!(matches!(new(&huge, &normals), PaintError::Extent { .. }));
+        let mut bad = points.clone();
+        bad[7].x = f64::NAN;
+        assert!(matches!(
+            new(&bad, &normals),
+            PaintError::NotFinite { num_bad: 1 }
+        ));
+        normals.iter_mut().skip(1).step_by(2).for_each(|n| *n = -*n);
+        assert_eq!(new(&points, &normals), PaintError::Folded);
+    }
+}
