@@ -262,6 +262,26 @@ fn longest_axis(entries: &[([f32; 3], u32)]) -> usize {
         .unwrap_or(0)
 }
 
+/// The median distance of a point to its nearest neighbour, metres, measured on about 500 of them; a micrometre where all
+/// lie in one place. `tree` is over the points.
+pub fn median_spacing(points: &[Point3<f32>], tree: &KdTree) -> f64 {
+    const NUM_ASKED: usize = 500;
+    let step = (points.len() / NUM_ASKED).max(1);
+    let mut distances: Vec<f32> = points
+        .iter()
+        .enumerate()
+        .step_by(step)
+        .filter_map(|(i, p)| tree.nearest_other(p, i).map(|n| n.distance_sq.sqrt()))
+        // Twins say nothing about spacing.
+        .filter(|d| *d > 0.0)
+        .collect();
+    if distances.is_empty() {
+        return 1e-6;
+    }
+    let middle = distances.len() / 2;
+    f64::from(*distances.select_nth_unstable_by(middle, f32::total_cmp).1)
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;

@@ -53,6 +53,13 @@ pub fn from_row_major(m: &[f64; 16], tolerance: f64) -> Option<RigidTransform> {
     ))
 }
 
+/// True if every number of it is finite.
+pub fn is_finite(transform: &RigidTransform) -> bool {
+    let shift = transform.translation.vector.iter();
+    let mut numbers = shift.chain(transform.rotation.coords.iter());
+    numbers.all(|x| x.is_finite())
+}
+
 /// How far two poses of the same thing are apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseDelta {

@@ -3,7 +3,6 @@
 //! The table in `coat/table.rs` declares every parameter once, as the recipe of an inspection does; settings (`--set`),
 //! files and the guide follow from it.
 
-mod built_in;
 mod folder;
 mod table;
 
@@ -15,8 +14,7 @@ use super::error::PaintError;
 use crate::pipeline::parameters::{Kind, Parameters as _};
 
 pub use self::{
-    built_in::BUILT_IN_COATS,
-    folder::{CoatError, CoatFolder},
+    folder::{BUILT_IN_COATS, CoatError, CoatFolder},
     table::CoatGroup,
 };
 

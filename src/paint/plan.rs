@@ -21,7 +21,8 @@ use crate::{
     units::Metres,
 };
 
-/// The nozzle runs at most so many times as fast or slow as the jet over the surface, or tight curves would stop it.
+/// Greatest ratio of nozzle speed to the speed of the jet over the surface, and of that to this: tight curves would
+/// otherwise stop the gun.
 const MOST_SCALING: f64 = 4.0;
 
 /// Plans the path of a coat over a surface; keep-out regions are left out.

@@ -10,7 +10,10 @@ use nalgebra::{Point3, Vector3};
 
 use super::error::PaintError;
 use crate::{
-    geometry::{nearest::KdTree, principal::principal_axes},
+    geometry::{
+        nearest::{KdTree, median_spacing},
+        principal::principal_axes,
+    },
     stages::reference::{Coverage, Reference},
 };
 
@@ -22,7 +25,7 @@ const LEAST_EXTENT: f64 = 0.03;
 const MOST_EXTENT: f64 = 10.0;
 /// Cosine between a normal and the side of the flattest points that belong to the side: 80°.
 const LEAST_FACING: f64 = 0.17;
-/// Normals are averaged over so many spacings.
+/// Radius over which normals are averaged, in spacings of the points.
 const SMOOTHED_OVER: f64 = 2.5;
 
 /// The side of a part that is painted, part space, metres.
@@ -91,9 +94,6 @@ impl PaintSurface {
         let stored: Vec<Point3<f32>> = points.iter().map(|p| p.cast()).collect();
         let tree = KdTree::new(&stored);
         let spacing = median_spacing(&stored, &tree);
-        if !(spacing > 0.0) {
-            return Err(PaintError::Folded);
-        }
         let normals = smoothed(&stored, &tree, &chosen, normals, SMOOTHED_OVER * spacing);
         let first: Vector3<f64> = axes.axes.column(0).into_owned();
         let longest = (first - side * side.dot(&first)).try_normalize(1e-6);
@@ -192,19 +192,6 @@ fn area_of_point(
     let mut areas: Vec<f64> = each.collect();
     areas.sort_by(f64::total_cmp);
     areas[areas.len() / 2]
-}
-
-/// Median distance to the nearest other point.
-fn median_spacing(points: &[Point3<f32>], tree: &KdTree) -> f64 {
-    let step = points.len().div_ceil(2000);
-    let nearest = (0..points.len())
-        .step_by(step)
-        .filter_map(|i| tree.nearest_other(&points[i], i));
-    let mut distances: Vec<f32> = nearest.map(|found| found.distance_sq.sqrt()).collect();
-    distances.sort_by(f32::total_cmp);
-    distances
-        .get(distances.len() / 2)
-        .map_or(0.0, |d| f64::from(*d))
 }
 
 /// Normals of the chosen points, averaged over those within a radius.

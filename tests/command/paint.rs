@@ -35,6 +35,23 @@ fn a_path_is_planned_written_read_and_simulated_to_the_same_film() {
 }
 
 #[test]
+fn a_sphere_is_kept_out_of_the_paint() {
+    let shop = Workplace::new();
+    let plan = ["path", "plan", "fender", "--coat", "primer", "--json"];
+    let paint = |line: &serde_json::Value| line["paint_ml"].as_f64().expect("a number");
+    let whole = paint(&shop.run(&plan).json());
+    let kept = ["--keep-out", "0 0 1300 250"];
+    let less = paint(&shop.run(&[&plan[..], &kept].concat()).json());
+    assert!(less < 0.95 * whole, "{less} of {whole}");
+    let no_sphere = ["--keep-out", "0 0 1300"];
+    let ran = shop.coded(2, &[&plan[..], &no_sphere].concat());
+    assert!(ran.err.contains("four numbers"), "{}", ran.err);
+    let no_radius = ["--keep-out", "0 0 1300 -1"];
+    let ran = shop.coded(2, &[&plan[..], &no_radius].concat());
+    assert!(ran.err.contains("without a radius"), "{}", ran.err);
+}
+
+#[test]
 fn what_cannot_be_planned_is_refused_with_advice_and_writes_nothing() {
     let shop = Workplace::new();
     let plan = ["path", "plan", "fender", "--output", "path.csv", "--coat"];

@@ -8,13 +8,14 @@ use std::{
 use clap::Args;
 use jiff::Timestamp;
 
-use super::spray::SprayResult;
+use super::spray::{SprayResult, check_placed_part, names_of};
 use crate::{
     cli::{
         Outcome,
         console::{Advised as _, Console, advised_error},
         input::parse_robot_pose,
     },
+    geometry::rigid::RigidTransform,
     library::{LibraryLoad, LibraryPlace, PartName},
     robot::{
         RobotFrame, WrittenPose,
@@ -109,18 +110,7 @@ impl ProgramChoice {
         };
         // Whatever comes of this capture, no robot may run an earlier program for it.
         remove_previous_program(file).advised()?;
-        if files.len() != 1 {
-            return Err(advised_error(
-                "--program writes the path over one part",
-                "Give one capture",
-            ));
-        }
-        if frame.is_none() {
-            return Err(advised_error(
-                "--program needs to know where the camera sits in the robot's cell",
-                "Name a calibration with --calibration, or make one: partsight calibrate",
-            ));
-        }
+        check_placed_part("--program", files, frame)?;
         let format = match self.robot_program_format {
             Some(format) => format,
             None => ProgramFormat::of(file).advised()?,
@@ -129,7 +119,7 @@ impl ProgramChoice {
         let arm = self.arm.as_deref().map(Arm::named).transpose().advised()?;
         let arm = arm.zip(nozzle).map(|(arm, flange_from_nozzle)| PlacedArm {
             arm,
-            robot_from_base: crate::geometry::rigid::RigidTransform::identity(),
+            robot_from_base: RigidTransform::identity(),
             flange_from_nozzle,
         });
         Ok(Some(ProgramFile {
@@ -146,9 +136,7 @@ impl ProgramChoice {
             arm,
             is_forced: self.force,
             place,
-            parts: (load.parts.iter())
-                .map(|meta| (meta.name.clone(), meta.simulated))
-                .collect(),
+            parts: names_of(load),
         }))
     }
 }

@@ -61,31 +61,45 @@ impl SprayChoice {
         let Some(file) = &self.spray else {
             return Ok(None);
         };
-        if files.len() != 1 {
-            return Err(advised_error(
-                "--spray writes the path over one part",
-                "Give one capture",
-            ));
-        }
-        if frame.is_none() {
-            return Err(advised_error(
-                "--spray needs to know where the camera sits in the robot's cell",
-                "Name a calibration with --calibration, or make one: partsight calibrate",
-            ));
-        }
         // Whatever comes of this capture, an earlier path must not be taken for its.
         remove_previous_export(file).advised()?;
+        check_placed_part("--spray", files, frame)?;
         Ok(Some(SprayFile {
             file: file.clone(),
             convention: self.spray_as,
             place,
-            parts: load
-                .parts
-                .iter()
-                .map(|meta| (meta.name.clone(), meta.simulated))
-                .collect(),
+            parts: names_of(load),
         }))
     }
+}
+
+/// Refuses an option that writes a carried path where there is more than one part, or no calibration.
+pub(super) fn check_placed_part(
+    option: &str,
+    files: &[PathBuf],
+    frame: Option<&RobotFrame>,
+) -> anyhow::Result<()> {
+    if files.len() != 1 {
+        return Err(advised_error(
+            format!("{option} writes the path over one part"),
+            "Give one capture",
+        ));
+    }
+    if frame.is_none() {
+        return Err(advised_error(
+            format!("{option} needs to know where the camera sits in the robot's cell"),
+            "Name a calibration with --calibration, or make one: partsight calibrate",
+        ));
+    }
+    Ok(())
+}
+
+/// Name and whether it is simulated, in the order of the library's references.
+pub(super) fn names_of(load: &LibraryLoad) -> Vec<(PartName, bool)> {
+    let parts = load.parts.iter();
+    parts
+        .map(|meta| (meta.name.clone(), meta.simulated))
+        .collect()
 }
 
 impl SprayFile {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use nalgebra::Point3;
 use serde_json::json;
 
 use crate::{
@@ -13,7 +14,7 @@ use crate::{
     },
     files::write_atomically,
     library::{PartName, SprayPath, StoredPart},
-    paint::{Coat, CoatFolder, Film, PaintSurface, plan, propose, simulate},
+    paint::{Coat, CoatFolder, Film, KeepOut, PaintSurface, plan, propose, simulate},
     pipeline::parameters::Setting,
     stages::reference::ReferenceParams,
 };
@@ -28,6 +29,9 @@ pub(super) struct PlanArgs {
     /// Find the row spacing and the speed that bring the film to the coat's target
     #[arg(long)]
     propose: bool,
+    /// Keep the paint out of a sphere, part frame, mm: "X Y Z RADIUS"; may be given several times
+    #[arg(long, value_name = "SPHERE", value_parser = parse_sphere, allow_hyphen_values = true)]
+    keep_out: Vec<KeepOut>,
     /// Write the path as a table, as library path reads it
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -79,6 +83,20 @@ impl CoatChoice {
     }
 }
 
+fn parse_sphere(text: &str) -> Result<KeepOut, String> {
+    let metres: Option<Vec<f64>> = text
+        .split_whitespace()
+        .map(|number| number.parse::<f64>().ok().map(|mm| mm / 1000.0))
+        .collect();
+    let Some([x, y, z, radius]) = metres.as_deref() else {
+        return Err("expected four numbers in mm: \"X Y Z RADIUS\"".into());
+    };
+    Ok(KeepOut::Sphere {
+        centre: Point3::new(*x, *y, *z),
+        radius: *radius,
+    })
+}
+
 /// 1 if a tenth of what the gun can face is not within the tolerance.
 const GOOD_ENOUGH: f64 = 0.9;
 
@@ -91,10 +109,10 @@ pub(super) fn run_plan(
     let coat = args.coat.open()?;
     let surface = surface_of(&read(choice, name, console)?)?;
     let (coat, path, film) = if args.propose {
-        let found = propose(&surface, &coat, &[]).advised()?;
+        let found = propose(&surface, &coat, &args.keep_out).advised()?;
         (found.coat, found.path, found.film)
     } else {
-        let path = plan(&surface, &coat, &[]).advised()?;
+        let path = plan(&surface, &coat, &args.keep_out).advised()?;
         let film = simulate(&surface, &path, &coat).advised()?;
         (coat, path, film)
     };

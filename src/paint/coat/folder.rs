@@ -1,22 +1,41 @@
-//! The user's coats: a file each, beside the recipes of inspections.
+//! Coats by name: the program's own, and the user's, a file each beside the recipes of inspections.
 
 use std::{
     fs, io,
     path::{Path, PathBuf},
 };
 
-use super::{
-    Coat,
-    built_in::{BUILT_IN_COATS, built_in},
-};
+use super::Coat;
 use crate::{
     error::Advice,
-    files::{FileError, disk, nearest_name},
+    files::{FileError, nearest_name},
     library::PartName,
     pipeline::{RecipeError, RecipeFile, RecipeFolder},
 };
 
-/// A folder of coats; it need not be there until the first is saved.
+/// Names and files of the program's own coats.
+const FILES: [(&str, &str); 3] = [
+    ("primer", include_str!("../../../assets/coats/primer.toml")),
+    (
+        "base_coat",
+        include_str!("../../../assets/coats/base_coat.toml"),
+    ),
+    (
+        "clear_coat",
+        include_str!("../../../assets/coats/clear_coat.toml"),
+    ),
+];
+
+/// Names of the program's own coats, in the order they are sprayed.
+pub const BUILT_IN_COATS: [&str; 3] = [FILES[0].0, FILES[1].0, FILES[2].0];
+
+/// The program's own coat of this name.
+fn built_in(name: &str) -> Option<RecipeFile<Coat>> {
+    let (_, text) = FILES.iter().find(|(own, _)| *own == name)?;
+    Some(RecipeFile::parse(Path::new(name), text).expect("a test reads every built-in coat"))
+}
+
+/// A folder of coats; it need not be there.
 #[derive(Clone, Debug)]
 pub struct CoatFolder {
     path: PathBuf,
@@ -36,12 +55,6 @@ pub enum CoatError {
         /// Those that are there.
         available: Vec<String>,
     },
-    /// The program's own coat, or one that is there already.
-    #[error("there is a coat named {name} already")]
-    Exists {
-        /// The name.
-        name: String,
-    },
 }
 
 impl Advice for CoatError {
@@ -58,7 +71,6 @@ impl Advice for CoatError {
                     nearest.unwrap_or(BUILT_IN_COATS[0])
                 )
             }
-            Self::Exists { .. } => "Choose another name".into(),
         }
     }
 }
@@ -124,19 +136,6 @@ impl CoatFolder {
             Err(error) => Err(error.into()),
         }
     }
-
-    /// Keeps a coat under a name that none has.
-    pub fn save(&self, coat: &RecipeFile<Coat>) -> Result<PathBuf, CoatError> {
-        let path = self.file(&coat.name);
-        if built_in(coat.name.as_str()).is_some() || path.symlink_metadata().is_ok() {
-            let name = coat.name.to_string();
-            return Err(CoatError::Exists { name });
-        }
-        disk::create_dir_all(&self.path)
-            .map_err(|error| RecipeError::from(FileError::writing(&self.path, error)))?;
-        coat.write(&path)?;
-        Ok(path)
-    }
 }
 
 #[cfg(test)]
@@ -144,22 +143,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_coat_is_kept_and_opened_by_name_and_by_file() {
+    fn a_coat_is_opened_by_name_and_by_file() {
         let data = tempfile::tempdir().expect("a folder");
         let folder = CoatFolder::at(data.path().join("coats"));
         assert_eq!(folder.names().expect("names"), BUILT_IN_COATS);
         let mut coat = folder.open("primer").expect("built in");
-        assert!(matches!(folder.save(&coat), Err(CoatError::Exists { .. })));
         coat.name = PartName::new("my_primer").expect("a name");
         coat.recipe.spacing = 0.05;
-        let file = folder.save(&coat).expect("saved");
+        std::fs::create_dir(data.path().join("coats")).expect("made");
+        let file = data.path().join("coats/my_primer.toml");
+        coat.write(&file).expect("written");
         assert_eq!(folder.open("my_primer").expect("opened"), coat);
         assert_eq!(
             folder.open(&file.display().to_string()).expect("opened"),
             coat
         );
         assert_eq!(folder.names().expect("names").len(), 4);
-        assert!(matches!(folder.save(&coat), Err(CoatError::Exists { .. })));
         let missing = folder.open("my_premier").expect_err("no such coat");
         assert!(
             missing.advice().contains("my_primer"),
@@ -177,5 +176,16 @@ mod tests {
             "{refused}"
         );
         assert!(refused.advice().contains("paint.md"));
+    }
+
+    #[test]
+    fn every_built_in_coat_is_read_under_its_name_and_nearly_reaches_its_target() {
+        for name in BUILT_IN_COATS {
+            let coat = built_in(name).expect("built in");
+            assert_eq!(coat.name.as_str(), name);
+            assert!(coat.notes.len() > 20);
+            let film = coat.recipe.flat_thickness() / coat.recipe.target;
+            assert!((film - 1.0).abs() < 0.1, "{name}: {film}");
+        }
     }
 }

@@ -8,7 +8,7 @@ use super::{
     ArmError, PlacedArm,
     kinematics::{Joints, Singularity, Solver},
 };
-use crate::geometry::rigid::RigidTransform;
+use crate::geometry::rigid::{RigidTransform, is_finite};
 
 /// A place of the nozzle that the arm shall reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,14 +161,6 @@ pub(super) fn refuse_bad(
     points: &[ArmPoint],
     params: &CheckParams,
 ) -> Result<(), ArmError> {
-    let is_finite = |pose: &RigidTransform| {
-        let numbers = pose
-            .translation
-            .vector
-            .iter()
-            .chain(pose.rotation.coords.iter());
-        numbers.into_iter().all(|x| x.is_finite())
-    };
     let not_finite = |what: String| Err(ArmError::NotFinite { what });
     if points.is_empty() {
         return Err(ArmError::NoPoints);
@@ -191,7 +183,7 @@ pub(super) fn refuse_bad(
     Ok(())
 }
 
-/// The `turn`th of so many steps about z, within ±π.
+/// Angle of a step about z, radians within ±π; the steps are even.
 fn angle_of(turn: usize, num_turns: usize) -> f64 {
     let angle = TAU * turn as f64 / num_turns as f64;
     if angle > std::f64::consts::PI {

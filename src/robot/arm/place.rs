@@ -17,11 +17,11 @@ pub struct PlaceSuggestion {
     pub num_reached: usize,
 }
 
-/// So many points stand for the path while places are compared.
+/// Points of the path that are sampled while places are compared.
 const NUM_SAMPLES: usize = 60;
 /// Turns that are tried meanwhile.
 const NUM_TURNS: usize = 8;
-/// So many of the best places are checked in full.
+/// Best places that are checked in full.
 const NUM_CHECKED: usize = 3;
 
 /// Moves the base by up to a metre sideways and half a metre up or down, in steps of 200 and 250 mm, and returns the place

@@ -44,7 +44,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     error::Advice,
-    geometry::rigid::{PoseDelta, RigidTransform, pose_error},
+    geometry::rigid::{PoseDelta, RigidTransform, is_finite, pose_error},
     units::{Metres, Radians},
 };
 
@@ -283,10 +283,6 @@ fn check(pairs: &[PosePair]) -> Result<(), HandEyeError> {
     if found > MOST_PAIRS {
         return Err(HandEyeError::TooManyPairs { found });
     }
-    let is_finite = |pose: &RigidTransform| {
-        let numbers = pose.to_homogeneous();
-        numbers.iter().all(|x| x.is_finite())
-    };
     let bad = pairs
         .iter()
         .find(|p| !is_finite(&p.robot_from_flange) || !is_finite(&p.camera_from_target));

@@ -36,7 +36,7 @@ use jiff::Timestamp;
 use self::{steps::Step, text::Lines};
 use crate::{
     files::{FileError, disk, open_regular, write_atomically},
-    geometry::rigid::RigidTransform,
+    geometry::rigid::{RigidTransform, is_finite},
     robot::Convention,
     units::Metres,
 };
@@ -338,10 +338,6 @@ impl Program<'_> {
         if self.points.is_empty() {
             return Err(ProgramError::NoPoints);
         }
-        let is_finite = |pose: &RigidTransform| {
-            let vector = pose.translation.vector;
-            (vector.iter().chain(pose.rotation.coords.iter())).all(|number| number.is_finite())
-        };
         let [low, high] = format.speeds();
         for (i, point) in self.points.iter().enumerate() {
             if !is_finite(&point.robot_from_nozzle) {

@@ -95,7 +95,7 @@ fn ascii_of(c: char) -> char {
     }
 }
 
-/// The number with so many decimals, without a minus before zero.
+/// The number, rounded; zero has no minus sign.
 pub(super) fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let is_zero = text.bytes().all(|c| matches!(c, b'-' | b'.' | b'0'));

@@ -16,7 +16,7 @@ use super::{
 use crate::{
     geometry::{
         cloud::PointCloud,
-        nearest::KdTree,
+        nearest::{KdTree, median_spacing},
         nearest_field::NearestField,
         principal::{PrincipalAxes, principal_axes},
         surface_grid::SurfaceGrid,
@@ -89,7 +89,7 @@ impl PreparedTarget {
         let extent = centred.extent;
         let all = PointCloud::from_points(std::mem::take(&mut centred.points));
         let tree = KdTree::new(&all.points);
-        let mut spacing = spacing_of(&all.points, &tree);
+        let mut spacing = median_spacing(&all.points, &tree);
         let mut thinned = all;
         let mut tree = Some(tree);
         while thinned.points.len() > MAX_POINTS {
@@ -117,7 +117,7 @@ impl PreparedTarget {
         let tree = KdTree::new(&coarse.points);
         let (cell, band) = (extent / COARSE_CELLS, COARSE_BAND * extent);
         let coarse = CorrespondenceCache {
-            spacing: spacing_of(&coarse.points, &tree),
+            spacing: median_spacing(&coarse.points, &tree),
             field: NearestField::new(&coarse.points, cell as f32, band as f32),
             tree: tree.into(),
             edges: EdgePoints::default(),
@@ -233,23 +233,4 @@ impl CorrespondenceCache {
             spacing: *spacing,
         }
     }
-}
-
-/// The median distance of a point to its nearest neighbour, metres.
-fn spacing_of(points: &[Point3<f32>], tree: &KdTree) -> f64 {
-    const NUM_ASKED: usize = 500;
-    let step = (points.len() / NUM_ASKED).max(1);
-    let mut distances: Vec<f32> = points
-        .iter()
-        .enumerate()
-        .step_by(step)
-        .filter_map(|(i, p)| tree.nearest_other(p, i).map(|n| n.distance_sq.sqrt()))
-        // Twins say nothing about spacing.
-        .filter(|d| *d > 0.0)
-        .collect();
-    if distances.is_empty() {
-        return 1e-6;
-    }
-    let middle = distances.len() / 2;
-    f64::from(*distances.select_nth_unstable_by(middle, f32::total_cmp).1)
 }
