@@ -26,6 +26,8 @@ pub enum Pattern {
     Raster,
     /// Two rasters, the second across the first.
     CrossHatch,
+    /// Closed rings along the outline and around wide openings, from the outside in.
+    Contour,
 }
 
 /// Which way the rows of a raster run.

@@ -2,14 +2,19 @@
 //!
 //! Each way with the gun on is cut into steps of an eighth of the jet's depth. A step lays down what the gun at its middle
 //! lays down in the time that it takes (midpoint sums of the film growth in `gun.rs`), with the distance and the angle of
-//! every point.
+//! every point. What another part of the surface hides from the mouth gets nothing (`shadow.rs`).
 //!
-//! Known limits: nothing shadows anything; what faces the mouth is painted.
+//! Known limits: of the part, only the side that is painted casts shadows.
 
 use nalgebra::{Point3, Unit, Vector3};
 use serde::Serialize;
 
-use super::{coat::Coat, error::PaintError, surface::PaintSurface};
+use super::{
+    coat::Coat,
+    error::PaintError,
+    shadow::{DISC, DepthBuffer, Seen},
+    surface::PaintSurface,
+};
 use crate::{
     geometry::{
         nearest::KdTree,
@@ -99,12 +104,15 @@ pub fn simulate(surface: &PaintSurface, path: &SprayPath, coat: &Coat) -> Result
     let sums = map_in_order(
         num_sums,
         num_cores(),
-        || (),
-        |(), which| {
+        || {
+            let buffer = DepthBuffer::new(coat.gun.spread(), surface.spacing, coat.stand_off);
+            (buffer, Vec::new())
+        },
+        |scratch, which| {
             let end = steps.len().min((which + 1) * STEPS_PER_SUM);
             let mut sum = vec![0.0; surface.points.len()];
             for step in &steps[which * STEPS_PER_SUM..end] {
-                spray(surface, &tree, step, coat, &mut sum);
+                spray(surface, &tree, step, coat, scratch, &mut sum);
             }
             sum
         },
@@ -179,21 +187,45 @@ fn step_at(a: &PathPoint, b: &PathPoint, share: f64, seconds: f64) -> Step {
     }
 }
 
-/// Adds what one step lays down.
-fn spray(surface: &PaintSurface, tree: &KdTree, step: &Step, coat: &Coat, sum: &mut [f64]) {
-    let [across, _] = coat.gun.spread();
+/// Adds what one step lays down; `buffer` and `seen` are scratch.
+fn spray(
+    surface: &PaintSurface,
+    tree: &KdTree,
+    step: &Step,
+    coat: &Coat,
+    (buffer, seen): &mut (DepthBuffer, Vec<Seen>),
+    sum: &mut [f64],
+) {
+    let spread = coat.gun.spread();
     // Twice the stand-off away the jet is thin, and what lies there is another part of the surface.
     let reach = 2.0 * coat.stand_off;
     let aim = step.nozzle + step.axes[2] * coat.stand_off;
     let radius = reach
-        .min(coat.stand_off * across.max(0.5) * 1.5)
-        .max(coat.stand_off * across);
+        .min(coat.stand_off * spread[0].max(0.5) * 1.5)
+        .max(coat.stand_off * spread[0]);
+    // Discs may reach into the jet from beside it.
+    let beside = DISC * surface.spacing;
+    let in_jet = |v: &Vector3<f64>| Vector3::from(step.axes.map(|axis| axis.dot(v)));
+    seen.clear();
     tree.within(&aim.cast(), radius as f32, |found| {
-        let ray = surface.points[found.index] - step.nozzle;
-        let r = Vector3::from(step.axes.map(|axis| axis.dot(&ray)));
-        let facing = -ray.dot(&surface.normals[found.index]);
-        sum[found.index] += coat.gun.film_growth(&r, facing) * step.seconds;
+        let at = in_jet(&(surface.points[found.index] - step.nozzle));
+        if at.z > 0.0 && (0..2).all(|axis| at[axis].abs() <= spread[axis] * at.z + beside) {
+            seen.push(Seen {
+                index: found.index,
+                at,
+                normal: in_jet(&surface.normals[found.index]),
+            });
+        }
     });
+    buffer.draw(seen);
+    for point in seen.iter() {
+        let growth = coat
+            .gun
+            .film_growth(&point.at, -point.at.dot(&point.normal));
+        if growth > 0.0 && !buffer.hides(seen, point) {
+            sum[point.index] += growth * step.seconds;
+        }
+    }
 }
 
 impl FilmFigures {

@@ -11,13 +11,17 @@
 mod coat;
 mod error;
 mod film;
+mod fit;
 mod gun;
 mod height_map;
 mod plan;
 mod propose;
 mod region;
+mod rings;
 mod rows;
+mod shadow;
 mod surface;
+mod travel;
 
 pub use self::{
     coat::{
@@ -25,8 +29,9 @@ pub use self::{
     },
     error::PaintError,
     film::{Film, FilmFigures, PathFigures, simulate},
+    fit::{StripeError, StripeFit, StripeSample, fit_stripe, read_stripe},
     plan::plan,
-    propose::{Proposal, propose},
+    propose::{Proposal, best_speed, propose},
     region::KeepOut,
     surface::PaintSurface,
 };

@@ -1,8 +1,9 @@
 //! A spray path over the side of a part.
 //!
-//! Rows ([`lay_rows`]) run over the smoothed surface, there and back. The gun stands off along the smoothed normal, leans no
+//! Rows ([`lay_rows`]) run over the smoothed surface, there and back, or rings ([`lay_rings`]) around it. The gun stands off along the smoothed normal, leans no
 //! further than the coat allows, and turns its fan across the row. Its speed is set so that the jet runs over the surface
-//! at the coat's speed: around an outer curve the nozzle has the longer way and runs faster.
+//! at the coat's speed: around an outer curve the nozzle has the longer way and runs faster. Between rows the nozzle keeps
+//! clear of the part ([`keep_clear`]).
 //!
 //! What is painted is one layer, seen from the side; of folded sheet the upper one.
 
@@ -13,8 +14,10 @@ use super::{
     error::PaintError,
     height_map::HeightMap,
     region::{KeepOut, KeepOuts},
+    rings::lay_rings,
     rows::{RowParams, RowPlace, lay_rows},
     surface::PaintSurface,
+    travel::keep_clear,
 };
 use crate::{
     library::{MAX_PATH_POINTS, MAX_SPEED, PathPoint, SprayPath},
@@ -36,11 +39,12 @@ pub fn plan(
         region.check()?;
     }
     let along = row_direction(surface, coat);
-    let mut points = raster(surface, coat, keep_outs, &along)?;
+    let mut points = laid(surface, coat, keep_outs, &along)?;
     if coat.pattern == Pattern::CrossHatch {
         let across = surface.side.cross(&along);
-        points.extend(raster(surface, coat, keep_outs, &across)?);
+        points.extend(laid(surface, coat, keep_outs, &across)?);
     }
+    let points = keep_clear(points, surface, coat);
     if points.len() > MAX_PATH_POINTS {
         return Err(PaintError::TooLong {
             found: points.len(),
@@ -59,7 +63,8 @@ fn row_direction(surface: &PaintSurface, coat: &Coat) -> Vector3<f64> {
     flat.try_normalize(1e-3).unwrap_or(surface.longest)
 }
 
-fn raster(
+/// The points of one raster, or of all rings.
+fn laid(
     surface: &PaintSurface,
     coat: &Coat,
     regions: &[KeepOut],
@@ -87,8 +92,14 @@ fn raster(
         margin: coat.margin,
     };
     let mut points = Vec::new();
-    for (k, mut row) in lay_rows(&map, &inside, &params).into_iter().enumerate() {
-        if k % 2 == 1 {
+    let is_raster = coat.pattern != Pattern::Contour;
+    let rows = if is_raster {
+        lay_rows(&map, &inside, &params)
+    } else {
+        lay_rings(&map, &inside, &params)
+    };
+    for (k, mut row) in rows.into_iter().enumerate() {
+        if is_raster && k % 2 == 1 {
             row.reverse();
         }
         points.extend(path_of_row(&map, &row, coat, &surface.side));

@@ -165,3 +165,43 @@ fn half_the_speed_is_twice_the_film_and_a_gun_that_is_off_paints_nothing() {
     let off = SprayPath::new(off.collect()).expect("points");
     assert_eq!(film(&off).expect_err("off"), PaintError::NeverSprays);
 }
+
+#[test]
+fn a_shelf_before_a_wall_takes_the_paint_that_the_wall_does_not_get() {
+    // Rows over a wall of which a shelf 60 mm before it hides the middle; the paint is the same with and without it.
+    let coat = Coat::default();
+    let wall = |with_shelf: bool| {
+        let mut points = Vec::new();
+        for i in -80..=80 {
+            for j in -60..=60 {
+                points.push(Point3::new(0.01 * f64::from(i), 0.01 * f64::from(j), 0.0));
+                if with_shelf && f64::hypot(f64::from(i), f64::from(j)) < 15.0 {
+                    points.push(Point3::new(0.01 * f64::from(i), 0.01 * f64::from(j), 0.06));
+                }
+            }
+        }
+        let normals = vec![Vector3::z(); points.len()];
+        PaintSurface::new(&points, &normals, Coverage::OneSide).expect("a surface")
+    };
+    let levels = (-3..=3).map(|k| f64::from(k) * coat.spacing);
+    let path = flat_stripes(levels, &Coat { speed: 0.4, ..coat });
+    let landed = |surface: &PaintSurface| {
+        let film = simulate(surface, &path, &coat).expect("simulated");
+        let volume = film.thickness.iter().sum::<f64>() * 1e-4;
+        (film, volume)
+    };
+    let (surface, shelved) = (wall(false), wall(true));
+    let ((plain, all), (shadowed, split)) = (landed(&surface), landed(&shelved));
+    assert!((split / all - 1.0).abs() < 0.02, "{}", split / all);
+    // Beneath the shelf nothing lands; on it, nearer to the gun, as much as rows at this distance leave.
+    let middle = |film: &Film, surface: &PaintSurface, z: f64| {
+        let at = Point3::new(0.0, 0.0, z);
+        let near = |p: &Point3<f64>| (p - at).norm() < 0.025;
+        let each = surface.points.iter().zip(&film.thickness);
+        let each: Vec<f64> = each.filter(|(p, _)| near(p)).map(|(_, t)| *t).collect();
+        each.iter().sum::<f64>() / each.len() as f64
+    };
+    assert!(middle(&plain, &surface, 0.0) > 0.9 * coat.flat_thickness());
+    assert!(middle(&shadowed, &shelved, 0.0) < 1e-9);
+    assert!(middle(&shadowed, &shelved, 0.06) > 0.8 * coat.flat_thickness());
+}

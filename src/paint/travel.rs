@@ -1,0 +1,222 @@
+//! The ways with the gun off, clear of the part.
+//!
+//! Rows and rings keep their stand-off; the straight ways between them may not, around a bend or from one raster to the
+//! next. Each is sampled, and lifted along the side where the surface is too near. The distance to the nearest point grows by no
+//! more than the way that the nozzle moves, so lifting by what is missing, again and again, ends at the least lift that is
+//! clear. Lifted points that a straight way does without are taken out again.
+//!
+//! Known limits: the part alone is kept clear of, not what holds it, and only the mouth of the gun.
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use super::{coat::Coat, surface::PaintSurface};
+use crate::{geometry::nearest::KdTree, library::PathPoint};
+
+/// Distance from the surface that ways with the gun off keep, over the stand-off.
+pub(super) const CLEAR: f64 = 0.65;
+/// Samples of a way, over the stand-off.
+const STEP: f64 = 0.1;
+/// Lifting ways may bring new ones too near; each time fewer.
+const MOST_ROUNDS: usize = 6;
+/// A lift grows by this at least, metres.
+const LEAST_LIFT: f64 = 0.001;
+
+struct Clearance {
+    tree: KdTree,
+    side: Vector3<f64>,
+    /// Distance that is kept, metres.
+    kept: f64,
+    step: f64,
+}
+
+/// A point of the path, or one that was put in between.
+struct Stop {
+    point: PathPoint,
+    is_inserted: bool,
+}
+
+/// The points with others put in where a way with the gun off comes too near to the surface.
+pub(super) fn keep_clear(
+    points: Vec<PathPoint>,
+    surface: &PaintSurface,
+    coat: &Coat,
+) -> Vec<PathPoint> {
+    let stored: Vec<Point3<f32>> = surface.points.iter().map(|p| p.cast()).collect();
+    let clearance = Clearance {
+        tree: KdTree::new(&stored),
+        side: surface.side,
+        kept: CLEAR * coat.stand_off,
+        step: STEP * coat.stand_off,
+    };
+    let stops = points.into_iter().map(|point| Stop {
+        point,
+        is_inserted: false,
+    });
+    let mut stops: Vec<Stop> = stops.collect();
+    for _ in 0..MOST_ROUNDS {
+        let before = stops.len();
+        stops = clearance.lifted(stops, coat);
+        if stops.len() == before {
+            break;
+        }
+    }
+    clearance.without_needless(&stops)
+}
+
+impl Clearance {
+    /// Distance to the nearest point of the surface.
+    fn distance(&self, p: &Point3<f64>) -> f64 {
+        let found = self.tree.nearest(&p.cast(), f32::INFINITY);
+        found.map_or(f64::INFINITY, |found| f64::from(found.distance_sq).sqrt())
+    }
+
+    /// Distance that a way from `a` to `b` keeps at `p`. Its ends may be nearer, in a corner that the gun sprays into.
+    fn wanted(&self, p: &Point3<f64>, ends: [(Point3<f64>, f64); 2]) -> f64 {
+        let near = ends.map(|(end, distance)| distance + 0.5 * (p - end).norm());
+        near.into_iter().fold(self.kept, f64::min)
+    }
+
+    /// Shares of the way between two points that are too near, with the lift that each needs.
+    fn too_near(&self, a: &Point3<f64>, b: &Point3<f64>) -> Vec<(f64, f64)> {
+        let ends = [a, b].map(|end| (*end, self.distance(end)));
+        let num = ((b - a).norm() / self.step).ceil() as usize;
+        let samples = (1..num).filter_map(|k| {
+            let share = k as f64 / num as f64;
+            let start = a + (b - a) * share;
+            let mut lift = 0.0;
+            loop {
+                let p = start + self.side * lift;
+                let missing = self.wanted(&p, ends) - self.distance(&p);
+                if missing <= 1e-6 {
+                    break;
+                }
+                lift += missing.max(LEAST_LIFT);
+            }
+            (lift > 0.0).then_some((share, lift))
+        });
+        samples.collect()
+    }
+
+    fn lifted(&self, stops: Vec<Stop>, coat: &Coat) -> Vec<Stop> {
+        let mut all: Vec<Stop> = Vec::with_capacity(stops.len());
+        for next in stops {
+            if let Some(last) = all.last().filter(|last| !last.point.is_gun_on) {
+                let (a, b) = (last.point, next.point);
+                for (share, lift) in self.too_near(&a.nozzle, &b.nozzle) {
+                    let jet = a.direction.lerp(&b.direction, share);
+                    let direction = Unit::try_new(jet, 1e-3).unwrap_or(a.direction);
+                    // A fan stays at right angles to the jet, which turns on the way.
+                    let fan = if share < 0.5 { a.fan } else { b.fan };
+                    let across = fan.map(|fan| *fan - *direction * direction.dot(&fan));
+                    let point = PathPoint {
+                        nozzle: a.nozzle + (b.nozzle - a.nozzle) * share + self.side * lift,
+                        direction,
+                        stand_off: None,
+                        is_gun_on: false,
+                        speed: Some(coat.speed),
+                        fan: across.and_then(|across| Unit::try_new(across, 1e-3)),
+                    };
+                    all.push(Stop {
+                        point,
+                        is_inserted: true,
+                    });
+                }
+            }
+            all.push(next);
+        }
+        all
+    }
+
+    fn without_needless(&self, stops: &[Stop]) -> Vec<PathPoint> {
+        let mut all: Vec<PathPoint> = Vec::with_capacity(stops.len());
+        for (i, stop) in stops.iter().enumerate() {
+            if stop.is_inserted
+                && let (Some(before), Some(after)) = (all.last(), stops.get(i + 1))
+                && self
+                    .too_near(&before.nozzle, &after.point.nozzle)
+                    .is_empty()
+            {
+                continue;
+            }
+            all.push(stop.point);
+        }
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        paint::{Pattern, plan, surface::tests::grid},
+        stages::reference::Coverage,
+    };
+
+    /// Least distance of the ways with the gun off from the surface, over the stand-off; every way in steps of 5 mm.
+    fn least_clearance(surface: &PaintSurface, points: &[PathPoint], coat: &Coat) -> f64 {
+        let mut least = f64::INFINITY;
+        for pair in points.windows(2).filter(|pair| !pair[0].is_gun_on) {
+            let way = pair[1].nozzle - pair[0].nozzle;
+            let num = (way.norm() / 0.005).ceil() as usize;
+            for k in 0..=num {
+                let p = pair[0].nozzle + way * (k as f64 / num.max(1) as f64);
+                let nearest = surface.points.iter().map(|q| (q - p).norm());
+                least = nearest.fold(least, f64::min);
+            }
+        }
+        least / coat.stand_off
+    }
+
+    fn hatched(tilt_limit: f64) -> Coat {
+        Coat {
+            pattern: Pattern::CrossHatch,
+            tilt_limit,
+            ..Coat::default()
+        }
+    }
+
+    #[test]
+    fn from_one_raster_to_the_next_the_way_goes_over_a_bent_part_and_not_through_it() {
+        // Three quarters of a half pipe, outside painted.
+        let surface = grid(61, 81, Coverage::OneSide, |i, j| {
+            let (x, angle) = (0.8 * i - 0.4, 2.4 * (j - 0.5));
+            let normal = Vector3::new(0.0, angle.sin(), angle.cos());
+            (Point3::from(normal * 0.25 + Vector3::x() * x), normal)
+        });
+        let coat = hatched(1.2);
+        let path = plan(&surface, &coat, &[]).expect("planned");
+        let least = least_clearance(&surface, path.points(), &coat);
+        assert!(least > 0.6, "{least}");
+        // Without the lifted points it went through the part.
+        let plain = path.points().iter().filter(|p| p.stand_off.is_some());
+        let plain: Vec<PathPoint> = plain.copied().collect();
+        assert!(plain.len() < path.points().len());
+        assert!(least_clearance(&surface, &plain, &coat) < 0.5);
+        // Lifted points never spray, and are few.
+        let num_lifted = path.points().len() - plain.len();
+        assert!(num_lifted < 20, "{num_lifted}");
+    }
+
+    #[test]
+    fn over_a_wide_opening_and_around_an_l_nothing_needs_lifting() {
+        let coat = hatched(0.8);
+        for is_l in [false, true] {
+            let surface = grid(101, 101, Coverage::OneSide, |i, j| {
+                let (x, y) = (i - 0.5, j - 0.5);
+                // Points that are not of the part lie on its edge.
+                let (x, y) = if is_l && x > -0.1 && y > -0.1 {
+                    (-0.1, y)
+                } else if !is_l && x.abs() < 0.2 && y.abs() < 0.2 {
+                    (0.2 * x.signum(), y)
+                } else {
+                    (x, y)
+                };
+                (Point3::new(x, y, 0.0), Vector3::z())
+            });
+            let path = plan(&surface, &coat, &[]).expect("planned");
+            assert!(path.points().iter().all(|p| p.stand_off.is_some()));
+            let least = least_clearance(&surface, path.points(), &coat);
+            assert!(least > 0.99, "{least}");
+        }
+    }
+}
