@@ -223,7 +223,7 @@ struct InspectSession {
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Option<RobotFrame>,
     spray: Option<spray::SprayFile>,
-    program: Option<program::ProgramFile>,
+    program: Option<program::CapturedProgram>,
     format: OutputFormat,
     report: Option<ReportFolder>,
     recording: Option<HistoryRecorder>,

@@ -20,6 +20,7 @@ mod interrupt;
 mod library;
 mod output;
 mod path;
+mod program;
 mod recipe;
 mod recipes;
 mod record;

@@ -1,19 +1,23 @@
 //! `partsight path`: what can be done with a part's spray path.
 
 mod check;
+mod export;
+mod fit;
 mod paint;
 
 use clap::{Args, Subcommand};
 
 use super::{LibraryChoice, Outcome, console::Console};
 
-/// Plan a part's spray path, simulate its film, and check it against an arm
+/// Plan a part's spray path, simulate its film, check it against an arm, and export it to a controller
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   partsight path plan front_door --coat primer --propose --output path.csv
   partsight path simulate front_door --coat primer --path path.csv
   partsight path check front_door --arm irb4600 --nozzle \"kuka 0 0 250 0 45 0\" --calibration cell.toml
+  partsight path export front_door --as krl --calibration cell.toml --output paint.src
+  partsight path fit stripe.csv --coat primer --output my_primer.toml
 
 Exit codes: 0 every point is reached, or 90 % of the film is within its tolerance; 1 not so; 2 could not run.")]
 pub(super) struct PathArgs {
@@ -28,6 +32,8 @@ enum PathCommand {
     Plan(paint::PlanArgs),
     Simulate(paint::SimulateArgs),
     Check(check::CheckArgs),
+    Export(export::ExportArgs),
+    Fit(fit::FitArgs),
 }
 
 pub(super) fn run(args: &PathArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -35,5 +41,7 @@ pub(super) fn run(args: &PathArgs, console: &mut Console) -> anyhow::Result<Outc
         PathCommand::Plan(plan) => paint::run_plan(&args.library, plan, console),
         PathCommand::Simulate(simulate) => paint::run_simulate(&args.library, simulate, console),
         PathCommand::Check(check) => check::run(&args.library, check, console),
+        PathCommand::Export(export) => export::run(&args.library, export, console),
+        PathCommand::Fit(fit) => fit::run(fit, console),
     }
 }

@@ -67,3 +67,138 @@ fn what_cannot_be_planned_is_refused_with_advice_and_writes_nothing() {
     assert!(ran.err.contains("path plan fender"), "{}", ran.err);
     assert!(!shop.path("path.csv").exists());
 }
+
+#[test]
+fn a_gun_is_fitted_to_a_stripe_and_written_as_a_coat_that_plans() {
+    let shop = Workplace::new();
+    // 240 mm wide at 180 mm: σ = 60 mm, 40 µm in the middle; every 10 mm.
+    let mut table = "offset_mm,thickness_um,remark\n".to_owned();
+    for k in -15..=15 {
+        let x = 10.0 * f64::from(k);
+        let t = 40.0 * (-0.5 * (x / 60.0).powi(2)).exp();
+        table += &format!("{},{t:.3},\n", x + 500.0);
+    }
+    shop.write("stripe.csv", &table);
+    let fit = [
+        "path",
+        "fit",
+        "stripe.csv",
+        "--coat",
+        "primer",
+        "--distance",
+        "180",
+        "--speed",
+        "200",
+    ];
+    let write = ["--output", "my_primer.toml"];
+    let ran = shop.coded(0, &[&fit[..], &write].concat());
+    assert!(
+        ran.out.contains("Gaussian, 240.0 mm wide at 180 mm"),
+        "{}",
+        ran.out
+    );
+    assert!(
+        ran.out.contains("middle of the stripe at 500.0 mm"),
+        "{}",
+        ran.out
+    );
+    let written = shop.read("my_primer.toml");
+    // 40 µm · √(2π) · 60 mm · 200 mm/s of 250 ml/min · 40 %: 72.2 %.
+    assert!(
+        written.contains("\"gun.transfer\" = \"72.1")
+            || written.contains("\"gun.transfer\" = \"72.2"),
+        "{written}"
+    );
+    // Not over a file that is there, unless asked to.
+    let ran = shop.coded(2, &[&fit[..], &write].concat());
+    assert!(
+        ran.err.contains("is there already") && ran.err.contains("--force"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(shop.read("my_primer.toml"), written);
+    shop.coded(0, &[&fit[..], &write, &["--force"]].concat());
+    let plan = [
+        "path",
+        "plan",
+        "fender",
+        "--coat",
+        "./my_primer.toml",
+        "--propose",
+        "--json",
+    ];
+    let planned = shop.coded(0, &plan).json();
+    assert!(planned["within"].as_f64().expect("a share") > 0.9);
+}
+
+#[test]
+fn what_is_no_stripe_is_refused_with_advice() {
+    let shop = Workplace::new();
+    let fit = ["path", "fit", "stripe.csv", "--coat", "primer"];
+    for (text, wanted) in [
+        ("x,y\n1,2\n", "offset_mm and thickness_um"),
+        ("offset_mm,thickness_um\n1,2\n3\n", "line 3"),
+        ("offset_mm,thickness_um\n1,2\n3,4\n", "2 places"),
+    ] {
+        shop.write("stripe.csv", text);
+        let ran = shop.coded(2, &fit);
+        assert!(
+            ran.err.contains(wanted) && ran.err.contains("to do:"),
+            "{}",
+            ran.err
+        );
+    }
+}
+
+#[test]
+fn the_stored_path_is_exported_to_each_controller_unless_the_arm_does_not_reach_it() {
+    let shop = Workplace::new();
+    shop.coded(
+        0,
+        &["path", "plan", "fender", "--coat", "primer", "--store"],
+    );
+    let export = ["path", "export", "fender"];
+    let ran = shop.coded(2, &[&export[..], &["-o", "paint.src"]].concat());
+    assert!(ran.err.contains("where the camera sits"), "{}", ran.err);
+    let cell = "kuka 1200 -400 1900 86 -5 120";
+    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+    for (format, file, wanted) in [
+        ("krl", "paint.src", "DEF paint ( )"),
+        ("ls", "paint.ls", "/PROG  PAINT"),
+        ("rapid", "paint.mod", "PROC run_paint()"),
+        ("urscript", "paint.txt", "def paint():"),
+        ("jbi", "paint.jbi", "//NAME PAINT"),
+        ("drl", "paint.drl", "movejx(posx("),
+    ] {
+        shop.coded(0, &[&export[..], &["--as", format, "-o", file]].concat());
+        let text = shop.read(file);
+        for wanted in [wanted, "part: fender", "gun: output 1"] {
+            assert!(text.contains(wanted), "{file} {wanted}: {text:.600}");
+        }
+        assert!(!text.contains("FORCED"));
+    }
+    // Out of reach: the arm is nowhere near, and the earlier program is gone.
+    let arm = [
+        "-o",
+        "paint.src",
+        "--arm",
+        "kr6-r900",
+        "--nozzle",
+        "kuka 0 0 250 0 0 0",
+    ];
+    let ran = shop.coded(1, &[&export[..], &arm].concat());
+    assert!(
+        ran.err.contains("reaches") && ran.err.contains("--force"),
+        "{}",
+        ran.err
+    );
+    assert!(!shop.path("paint.src").exists());
+    shop.coded(0, &[&export[..], &arm, &["--force"]].concat());
+    assert!(
+        shop.read("paint.src")
+            .contains("FORCED: KUKA KR 6 R900-2 reaches")
+    );
+    let ran = shop.coded(2, &["path", "export", "hood", "-o", "paint.src"]);
+    assert!(ran.err.contains("path plan hood"), "{}", ran.err);
+    assert!(!shop.path("paint.src").exists());
+}

@@ -60,7 +60,7 @@ pub(super) struct SimulateArgs {
 
 /// A coat, and parameters that are given another value.
 #[derive(Debug, Args)]
-struct CoatChoice {
+pub(super) struct CoatChoice {
     /// The coat: `primer`, `base_coat`, `clear_coat`, one of your own, or a file
     #[arg(long, value_name = "NAME|FILE")]
     coat: String,
@@ -71,7 +71,7 @@ struct CoatChoice {
 }
 
 impl CoatChoice {
-    fn open(&self) -> anyhow::Result<Coat> {
+    pub(super) fn open(&self) -> anyhow::Result<Coat> {
         let mut coat = CoatFolder::of_user()
             .and_then(|folder| folder.open(&self.coat))
             .advised()?

@@ -1,0 +1,75 @@
+//! `partsight path export`: the stored path of a part in its standard position as a program for the robot's controller.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::{
+    cli::{
+        LibraryChoice, Outcome,
+        calibrate::CalibrationChoice,
+        console::{Advised as _, Console, advised_error},
+        program::{ProgramOptions, ProgramSubject, parse_format},
+    },
+    geometry::rigid::RigidTransform,
+    library::PartName,
+    robot::{
+        program::{ProgramFormat, remove_previous_program},
+        spray::carry,
+    },
+    stages::{reference::ReferenceParams, stand_off::StandOffParams},
+};
+
+/// Write the stored path of a part, hung as it was enrolled, as a program for the robot's controller
+#[derive(Debug, Args)]
+pub(super) struct ExportArgs {
+    /// Name of the part
+    part: PartName,
+    /// Its language, where the file's ending does not say it: krl, ls, rapid, urscript, jbi or drl
+    #[arg(long = "as", value_name = "FORMAT", value_parser = parse_format)]
+    format: Option<ProgramFormat>,
+    /// The program, called as the file. An earlier program of that name is removed first
+    #[arg(id = "program", long = "output", short, value_name = "FILE")]
+    output: PathBuf,
+    #[command(flatten)]
+    options: ProgramOptions,
+    #[command(flatten)]
+    calibration: CalibrationChoice,
+}
+
+pub(super) fn run(
+    choice: &LibraryChoice,
+    args: &ExportArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let name = &args.part;
+    // Whatever comes of this, no robot may run an earlier program for it.
+    remove_previous_program(&args.output).advised()?;
+    let Some(frame) = args.calibration.frame(console)? else {
+        return Err(advised_error(
+            "a program needs to know where the camera sits in the robot's cell",
+            "Name a calibration with --calibration, or make one: partsight calibrate",
+        ));
+    };
+    let file = args.options.open(&args.output, args.format)?;
+    let place = choice.open(console)?;
+    let Some(path) = place.spray_path(name.as_str()).advised()? else {
+        return Err(advised_error(
+            format!("{name} has no spray path, so there is nothing to write a program of"),
+            format!("Plan one: partsight path plan {name} --coat primer --store"),
+        ));
+    };
+    let part = place.read(name.as_str(), &ReferenceParams::default());
+    let part = part.advised()?.advised()?;
+    // The camera's frame at the moment of enrolling is the part's.
+    let standard = RigidTransform::identity();
+    let params = StandOffParams::default();
+    let carried = carry(&path, &standard, &part.reference.cloud, &params);
+    let subject = ProgramSubject {
+        part: name,
+        scene: None,
+        camera_from_part: standard,
+        is_simulated: part.meta.simulated,
+    };
+    file.write(&carried, &subject, &frame, Vec::new(), console)
+}

@@ -1,0 +1,205 @@
+//! Programs for a robot's controller: what `inspect --program` and `path export` share.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use jiff::Timestamp;
+
+use super::{
+    Outcome,
+    console::{Advised as _, Console},
+    input::parse_robot_pose,
+};
+use crate::{
+    geometry::rigid::RigidTransform,
+    library::PartName,
+    robot::{
+        RobotFrame, WrittenPose,
+        arm::{Arm, ArmPoint, CheckParams, PlacedArm, check_path},
+        program::{Program, ProgramFormat, ProgramPoint, ProgramSettings},
+        spray::CarriedPath,
+    },
+    units::Metres,
+};
+
+/// Tool, gun and arm of a program; the command names its file `program`.
+#[derive(Debug, Args)]
+pub(super) struct ProgramOptions {
+    /// The tool on the controller: a number for KUKA, FANUC and Yaskawa, a name for ABB and Doosan
+    #[arg(long, value_name = "TOOL", requires = "program")]
+    tool: Option<String>,
+    /// Where the nozzle is on the flange, z the way it points: `kuka X Y Z A B C`, or 16 numbers of a matrix
+    #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true, requires = "program")]
+    nozzle: Option<WrittenPose>,
+    /// Number of the digital output that opens the gun
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "program")]
+    gun_output: u16,
+    /// Speed where the path sets none, mm/s
+    #[arg(
+        long,
+        value_name = "MM/S",
+        default_value_t = 250.0,
+        requires = "program"
+    )]
+    speed: f64,
+    /// How far before the first and behind the last point the program begins and ends, mm
+    #[arg(long, value_name = "MM", default_value_t = 100.0, requires = "program")]
+    approach: f64,
+    /// Radius within which the robot may cut corners, mm
+    #[arg(long, value_name = "MM", default_value_t = 5.0, requires = "program")]
+    blend: f64,
+    /// Check that this arm reaches the path: a name, or a TOML file; needs --nozzle
+    #[arg(long, value_name = "ARM", requires_all = ["program", "nozzle"])]
+    arm: Option<String>,
+    /// Write the program in spite of a doubt about part, capture or reach; the program says which
+    #[arg(long, requires = "program")]
+    force: bool,
+}
+
+pub(super) fn parse_format(name: &str) -> Result<ProgramFormat, String> {
+    let mut all = ProgramFormat::ALL.into_iter();
+    all.find(|format| format.name() == name).ok_or_else(|| {
+        let names = ProgramFormat::ALL.map(ProgramFormat::name);
+        format!("expected one of {}", names.join(", "))
+    })
+}
+
+/// A program that is to be written.
+pub(super) struct ProgramFile {
+    file: PathBuf,
+    format: ProgramFormat,
+    settings: ProgramSettings,
+    arm: Option<PlacedArm>,
+    is_forced: bool,
+}
+
+/// Whose program it is.
+pub(super) struct ProgramSubject<'a> {
+    pub(super) part: &'a PartName,
+    /// The capture; none for the standard position.
+    pub(super) scene: Option<&'a str>,
+    pub(super) camera_from_part: RigidTransform,
+    pub(super) is_simulated: bool,
+}
+
+impl ProgramOptions {
+    /// The program in a file, of this format or of that which the file's name ends in.
+    pub(super) fn open(
+        &self,
+        file: &Path,
+        format: Option<ProgramFormat>,
+    ) -> anyhow::Result<ProgramFile> {
+        let format = match format {
+            Some(format) => format,
+            None => ProgramFormat::of(file).advised()?,
+        };
+        let nozzle = self.nozzle.as_ref().map(|written| written.pose);
+        let arm = self.arm.as_deref().map(Arm::named).transpose().advised()?;
+        let arm = arm.zip(nozzle).map(|(arm, flange_from_nozzle)| PlacedArm {
+            arm,
+            robot_from_base: RigidTransform::identity(),
+            flange_from_nozzle,
+        });
+        Ok(ProgramFile {
+            file: file.to_owned(),
+            format,
+            settings: ProgramSettings {
+                tool: self.tool.clone(),
+                flange_from_nozzle: nozzle,
+                gun_output: self.gun_output,
+                speed: self.speed / 1000.0,
+                approach: Metres::from_mm(self.approach),
+                blend: Metres::from_mm(self.blend),
+            },
+            arm,
+            is_forced: self.force,
+        })
+    }
+}
+
+impl ProgramFile {
+    /// Writes the program of a carried path, unless something speaks against it.
+    pub(super) fn write(
+        &self,
+        carried: &CarriedPath,
+        subject: &ProgramSubject<'_>,
+        frame: &RobotFrame,
+        mut doubts: Vec<String>,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
+        let mut points = points_of(carried, frame);
+        let are_round: Vec<bool> = carried.points.iter().map(|point| point.is_round).collect();
+        doubts.extend(self.unreached(&mut points, &are_round)?);
+        if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
+            console.note(&format_args!("no program was written: {doubt}"));
+            let advice = if subject.scene.is_some() {
+                "Capture again, or move part or arm"
+            } else {
+                "Move the arm's base (path check says where to), or change the path"
+            };
+            console.note(&format_args!(
+                "  to do: {advice}; --force writes it all the same"
+            ));
+            return Ok(Outcome::NotAccepted);
+        }
+        let program = Program {
+            points: &points,
+            settings: &self.settings,
+            part: subject.part.as_str(),
+            scene: subject.scene,
+            robot_from_part: frame.robot_from_part(&subject.camera_from_part),
+            calibration: &frame.name,
+            is_simulated: subject.is_simulated,
+            doubts: &doubts,
+            at: Timestamp::now(),
+        };
+        program.save(&self.file, self.format).advised()?;
+        console.note(&format_args!(
+            "{}: {} points as {}, {} of them within the band",
+            self.file.display(),
+            points.len(),
+            self.format.title(),
+            carried.num_inside()
+        ));
+        for doubt in &doubts {
+            console.note(&format_args!("warning: written by --force: {doubt}"));
+        }
+        Ok(Outcome::Accepted)
+    }
+
+    /// Turns each nozzle of a round jet about its axis as the arm reaches it, and says how many points it does not reach.
+    fn unreached(
+        &self,
+        points: &mut [ProgramPoint],
+        are_round: &[bool],
+    ) -> anyhow::Result<Option<String>> {
+        let Some(arm) = &self.arm else {
+            return Ok(None);
+        };
+        let wanted = points
+            .iter()
+            .zip(are_round)
+            .map(|(point, is_round)| ArmPoint {
+                robot_from_nozzle: point.robot_from_nozzle,
+                speed: point.speed.unwrap_or(self.settings.speed),
+                is_turn_free: *is_round,
+            });
+        let wanted: Vec<ArmPoint> = wanted.collect();
+        let found = check_path(arm, &wanted, &CheckParams::default()).advised()?;
+        for (point, checked) in points.iter_mut().zip(&found.points) {
+            let turn = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, checked.turn);
+            point.robot_from_nozzle *= turn;
+        }
+        let (num, all) = (found.num_reached(), points.len());
+        Ok((num < all).then(|| format!("{} reaches {num} of {all} points", arm.arm.name)))
+    }
+}
+
+fn points_of(carried: &CarriedPath, frame: &RobotFrame) -> Vec<ProgramPoint> {
+    let points = carried.points.iter().map(|point| ProgramPoint {
+        robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
+        is_gun_on: point.is_gun_on,
+        speed: point.speed,
+    });
+    points.collect()
+}
