@@ -6,6 +6,7 @@
 pub mod bounds;
 pub mod calibration;
 mod history;
+pub mod paint;
 mod process_usage;
 mod processor_time;
 pub mod registration;

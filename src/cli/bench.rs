@@ -6,6 +6,7 @@ mod confusions;
 mod history;
 #[cfg(feature = "window")]
 mod live;
+mod paint;
 mod recognition;
 mod registration;
 mod scaling;
@@ -52,6 +53,7 @@ Examples:
   partsight bench window
   partsight bench live --minutes 10
   partsight bench history
+  partsight bench paint --plots films
   partsight bench soak --frames 1000000 --json soak.json
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
@@ -70,7 +72,7 @@ pub(super) struct BenchArgs {
     /// For recognition and speed: these sets of frames; may be given several times
     #[arg(long, value_enum, value_name = "NAME")]
     suite: Vec<recognition::SuiteChoice>,
-    /// For speed: inspect these scenes with the library instead of simulated frames
+    /// For speed: inspect these scenes with the library instead of simulated frames. For paint: enrol a part from each and paint it too
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["suite", "poses", "seed"])]
     files: Vec<PathBuf>,
     /// For speed: show how many times as long each set took as in this file, which --json wrote
@@ -100,6 +102,9 @@ pub(super) struct BenchArgs {
     /// For scaling: references at most; ten thousand take below 3 GB
     #[arg(long, value_name = "N", default_value_t = crate::bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
     most: u64,
+    /// For paint: draw the film of each part into this folder
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
     /// For live: how long
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1440))]
     minutes: u64,
@@ -139,6 +144,8 @@ enum Bench {
     Live,
     /// A history of 100 000 inspections: how long a page of any filter takes, and writing one more
     History,
+    /// Spray paths planned over each part, beside plain ones with the same gun: film, time and paint, the part hung elsewhere, and what an error of its pose costs
+    Paint,
     /// Small frames, one after the other, through all that inspect --source does: latency, memory, threads and open files; exit code 1 if the memory grows by more than 2 % after the warm-up
     Soak,
 }
@@ -161,6 +168,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         #[cfg(feature = "window")]
         Bench::Live => live::run(args, console),
         Bench::History => history::run(args, console),
+        Bench::Paint => paint::run(args, console),
         Bench::Soak => soak::run(args, console),
     }
 }
@@ -186,9 +194,17 @@ fn check(args: &BenchArgs) -> anyhow::Result<()> {
             "Ask for it: partsight bench bounds --mesh FILE#NAME",
         ));
     }
-    if bench != Bench::Speed && (args.compare.is_some() || !args.files.is_empty()) {
+    if bench != Bench::Paint && args.plots.is_some() {
         return Err(advised_error(
-            "--files and --compare go with speed",
+            "--plots goes with paint",
+            "Ask for it: partsight bench paint --plots DIR",
+        ));
+    }
+    let takes_files = matches!(bench, Bench::Speed | Bench::Paint);
+    if (bench != Bench::Speed && args.compare.is_some()) || (!takes_files && !args.files.is_empty())
+    {
+        return Err(advised_error(
+            "--compare goes with speed, --files with speed and paint",
             "Ask for it: partsight bench speed --files FILE --compare before.json",
         ));
     }

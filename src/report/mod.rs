@@ -3,6 +3,7 @@
 mod canvas;
 mod chart;
 mod evaluation;
+mod film;
 mod folder;
 mod lettering;
 mod line;
@@ -14,6 +15,7 @@ mod score_plots;
 
 pub use self::{
     evaluation::evaluation_picture,
+    film::{FilmPicture, film_picture},
     folder::{ReportError, ReportFolder},
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
     pictures::{Picture, binary_picture, segmentation_picture, stage_pictures, strip, write_png},

@@ -1,0 +1,183 @@
+//! `partsight bench paint`: spray paths and films of the library's parts, and of parts enrolled from frames.
+
+use std::path::Path;
+
+use jiff::Timestamp;
+use serde::Serialize;
+
+use super::{BenchArgs, write_json};
+use crate::{
+    bench::paint::{PaintedPart, paint_part, seen_from_side},
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, Table},
+        input::open_scene,
+    },
+    files::disk,
+    library::{EnrolParams, PartDescription, PartName, enrol_captured},
+    paint::{Coat, PaintSurface},
+    report::{FilmPicture, film_picture, write_png},
+    stages::reference::{Coverage, Reference, ReferenceParams},
+};
+
+/// What `--json` writes.
+#[derive(Debug, Serialize)]
+struct PaintFile {
+    schema: u32,
+    coat: Coat,
+    parts: Vec<PaintedPart>,
+}
+
+pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let coat = Coat::default();
+    let load = (args.library).load_some(&ReferenceParams::default(), console)?;
+    let coverages = load.parts.iter().map(|part| part.coverage);
+    let mut subjects: Vec<(Reference, Coverage)> = load
+        .library
+        .references
+        .iter()
+        .cloned()
+        .zip(coverages)
+        .collect();
+    for file in &args.files {
+        subjects.push((enrolled(file)?, Coverage::OneSide));
+    }
+    console.start_progress(subjects.len());
+    let mut parts = Vec::new();
+    for (reference, coverage) in &subjects {
+        let surface = PaintSurface::of(reference, *coverage).advised()?;
+        parts.push(paint_part(reference, surface, &coat).advised()?);
+        console.done();
+    }
+    console.end_progress();
+    show(&parts, &coat, console);
+    if let Some(folder) = &args.plots {
+        disk::create_dir_all(folder)?;
+        for part in &parts {
+            draw(part, &coat, folder)?;
+        }
+    }
+    if let Some(path) = &args.json {
+        write_json(
+            path,
+            &PaintFile {
+                schema: 1,
+                coat,
+                parts,
+            },
+        )?;
+    }
+    Ok(Outcome::Accepted)
+}
+
+/// A part enrolled from a frame, called as it.
+fn enrolled(file: &Path) -> anyhow::Result<Reference> {
+    let (scene, _) = open_scene(file).advised()?;
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let about = PartDescription {
+        name: PartName::new(&stem).advised()?,
+        title: String::new(),
+        notes: String::new(),
+        from: file.display().to_string(),
+        at: Timestamp::now(),
+        simulated: false,
+    };
+    let found = enrol_captured(&scene, &about, &EnrolParams::default());
+    Ok(found.advised()?.reference)
+}
+
+fn show(parts: &[PaintedPart], coat: &Coat, console: &mut Console) {
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    console.line(&format_args!(
+        "The default gun; each path at the speed that brings most of the surface within {:.0} % of {:.0} µm.",
+        100.0 * coat.tolerance,
+        1e6 * coat.target
+    ));
+    console.line(&"");
+    let mut table = Table::new(&[
+        "part",
+        "path",
+        "planned in",
+        "points",
+        "rows",
+        "length",
+        "time",
+        "paint",
+        "reachable",
+        "within",
+        "missed",
+        "double",
+        "least",
+        "most",
+    ]);
+    for part in parts {
+        for trial in &part.trials {
+            let film = &trial.film;
+            table.row([
+                part.name.clone(),
+                trial.way.to_owned(),
+                format!("{:.2} s", trial.seconds),
+                trial.num_points.to_string(),
+                trial.num_rows.to_string(),
+                format!("{:.1} m", trial.path.length),
+                format!("{:.0} s", trial.path.time),
+                format!("{:.0} ml", 1e6 * trial.path.paint),
+                percent(film.reachable),
+                percent(film.within),
+                percent(film.missed),
+                percent(film.double),
+                format!("{:.1} µm", 1e6 * film.min),
+                format!("{:.1} µm", 1e6 * film.max),
+            ]);
+        }
+    }
+    table.show(console);
+    console.line(&"");
+    console.line(&"The planned path: carried to the part hung 15° and 10 cm off, and with an error of the pose, the worst of three axes.");
+    let mut table = Table::new(&[
+        "part", "hung", "error", "within", "mean by", "95 % by", "most by",
+    ]);
+    for part in parts {
+        for cost in &part.pose_costs {
+            table.row([
+                part.name.clone(),
+                format!("{:.3} %", 100.0 * part.hung_change),
+                format!("{}° and {:.0} mm", cost.turn_deg, 1000.0 * cost.shift_m),
+                percent(cost.least_within),
+                percent(cost.mean_change),
+                percent(cost.change_95),
+                percent(cost.most_change),
+            ]);
+        }
+    }
+    table.show(console);
+}
+
+fn draw(part: &PaintedPart, coat: &Coat, folder: &Path) -> anyhow::Result<()> {
+    let shares: Vec<f64> = part
+        .film
+        .thickness
+        .iter()
+        .map(|t| t / coat.target)
+        .collect();
+    let figures = &part.film.figures;
+    let title = format!(
+        "{}: {:.1} % within {:.0} % of {:.0} µm, {:.1} % missed, {:.1} % double",
+        part.name,
+        100.0 * figures.within,
+        100.0 * coat.tolerance,
+        1e6 * coat.target,
+        100.0 * figures.missed,
+        100.0 * figures.double
+    );
+    let picture = film_picture(&FilmPicture {
+        title: &title,
+        places: &seen_from_side(&part.surface),
+        shares: &shares,
+        is_reachable: &part.film.is_reachable,
+        spacing: part.surface.spacing,
+        histogram: &figures.histogram,
+    });
+    let file = folder.join(format!("{}.film.png", part.name));
+    write_png(&file, &picture).advised()
+}
