@@ -41,6 +41,7 @@ use super::{
         enrol::EnrolWorkspace,
         history::HistoryWorkspace,
         inspect::{InspectWorkspace, WorkCounts},
+        paint::PaintWorkspace,
     },
 };
 use crate::{
@@ -127,6 +128,8 @@ impl Window {
             .ok_or_else(|| ViewError::NoDevice {
                 reason: "the window draws without one".into(),
             });
+        // Coats of paint are kept beside the recipes.
+        let coats = recipes.as_ref().map(|path| path.with_file_name("coats"));
         let mut window = Self {
             memory: Memory::new(settings, remembered.clone(), &runner),
             state: remembered.into_state(&runner, &library_cache),
@@ -141,6 +144,7 @@ impl Window {
                 Box::new(EnrolWorkspace::new(gpu.clone(), &runner)),
                 Box::new(CompareWorkspace::new(cases, recipes.clone(), &runner)),
                 Box::new(AlignWorkspace::new(&gpu, &runner)),
+                Box::new(PaintWorkspace::new(&gpu, coats, &runner)),
                 Box::new(HistoryWorkspace::new(history_writer, kept, &runner)),
             ],
             messages: Vec::new(),

@@ -100,14 +100,14 @@ pub fn paint_part(
     let planned = PaintTrial::of("planned", start, &found.coat, &found.path, &found.film);
     let start = Instant::now();
     let straight = straight_rows(&surface, &found.coat).ok_or(PaintError::NoRows)?;
-    let first = simulate(&surface, &straight, &found.coat)?;
+    let first = simulate(&surface, &straight, &found.coat, &[])?;
     let speed = best_speed(&first, &found.coat);
     let slowed = Coat {
         speed,
         ..found.coat
     };
     let straight = straight_rows(&surface, &slowed).ok_or(PaintError::NoRows)?;
-    let film = simulate(&surface, &straight, &slowed)?;
+    let film = simulate(&surface, &straight, &slowed, &[])?;
     let plain = PaintTrial::of("straight rows", start, &slowed, &straight, &film);
     let start = Instant::now();
     let rings = Coat {
@@ -241,7 +241,7 @@ fn hung_change(
                 .then(|| Unit::new_normalize(carried.camera_from_nozzle * Vector3::x())),
         });
     let carried = SprayPath::new(points.collect()).ok_or(PaintError::NoRows)?;
-    let film = simulate(&moved(surface, &hung), &carried, coat)?;
+    let film = simulate(&moved(surface, &hung), &carried, coat, &[])?;
     Ok(changes(standard, &film, coat)
         .into_iter()
         .fold(0.0, f64::max))
@@ -289,7 +289,7 @@ fn pose_cost(
             ..*point
         });
         let wrong = SprayPath::new(points.collect()).ok_or(PaintError::NoRows)?;
-        let film = simulate(surface, &wrong, coat)?;
+        let film = simulate(surface, &wrong, coat, &[])?;
         let mut changes = changes(standard, &film, coat);
         changes.sort_by(f64::total_cmp);
         let at = |share: f64| changes[((changes.len() - 1) as f64 * share) as usize];

@@ -155,10 +155,11 @@ impl ProgramFile {
         };
         program.save(&self.file, self.format).advised()?;
         console.note(&format_args!(
-            "{}: {} points as {}, {} of them within the band",
+            "{}: {} points as {}; of {} that aim at what was seen of the part, {} are within the band",
             self.file.display(),
             points.len(),
             self.format.title(),
+            carried.points.iter().filter(|point| point.meets.is_some()).count(),
             carried.num_inside()
         ));
         for doubt in &doubts {

@@ -89,6 +89,32 @@ impl SprayPath {
         &self.points
     }
 
+    /// True if a table of this path reads as the other: places to a micrometre, directions to a millionth.
+    pub fn is_as_written(&self, other: &Self) -> bool {
+        let is_near = |a: &PathPoint, b: &PathPoint| {
+            let speeds = [a, b].map(|point| point.speed.unwrap_or(0.0));
+            (a.nozzle - b.nozzle).norm() < 2e-6
+                && (a.direction.into_inner() - b.direction.into_inner()).norm() < 1e-6
+                && a.is_gun_on == b.is_gun_on
+                && (speeds[0] - speeds[1]).abs() < 2e-6
+        };
+        let mut pairs = self.points.iter().zip(&other.points);
+        self.points.len() == other.points.len() && pairs.all(|(a, b)| is_near(a, b))
+    }
+
+    /// Strokes: the ways with the gun on without a break, each by its first and last point.
+    pub fn strokes(&self) -> Vec<[usize; 2]> {
+        let mut strokes: Vec<[usize; 2]> = Vec::new();
+        let sprays = self.points[..self.points.len() - 1].iter().enumerate();
+        for (i, _) in sprays.filter(|(_, point)| point.is_gun_on) {
+            match strokes.last_mut() {
+                Some([_, last]) if *last == i => *last = i + 1,
+                _ => strokes.push([i, i + 1]),
+            }
+        }
+        strokes
+    }
+
     /// Reads a path from a table.
     pub fn read(path: &Path) -> Result<Self, SprayPathError> {
         Self::parse(&read_text(path, MAX_BYTES)?, path)

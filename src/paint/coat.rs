@@ -14,7 +14,7 @@ use super::error::PaintError;
 use crate::pipeline::parameters::{Kind, Parameters as _};
 
 pub use self::{
-    folder::{BUILT_IN_COATS, CoatError, CoatFolder},
+    folder::{BUILT_IN_COATS, CoatError, CoatFolder, built_in_coat},
     table::CoatGroup,
 };
 

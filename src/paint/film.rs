@@ -12,6 +12,7 @@ use serde::Serialize;
 use super::{
     coat::Coat,
     error::PaintError,
+    region::{KeepOut, are_kept_out},
     shadow::{DISC, DepthBuffer, Seen},
     surface::PaintSurface,
 };
@@ -41,7 +42,7 @@ const FACED_WITHIN: f64 = std::f64::consts::FRAC_PI_6;
 pub struct Film {
     /// Thickness at each point of the surface, metres.
     pub thickness: Vec<f64>,
-    /// True for points that the gun can face.
+    /// True for points that the gun can face and that are not kept out of the paint.
     pub is_reachable: Vec<bool>,
     /// What it comes to.
     pub figures: FilmFigures,
@@ -52,7 +53,7 @@ pub struct Film {
 /// The film in figures. Shares are of the reachable area.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FilmFigures {
-    /// Share of the surface's area that the gun can face.
+    /// Share of the surface's area that the gun can face and that is not kept out of the paint.
     pub reachable: f64,
     /// Share within the tolerance of the target.
     pub within: f64,
@@ -91,9 +92,18 @@ struct Step {
     seconds: f64,
 }
 
-/// The film that a path leaves on a surface by the gun of a coat, and how near it comes to the coat's target.
-pub fn simulate(surface: &PaintSurface, path: &SprayPath, coat: &Coat) -> Result<Film, PaintError> {
+/// The film that a path leaves on a surface by the gun of a coat, and how near it comes to the coat's target where paint
+/// is wanted.
+pub fn simulate(
+    surface: &PaintSurface,
+    path: &SprayPath,
+    coat: &Coat,
+    keep_outs: &[KeepOut],
+) -> Result<Film, PaintError> {
     coat.check()?;
+    for region in keep_outs {
+        region.check()?;
+    }
     let (steps, time, length) = steps_of(path, coat);
     if steps.is_empty() {
         return Err(PaintError::NeverSprays);
@@ -125,11 +135,11 @@ pub fn simulate(surface: &PaintSurface, path: &SprayPath, coat: &Coat) -> Result
             .for_each(|(all, part)| *all += part);
     }
     let least = (coat.tilt_limit + FACED_WITHIN).cos();
-    let facing = surface
-        .normals
-        .iter()
-        .map(|n| n.dot(&surface.side) >= least);
-    let is_reachable: Vec<bool> = facing.collect();
+    let kept_out = are_kept_out(surface, keep_outs);
+    let wanted = surface.normals.iter().zip(kept_out);
+    let is_reachable: Vec<bool> = wanted
+        .map(|(n, is_kept_out)| n.dot(&surface.side) >= least && !is_kept_out)
+        .collect();
     let seconds_on: f64 = steps.iter().map(|step| step.seconds).sum();
     let stays = thickness.iter().sum::<f64>() * surface.point_area;
     Ok(Film {

@@ -431,7 +431,7 @@ mod tests {
             fan: Some(Unit::new_normalize(Vector3::x())),
         };
         let path = SprayPath::new(vec![point(-1.0, true), point(1.0, false)]).expect("a path");
-        let film = simulate(&surface, &path, coat).expect("simulated");
+        let film = simulate(&surface, &path, coat, &[]).expect("simulated");
         let mut random = Pcg64::seed_from_u64(seed);
         let most = film.thickness.iter().copied().fold(0.0, f64::max);
         let across = surface.points.iter().zip(&film.thickness);

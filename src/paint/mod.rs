@@ -9,6 +9,7 @@
 //! film, to the bit.
 
 mod coat;
+mod edit;
 mod error;
 mod film;
 mod fit;
@@ -25,8 +26,10 @@ mod travel;
 
 pub use self::{
     coat::{
-        BUILT_IN_COATS, Coat, CoatError, CoatFolder, CoatGroup, Gun, Pattern, Profile, RowDirection,
+        BUILT_IN_COATS, Coat, CoatError, CoatFolder, CoatGroup, Gun, Pattern, Profile,
+        RowDirection, built_in_coat,
     },
+    edit::{PathEdit, edited},
     error::PaintError,
     film::{Film, FilmFigures, PathFigures, simulate},
     fit::{StripeError, StripeFit, StripeSample, fit_stripe, read_stripe},

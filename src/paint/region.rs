@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::error::PaintError;
+use super::{error::PaintError, height_map::HeightMap, surface::PaintSurface};
 
 /// Where no paint is to go, part space, metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +18,11 @@ pub enum KeepOut {
     Polygon {
         /// Its corners in order; the last is joined to the first.
         corners: Vec<Point3<f64>>,
+    },
+    /// What lies beside all of these polygons, seen likewise: the paint goes into them alone.
+    Outside {
+        /// The corners of each.
+        areas: Vec<Vec<Point3<f64>>>,
     },
 }
 
@@ -37,6 +42,12 @@ impl KeepOut {
                     return bad("a polygon of less than three corners");
                 }
             }
+            Self::Outside { areas } => {
+                let is_area = |corners: &Vec<_>| corners.len() >= 3 && corners.iter().all(finite);
+                if areas.is_empty() || !areas.iter().all(is_area) {
+                    return bad("an area to be painted of less than three corners");
+                }
+            }
         }
         Ok(())
     }
@@ -45,8 +56,8 @@ impl KeepOut {
 /// Keep-out regions as a map sees them.
 pub(super) struct KeepOuts<'a> {
     regions: &'a [KeepOut],
-    /// Of each polygon the corners in map coordinates; empty for spheres.
-    corners: Vec<Vec<[f64; 2]>>,
+    /// Of each region its polygons, corners in map coordinates; a sphere has none.
+    polygons: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
 impl<'a> KeepOuts<'a> {
@@ -58,25 +69,44 @@ impl<'a> KeepOuts<'a> {
             let [u, v, _] = map_from_part(p);
             [u, v]
         };
-        let corners = regions.iter().map(|region| match region {
+        let flat = |corners: &Vec<Point3<f64>>| corners.iter().map(flat).collect();
+        let polygons = regions.iter().map(|region| match region {
             KeepOut::Sphere { .. } => Vec::new(),
-            KeepOut::Polygon { corners } => corners.iter().map(flat).collect(),
+            KeepOut::Polygon { corners } => vec![flat(corners)],
+            KeepOut::Outside { areas } => areas.iter().map(flat).collect(),
         });
         Self {
-            corners: corners.collect(),
+            polygons: polygons.collect(),
             regions,
         }
     }
 
     /// Distance to the nearest region, below 0 within it; infinite without any.
     pub(super) fn distance(&self, p: &Point3<f64>, at: [f64; 2]) -> f64 {
-        let each = self.regions.iter().zip(&self.corners);
-        let each = each.map(|(region, corners)| match region {
-            KeepOut::Sphere { centre, radius } => (p - centre).norm() - radius,
-            KeepOut::Polygon { .. } => from_polygon(corners, at),
+        let each = self.regions.iter().zip(&self.polygons);
+        let each = each.map(|(region, polygons)| {
+            let distances = polygons.iter().map(|corners| from_polygon(corners, at));
+            let nearest = distances.fold(f64::INFINITY, f64::min);
+            match region {
+                KeepOut::Sphere { centre, radius } => (p - centre).norm() - radius,
+                KeepOut::Polygon { .. } => nearest,
+                KeepOut::Outside { .. } => -nearest,
+            }
         });
         each.fold(f64::INFINITY, f64::min)
     }
+}
+
+/// For each point of a surface whether it lies in one of the regions.
+pub(super) fn are_kept_out(surface: &PaintSurface, regions: &[KeepOut]) -> Vec<bool> {
+    let axes = HeightMap::axes_of(surface, &surface.longest);
+    let in_axes = |p: &Point3<f64>| HeightMap::in_axes(surface, &axes, p);
+    let inside = KeepOuts::new(regions, in_axes);
+    let each = surface.points.iter().map(|p| {
+        let [u, v, _] = in_axes(p);
+        inside.distance(p, [u, v]) < 0.0
+    });
+    each.collect()
 }
 
 /// Distance to a polygon, below 0 within it.
@@ -102,6 +132,29 @@ fn from_polygon(corners: &[[f64; 2]], [x, y]: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_beside_every_area_to_be_painted_is_kept_out() {
+        let surface = crate::paint::surface::tests::plate(1.0, 0.6);
+        let square = |x: f64| {
+            let corners = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]];
+            corners.map(|[u, v]| Point3::new(x + u, v, 0.0)).to_vec()
+        };
+        let areas = vec![square(-0.3), square(0.3)];
+        let hole = KeepOut::Sphere {
+            centre: Point3::new(0.3, 0.0, 0.0),
+            radius: 0.05,
+        };
+        let kept = are_kept_out(&surface, &[KeepOut::Outside { areas }, hole]);
+        for (p, is_kept_out) in surface.points.iter().zip(kept) {
+            let is_in = (p.x.abs() - 0.3).abs() < 0.0999 && p.y.abs() < 0.0999;
+            let is_beside = (p.x.abs() - 0.3).abs() > 0.1001 || p.y.abs() > 0.1001;
+            let is_hole = (p.x - 0.3).hypot(p.y) < 0.0499;
+            assert!(!(is_beside || is_hole) || is_kept_out, "{p}");
+            let is_far_from_hole = (p.x - 0.3).hypot(p.y) > 0.0501;
+            assert!(!(is_in && is_far_from_hole && is_kept_out), "{p}");
+        }
+    }
 
     #[test]
     fn distances_to_regions_are_signed() {

@@ -317,7 +317,7 @@ mod tests {
     fn film(surface: &PaintSurface, pattern: Pattern) -> Film {
         let coat = coat(pattern);
         let path = plan(surface, &coat, &[]).expect("planned");
-        simulate(surface, &path, &coat).expect("simulated")
+        simulate(surface, &path, &coat, &[]).expect("simulated")
     }
 
     #[test]

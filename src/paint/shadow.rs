@@ -207,7 +207,9 @@ mod tests {
         let spacing = 0.008;
         for i in 0..60 {
             let angle = f64::from(i) * 0.026;
-            let num = (angle.sin() * 0.3 * 6.28 / spacing).ceil().max(1.0);
+            let num = (angle.sin() * 0.3 * std::f64::consts::TAU / spacing)
+                .ceil()
+                .max(1.0);
             for j in 0..num as usize {
                 let turn = j as f64 / num * std::f64::consts::TAU;
                 let [s, c] = [angle.sin(), angle.cos()];

@@ -72,14 +72,14 @@ fn drag(harness: &mut WindowHarness, from: Pos2, to: Pos2) {
 }
 
 /// Lets the left button go where the pointer is.
-fn let_go(harness: &mut WindowHarness) {
+pub(crate) fn let_go(harness: &mut WindowHarness) {
     let at = harness.ctx.input(|input| input.pointer.latest_pos());
     harness.drop_at(at.expect("a pointer"));
     settle(harness);
 }
 
 /// Moves the pointer this way with the left button held, and does not let go.
-fn draw(harness: &mut WindowHarness, way: &[Pos2]) {
+pub(crate) fn draw(harness: &mut WindowHarness, way: &[Pos2]) {
     harness.hover_at(way[0]);
     harness.run_steps(2);
     harness.drag_at(way[0]);

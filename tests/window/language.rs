@@ -241,12 +241,13 @@ enum Scenery {
     Library,
 }
 
-const SCENERIES: [Scenery; 13] = [
+const SCENERIES: [Scenery; 14] = [
     Scenery::Workspace(WorkspaceKind::Inspect),
     Scenery::Workspace(WorkspaceKind::Enrol),
     Scenery::Draft,
     Scenery::Workspace(WorkspaceKind::Compare),
     Scenery::Workspace(WorkspaceKind::Align),
+    Scenery::Workspace(WorkspaceKind::Paint),
     Scenery::Workspace(WorkspaceKind::History),
     Scenery::Live,
     Scenery::Operator,

@@ -11,6 +11,7 @@ mod kit;
 mod language;
 mod live;
 mod operator;
+mod paint;
 mod pictures;
 pub(crate) mod robot;
 mod roles;

@@ -23,15 +23,18 @@ use partsight::{
             source::{CellChoice, SceneSource},
         },
         shell::{action::Action, robot::RobotAction, roles::RoleAction, session::WorkspaceKind},
-        workspaces::align::{AlignWorkspace, MethodRun},
+        workspaces::{
+            align::{AlignWorkspace, MethodRun},
+            paint::{PaintAction, PaintWorkspace},
+        },
     },
     library::{LibraryFolder, PartName},
     pipeline::{Timings, Unwatched},
 };
 
 use super::{
-    enrol, live, robot,
-    set_up::{SMALL, USUAL, WindowHarness, act, plain_options, press, settle},
+    enrol, live, paint, robot,
+    set_up::{SMALL, USUAL, WindowHarness, act, act_in, plain_options, press, settle},
     shots::ScanFolder,
 };
 
@@ -355,12 +358,30 @@ fn the_other_workspaces_look_as_they_did() {
     press(&mut harness, "Run");
     run_again_in_no_time(&mut harness);
     compare(&mut harness, "align");
+    act(&mut harness, Action::GoTo(WorkspaceKind::Paint));
+    compare(&mut harness, "paint");
     // The time of day is that of where the machine stands.
     if jiff::tz::TimeZone::system().to_offset(jiff::Timestamp::UNIX_EPOCH) == jiff::tz::Offset::UTC
     {
         act(&mut harness, Action::GoTo(WorkspaceKind::History));
         compare(&mut harness, "history");
     }
+}
+
+#[test]
+fn a_path_with_a_keep_out_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let mut harness = open_drawn(SMALL);
+    act(&mut harness, Action::GoTo(WorkspaceKind::Paint));
+    act(&mut harness, Action::SwitchTheme);
+    act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
+        paint.state_mut().apply(PaintAction::Step(5), cx);
+    });
+    press(&mut harness, "Keep out: box");
+    paint::draw(&mut harness, &[(0.4, 0.4), (0.55, 0.6)]);
+    compare(&mut harness, "paint_keep_out_small_light");
 }
 
 #[test]

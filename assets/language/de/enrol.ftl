@@ -175,5 +175,3 @@ enrol-brought-back = { $part } wiederhergestellt
 enrol-stored-path = Lackierbahn mit { $count } Punkten zu { $part } gespeichert
 enrol-removed-path = Lackierbahn von { $part } entfernt
 enrol-undone = Rückgängig gemacht: „{ $what }“
-enrol-inside-program = Die Bibliothek liegt im Programm und lässt sich nicht ändern
-enrol-inside-program-advice = Partsight mit --library und einem eigenen Ordner starten

@@ -1,12 +1,20 @@
-# The 3-D view and the plots
+# The 3-D view, the plots and the control of a parameter
 view-segments = Segmente
 view-height = Höhe
 view-deviation = Abweichung
 view-plain = Einfarbig
 view-height-scale = Höhe, mm
 view-deviation-scale = Abweichung, mm
+view-film-scale = Schichtdicke, µm
 view-measure-first = Messen: einen Punkt der Punktwolke anklicken
 view-measure-second = Messen: einen zweiten Punkt anklicken
 view-keys = 3D-Ansicht. Pfeiltasten drehen, mit Umschalt verschieben sie, Plus und Minus zoomen, F passt ein, X, Y und Z blicken entlang einer Achse, M misst
 view-no-view = Keine 3D-Ansicht
 view-ray = Strahl { $place }: Anfrage { $query }, Teil { $part } { $unit }
+view-parameter-changed = { $parameter } · geändert
+view-parameter-reset = Vorgabe
+view-parameter-reset-named = { $parameter } zurücksetzen
+view-parameter-back-to = Zurück auf { $value }
+view-parameter-valid-range = Gültig von { $least } bis { $most }; Vorgabe { $default }
+view-parameter-valid-options = Möglich sind { $options }; Vorgabe { $default }
+view-parameter-slider = { $parameter }, Schieberegler

@@ -175,5 +175,3 @@ enrol-brought-back = Brought back { $part }
 enrol-stored-path = Stored a spray path of { $count } points with { $part }
 enrol-removed-path = Removed the spray path of { $part }
 enrol-undone = Undone: “{ $what }”
-enrol-inside-program = The library lies inside the program and cannot be changed
-enrol-inside-program-advice = Start Partsight with --library and a folder of your own

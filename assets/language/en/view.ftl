@@ -1,12 +1,20 @@
-# The 3-D view and the plots
+# The 3-D view, the plots and the control of a parameter
 view-segments = Segments
 view-height = Height
 view-deviation = Deviation
 view-plain = Plain
 view-height-scale = height, mm
 view-deviation-scale = deviation, mm
+view-film-scale = film thickness, µm
 view-measure-first = Measure: click a point of the cloud
 view-measure-second = Measure: click a second point
 view-keys = 3-D view. Arrow keys turn, with Shift they shift, plus and minus zoom, F fits, X, Y and Z look along an axis, M measures
 view-no-view = No 3-D view
 view-ray = ray { $place }: query { $query }, part { $part } { $unit }
+view-parameter-changed = { $parameter } · changed
+view-parameter-reset = Reset
+view-parameter-reset-named = Reset { $parameter }
+view-parameter-back-to = Back to { $value }
+view-parameter-valid-range = Valid from { $least } to { $most }; default { $default }
+view-parameter-valid-options = One of { $options }; default { $default }
+view-parameter-slider = { $parameter }, slider

@@ -195,13 +195,6 @@ compare-more-changed =
         [one] { $changed } modificado
        *[other] { $changed } modificados
     })
-compare-parameter-changed = { $parameter } · modificado
-compare-reset = Restaurar
-compare-reset-named = Restablecer { $parameter }
-compare-back-to = Volver a { $value }
-compare-valid-range = Válido de { $least } a { $most }; predeterminado { $default }
-compare-valid-options = Opciones: { $options }; predeterminado { $default }
-compare-slider = { $parameter }, control deslizante
 compare-case-is-pending = Resultado con esta receta…
 compare-case-is = Resultado con esta receta
 compare-verdict-nearest = No aceptada · la más parecida: { $part } { $score }

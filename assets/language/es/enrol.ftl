@@ -175,5 +175,3 @@ enrol-brought-back = { $part }: recuperada
 enrol-stored-path = Trayectoria de pintura de { $count } puntos guardada con { $part }
 enrol-removed-path = Trayectoria de pintura de { $part } eliminada
 enrol-undone = Deshecho: «{ $what }»
-enrol-inside-program = La biblioteca está dentro del programa y no se puede modificar
-enrol-inside-program-advice = Iniciar Partsight con --library y una carpeta propia

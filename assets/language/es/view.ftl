@@ -1,12 +1,20 @@
-# The 3-D view and the plots
+# The 3-D view, the plots and the control of a parameter
 view-segments = Segmentos
 view-height = Altura
 view-deviation = Desviación
 view-plain = Liso
 view-height-scale = altura, mm
 view-deviation-scale = desviación, mm
+view-film-scale = espesor de la película, µm
 view-measure-first = Medir: hacer clic en un punto de la nube
 view-measure-second = Medir: hacer clic en un segundo punto
 view-keys = Vista 3D. Las flechas giran, con Mayús desplazan, más y menos amplían y reducen, F encuadra, X, Y y Z miran a lo largo de un eje, M mide
 view-no-view = Sin vista 3D
 view-ray = rayo { $place }: consulta { $query }, pieza { $part } { $unit }
+view-parameter-changed = { $parameter } · modificado
+view-parameter-reset = Restaurar
+view-parameter-reset-named = Restablecer { $parameter }
+view-parameter-back-to = Volver a { $value }
+view-parameter-valid-range = Válido de { $least } a { $most }; predeterminado { $default }
+view-parameter-valid-options = Opciones: { $options }; predeterminado { $default }
+view-parameter-slider = { $parameter }, control deslizante

@@ -174,5 +174,3 @@ enrol-brought-back = 已恢复 { $part }
 enrol-stored-path = 已为 { $part } 保存含 { $count } 个点的喷涂轨迹
 enrol-removed-path = 已移除 { $part } 的喷涂轨迹
 enrol-undone = 已撤销：“{ $what }”
-enrol-inside-program = 该零件库位于程序内部，无法更改
-enrol-inside-program-advice = 请使用 --library 和自己的文件夹启动 Partsight

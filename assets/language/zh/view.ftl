@@ -1,12 +1,20 @@
-# The 3-D view and the plots
+# The 3-D view, the plots and the control of a parameter
 view-segments = 分割区域
 view-height = 高度
 view-deviation = 偏差
 view-plain = 单色
 view-height-scale = 高度，mm
 view-deviation-scale = 偏差，mm
+view-film-scale = 膜厚，µm
 view-measure-first = 测量：点击点云中的一个点
 view-measure-second = 测量：点击第二个点
 view-keys = 三维视图。方向键旋转，配合 Shift 平移，加减号缩放，F 适配，X、Y、Z 沿轴观察，M 测量
 view-no-view = 无三维视图
 view-ray = 射线 { $place }：查询 { $query }，零件 { $part } { $unit }
+view-parameter-changed = { $parameter } · 已更改
+view-parameter-reset = 重置
+view-parameter-reset-named = 重置{ $parameter }
+view-parameter-back-to = 恢复为 { $value }
+view-parameter-valid-range = 有效范围 { $least } 至 { $most }；默认 { $default }
+view-parameter-valid-options = 可选：{ $options }；默认 { $default }
+view-parameter-slider = { $parameter }，滑块

@@ -136,7 +136,7 @@ type Prepare = fn(&mut HeadlessWindow);
 
 /// Each as full as a person would have it: a part to enrol, a case under the glass, every method run.
 fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<FrameCost> {
-    let prepared: [(&str, WorkspaceKind, Prepare); 4] = [
+    let prepared: [(&str, WorkspaceKind, Prepare); 5] = [
         ("Enrol, pointer moving", WorkspaceKind::Enrol, |window| {
             window.with(|enrol: &mut EnrolWorkspace, cx| {
                 enrol.state_mut().apply(EnrolAction::TakeShown, cx);
@@ -148,6 +148,7 @@ fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<Frame
                 align.state_mut().apply(AlignAction::Run, cx);
             });
         }),
+        ("Paint, pointer moving", WorkspaceKind::Paint, |_| {}),
         ("History, pointer moving", WorkspaceKind::History, |_| {}),
     ];
     let over = |i: usize| {

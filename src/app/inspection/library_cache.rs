@@ -51,6 +51,20 @@ pub struct LoadedLibrary {
     pub(in crate::app) fitted: PreparedLibraryCache,
 }
 
+impl LoadedLibrary {
+    /// Its folder, if it can be changed.
+    pub fn folder_to_change(&self) -> Result<&LibraryFolder, UserError> {
+        let folder = self.place.as_ref().and_then(LibraryPlace::folder);
+        folder.ok_or_else(|| {
+            let reason = self.shown.is_fixed.clone();
+            reason.unwrap_or_else(|| UserError {
+                what: text!("shell-inside-program"),
+                advice: text!("shell-inside-program-advice"),
+            })
+        })
+    }
+}
+
 /// What the window shows of a library.
 #[derive(Debug, Default)]
 pub struct LibraryView {

@@ -1,12 +1,12 @@
-//! The parameters of the recipe. Their English texts are those of [`PARAMETERS`](crate::pipeline::parameters::PARAMETERS),
-//! which the command line shows.
+//! The parameters of the recipe and of coats. Their English texts are those of their tables ([`Parameters::ALL`]), which the
+//! command line shows. No two tables share a key.
 
-use crate::pipeline::{
-    Recipe,
-    parameters::{Group, Kind, Parameter},
+use crate::{
+    paint::CoatGroup,
+    pipeline::parameters::{Group, Kind, Parameter, Parameters},
 };
 
-/// What a group is called.
+/// What a group of the recipe is called.
 pub(in crate::app) fn group(group: Group) -> String {
     match group {
         Group::Segmentation => text!("results-group-segmentation"),
@@ -20,8 +20,17 @@ pub(in crate::app) fn group(group: Group) -> String {
     }
 }
 
+/// What a group of a coat is called.
+pub(in crate::app) fn coat_group(group: CoatGroup) -> String {
+    match group {
+        CoatGroup::Gun => text!("coat-group-gun"),
+        CoatGroup::Path => text!("coat-group-path"),
+        CoatGroup::Film => text!("coat-group-film"),
+    }
+}
+
 /// What a parameter is called.
-pub(in crate::app) fn name(parameter: &Parameter) -> String {
+pub(in crate::app) fn name<R: Parameters>(parameter: &Parameter<R>) -> String {
     match parameter.key {
         "segment.plane_distance" => text!("results-segment-plane-distance"),
         "segment.noise_at_1m" => text!("results-segment-noise-at-1m"),
@@ -90,12 +99,42 @@ pub(in crate::app) fn name(parameter: &Parameter) -> String {
         "stand_off.nearest" => text!("results-stand-off-nearest"),
         "stand_off.farthest" => text!("results-stand-off-farthest"),
         "stand_off.num_rays" => text!("results-stand-off-num-rays"),
-        _ => parameter.name.to_owned(),
+        key => coat_name(key).unwrap_or_else(|| parameter.name.to_owned()),
     }
 }
 
+/// What a parameter of a coat is called; `None` for another key.
+fn coat_name(key: &str) -> Option<String> {
+    Some(match key {
+        "gun.profile" => text!("coat-gun-profile"),
+        "gun.width" => text!("coat-gun-width"),
+        "gun.depth" => text!("coat-gun-depth"),
+        "gun.beta" => text!("coat-gun-beta"),
+        "gun.distance" => text!("coat-gun-distance"),
+        "gun.flow" => text!("coat-gun-flow"),
+        "gun.transfer" => text!("coat-gun-transfer"),
+        "gun.solids" => text!("coat-gun-solids"),
+        "pattern" => text!("coat-pattern"),
+        "direction" => text!("coat-direction"),
+        "angle" => text!("coat-angle"),
+        "spacing" => text!("coat-spacing"),
+        "stand_off" => text!("coat-stand-off"),
+        "speed" => text!("coat-speed"),
+        "overrun" => text!("coat-overrun"),
+        "lead" => text!("coat-lead"),
+        "opening" => text!("coat-opening"),
+        "margin" => text!("coat-margin"),
+        "smoothing" => text!("coat-smoothing"),
+        "tilt_limit" => text!("coat-tilt-limit"),
+        "point_spacing" => text!("coat-point-spacing"),
+        "target" => text!("coat-target"),
+        "tolerance" => text!("coat-tolerance"),
+        _ => return None,
+    })
+}
+
 /// What a parameter does, and what raising it costs.
-pub(in crate::app) fn help(parameter: &Parameter) -> String {
+pub(in crate::app) fn help<R: Parameters>(parameter: &Parameter<R>) -> String {
     match parameter.key {
         "segment.plane_distance" => text!("results-segment-plane-distance-help"),
         "segment.noise_at_1m" => text!("results-segment-noise-at-1m-help"),
@@ -171,12 +210,42 @@ pub(in crate::app) fn help(parameter: &Parameter) -> String {
         "stand_off.nearest" => text!("results-stand-off-nearest-help"),
         "stand_off.farthest" => text!("results-stand-off-farthest-help"),
         "stand_off.num_rays" => text!("results-stand-off-num-rays-help"),
-        _ => parameter.help.to_owned(),
+        key => coat_help(key).unwrap_or_else(|| parameter.help.to_owned()),
     }
 }
 
+/// What a parameter of a coat does; `None` for another key.
+fn coat_help(key: &str) -> Option<String> {
+    Some(match key {
+        "gun.profile" => text!("coat-gun-profile-help"),
+        "gun.width" => text!("coat-gun-width-help"),
+        "gun.depth" => text!("coat-gun-depth-help"),
+        "gun.beta" => text!("coat-gun-beta-help"),
+        "gun.distance" => text!("coat-gun-distance-help"),
+        "gun.flow" => text!("coat-gun-flow-help"),
+        "gun.transfer" => text!("coat-gun-transfer-help"),
+        "gun.solids" => text!("coat-gun-solids-help"),
+        "pattern" => text!("coat-pattern-help"),
+        "direction" => text!("coat-direction-help"),
+        "angle" => text!("coat-angle-help"),
+        "spacing" => text!("coat-spacing-help"),
+        "stand_off" => text!("coat-stand-off-help"),
+        "speed" => text!("coat-speed-help"),
+        "overrun" => text!("coat-overrun-help"),
+        "lead" => text!("coat-lead-help"),
+        "opening" => text!("coat-opening-help"),
+        "margin" => text!("coat-margin-help"),
+        "smoothing" => text!("coat-smoothing-help"),
+        "tilt_limit" => text!("coat-tilt-limit-help"),
+        "point_spacing" => text!("coat-point-spacing-help"),
+        "target" => text!("coat-target-help"),
+        "tolerance" => text!("coat-tolerance-help"),
+        _ => return None,
+    })
+}
+
 /// The options of a choice, in order; none for a number.
-pub(in crate::app) fn options(parameter: &Parameter) -> Vec<String> {
+pub(in crate::app) fn options<R: Parameters>(parameter: &Parameter<R>) -> Vec<String> {
     let Kind::Choice(choice) = &parameter.kind else {
         return Vec::new();
     };
@@ -185,13 +254,20 @@ pub(in crate::app) fn options(parameter: &Parameter) -> Vec<String> {
         "Paper" => text!("results-option-paper"),
         "Global" => text!("results-option-global"),
         "None" => text!("results-option-none"),
+        "Gaussian" => text!("coat-option-gaussian"),
+        "Beta" => text!("coat-option-beta"),
+        "Raster" => text!("coat-option-raster"),
+        "Cross-hatch" => text!("coat-option-cross-hatch"),
+        "Contour" => text!("coat-option-contour"),
+        "Principal axis" => text!("coat-option-principal-axis"),
+        "Angle" => text!("coat-option-angle"),
         number_or_method => number_or_method.to_owned(),
     };
     choice.options.iter().map(option).collect()
 }
 
 /// A parameter's value in words.
-pub(in crate::app) fn value(parameter: &Parameter, recipe: &Recipe) -> String {
+pub(in crate::app) fn value<R: Parameters>(parameter: &Parameter<R>, recipe: &R) -> String {
     let mut option = options(parameter).into_iter();
     let option = option.nth(parameter.value(recipe) as usize);
     option.unwrap_or_else(|| parameter.text(recipe))
@@ -200,14 +276,13 @@ pub(in crate::app) fn value(parameter: &Parameter, recipe: &Recipe) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pipeline::parameters::PARAMETERS;
+    use crate::{paint::Coat, pipeline::Recipe};
 
-    #[test]
-    fn every_parameter_is_translated_from_what_the_command_line_shows() {
+    fn check_table<R: Parameters>() {
         let (source, _) = include_str!("parameters.rs")
             .split_once("mod tests")
             .expect("the code");
-        for parameter in PARAMETERS {
+        for parameter in R::ALL {
             let quoted = format!("\"{}\"", parameter.key);
             assert_eq!(source.matches(&quoted).count(), 2, "{}", parameter.key);
             assert_eq!(name(parameter), parameter.name);
@@ -216,8 +291,22 @@ mod tests {
                 assert_eq!(options(parameter), choice.options);
             }
         }
+    }
+
+    #[test]
+    fn every_parameter_is_translated_from_what_the_command_line_shows() {
+        check_table::<Recipe>();
+        check_table::<Coat>();
         for of in Group::ALL {
             assert_eq!(group(of), of.title());
+        }
+        for of in CoatGroup::ALL {
+            assert_eq!(coat_group(of), of.title());
+        }
+        // One text stands for a key, whatever table it is of.
+        for parameter in Coat::ALL {
+            let of_recipe = Parameter::<Recipe>::of_key(parameter.key);
+            assert!(of_recipe.is_none(), "{}", parameter.key);
         }
     }
 }

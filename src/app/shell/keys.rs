@@ -138,12 +138,13 @@ fn picture_keys() -> [[String; 2]; 3] {
 }
 
 /// The keys of the rail, in its order.
-const RAIL_KEYS: [(Key, &str); 5] = [
+const RAIL_KEYS: [(Key, &str); 6] = [
     (Key::Num1, "1"),
     (Key::Num2, "2"),
     (Key::Num3, "3"),
     (Key::Num4, "4"),
     (Key::Num5, "5"),
+    (Key::Num6, "6"),
 ];
 
 /// What of the window's height the list leaves free, for its heading, its button, the edges, and a notice above it.

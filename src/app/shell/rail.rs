@@ -87,6 +87,13 @@ fn sign(painter: &Painter, workspace: WorkspaceKind, centre: Pos2, stroke: Strok
             let corners = [at(-8.0, 5.0), at(-3.0, -7.0), at(8.0, -4.0), at(3.0, 7.0)];
             painter.add(egui::Shape::closed_line(corners.to_vec(), stroke));
         }
+        WorkspaceKind::Paint => {
+            for y in [-5.0, 0.0, 5.0] {
+                let wave = (-8_i8..=8).map(f32::from);
+                let wave = wave.map(|x| at(x, y + 1.6 * (x * 0.6).sin()));
+                painter.line(wave.collect(), stroke);
+            }
+        }
         WorkspaceKind::History => {
             for y in [-6.0, 0.0, 6.0] {
                 painter.line_segment([at(-8.0, y), at(8.0, y)], stroke);

@@ -196,17 +196,20 @@ pub enum WorkspaceKind {
     Compare,
     /// Methods of pose estimation side by side.
     Align,
+    /// Spray paths over enrolled parts, and their film.
+    Paint,
     /// What was inspected before.
     History,
 }
 
 impl WorkspaceKind {
     /// Every workspace, in the order of the rail and of the number keys.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Inspect,
         Self::Enrol,
         Self::Compare,
         Self::Align,
+        Self::Paint,
         Self::History,
     ];
 
@@ -217,6 +220,7 @@ impl WorkspaceKind {
             Self::Enrol => text!("shell-enrol"),
             Self::Compare => text!("shell-compare"),
             Self::Align => text!("shell-align"),
+            Self::Paint => text!("shell-paint"),
             Self::History => text!("shell-history"),
         }
     }

@@ -1,8 +1,8 @@
 //! Small things that several panels draw.
 
 use egui::{
-    Align, Button, ColorImage, Context, Event, Frame, Id, Key, Layout, Margin, Modal,
-    ModalResponse, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, TextureHandle,
+    Align, Button, Color32, ColorImage, Context, Event, Frame, Id, Key, Layout, Margin, Modal,
+    ModalResponse, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, TextStyle, TextureHandle,
     TextureOptions, Ui, Vec2, pos2, vec2,
 };
 use image::RgbImage;
@@ -152,6 +152,15 @@ pub(in crate::app) fn labelled(ui: &mut Ui, button: Button<'_>, label: &str) -> 
     let response = ui.add(button.min_size(Vec2::splat(space::TARGET)));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
     response
+}
+
+/// How wide a button with this text is.
+pub(in crate::app) fn button_width(ui: &Ui, text: &str) -> f32 {
+    let font = TextStyle::Button.resolve(ui.style());
+    let text = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+    text.size().x + 2.0 * ui.spacing().button_padding.x
 }
 
 /// The text, its middle left out where it is too long.

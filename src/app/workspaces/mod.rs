@@ -5,3 +5,4 @@ pub mod compare;
 pub mod enrol;
 pub mod history;
 pub mod inspect;
+pub mod paint;

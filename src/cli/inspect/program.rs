@@ -95,6 +95,11 @@ impl CapturedProgram {
         };
         let (name, is_simulated) = &self.parts[first.reference];
         let Some(path) = self.place.spray_path(name.as_str()).advised()? else {
+            // What it is nearest to need not have one.
+            if !inspection.verdict.is_accepted() {
+                console.note(&"no program was written: the part was not accepted");
+                return Ok(Outcome::NotAccepted);
+            }
             return Err(advised_error(
                 format!("{name} has no spray path, so there is nothing to write a program of"),
                 format!("Store one: partsight library path {name} path.csv"),

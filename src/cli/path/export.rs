@@ -29,7 +29,7 @@ pub(super) struct ExportArgs {
     #[arg(long = "as", value_name = "FORMAT", value_parser = parse_format)]
     format: Option<ProgramFormat>,
     /// The program, called as the file. An earlier program of that name is removed first
-    #[arg(id = "program", long = "output", short, value_name = "FILE")]
+    #[arg(id = "program", long = "output", short = 'o', value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
     options: ProgramOptions,

@@ -113,7 +113,7 @@ pub(super) fn run_plan(
         (found.coat, found.path, found.film)
     } else {
         let path = plan(&surface, &coat, &args.keep_out).advised()?;
-        let film = simulate(&surface, &path, &coat).advised()?;
+        let film = simulate(&surface, &path, &coat, &args.keep_out).advised()?;
         (coat, path, film)
     };
     if let Some(file) = &args.output {
@@ -163,7 +163,7 @@ pub(super) fn run_simulate(
         ));
     };
     let surface = surface_of(&part)?;
-    let film = simulate(&surface, &path, &coat).advised()?;
+    let film = simulate(&surface, &path, &coat, &[]).advised()?;
     Ok(show(
         name, &surface, &coat, &path, &film, args.json, console,
     ))

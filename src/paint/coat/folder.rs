@@ -8,9 +8,9 @@ use std::{
 use super::Coat;
 use crate::{
     error::Advice,
-    files::{FileError, nearest_name},
+    files::{FileError, disk, nearest_name},
     library::PartName,
-    pipeline::{RecipeError, RecipeFile, RecipeFolder},
+    pipeline::{RecipeError, RecipeFile, RecipeFolder, Replace},
 };
 
 /// Names and files of the program's own coats.
@@ -30,7 +30,7 @@ const FILES: [(&str, &str); 3] = [
 pub const BUILT_IN_COATS: [&str; 3] = [FILES[0].0, FILES[1].0, FILES[2].0];
 
 /// The program's own coat of this name.
-fn built_in(name: &str) -> Option<RecipeFile<Coat>> {
+pub fn built_in_coat(name: &str) -> Option<RecipeFile<Coat>> {
     let (_, text) = FILES.iter().find(|(own, _)| *own == name)?;
     Some(RecipeFile::parse(Path::new(name), text).expect("a test reads every built-in coat"))
 }
@@ -55,6 +55,12 @@ pub enum CoatError {
         /// Those that are there.
         available: Vec<String>,
     },
+    /// The program's own coat, or one that is there already.
+    #[error("there is a coat named {name} already")]
+    Exists {
+        /// The name.
+        name: String,
+    },
 }
 
 impl Advice for CoatError {
@@ -71,6 +77,7 @@ impl Advice for CoatError {
                     nearest.unwrap_or(BUILT_IN_COATS[0])
                 )
             }
+            Self::Exists { .. } => "Choose another name".into(),
         }
     }
 }
@@ -123,7 +130,7 @@ impl CoatFolder {
         let Ok(name) = PartName::new(given) else {
             return Ok(RecipeFile::read(Path::new(given))?);
         };
-        if let Some(own) = built_in(given) {
+        if let Some(own) = built_in_coat(given) {
             return Ok(own);
         }
         match RecipeFile::read(&self.file(&name)) {
@@ -135,6 +142,20 @@ impl CoatFolder {
             }),
             Err(error) => Err(error.into()),
         }
+    }
+
+    /// Keeps a coat under its name, which is none of the program's own.
+    pub fn save(&self, coat: &RecipeFile<Coat>, replace: Replace) -> Result<(), CoatError> {
+        let path = self.file(&coat.name);
+        let is_there = || replace == Replace::No && path.symlink_metadata().is_ok();
+        if built_in_coat(coat.name.as_str()).is_some() || is_there() {
+            let name = coat.name.to_string();
+            return Err(CoatError::Exists { name });
+        }
+        disk::create_dir_all(&self.path)
+            .map_err(|error| RecipeError::from(FileError::writing(&self.path, error)))?;
+        coat.write(&path)?;
+        Ok(())
     }
 }
 
@@ -148,17 +169,25 @@ mod tests {
         let folder = CoatFolder::at(data.path().join("coats"));
         assert_eq!(folder.names().expect("names"), BUILT_IN_COATS);
         let mut coat = folder.open("primer").expect("built in");
+        for replace in [Replace::No, Replace::Yes] {
+            let refused = folder.save(&coat, replace).expect_err("the program's own");
+            assert!(matches!(refused, CoatError::Exists { .. }));
+        }
         coat.name = PartName::new("my_primer").expect("a name");
         coat.recipe.spacing = 0.05;
-        std::fs::create_dir(data.path().join("coats")).expect("made");
+        folder.save(&coat, Replace::No).expect("saved");
         let file = data.path().join("coats/my_primer.toml");
-        coat.write(&file).expect("written");
         assert_eq!(folder.open("my_primer").expect("opened"), coat);
         assert_eq!(
             folder.open(&file.display().to_string()).expect("opened"),
             coat
         );
         assert_eq!(folder.names().expect("names").len(), 4);
+        let refused = folder.save(&coat, Replace::No).expect_err("there is one");
+        assert!(matches!(refused, CoatError::Exists { .. }));
+        coat.recipe.spacing = 0.06;
+        folder.save(&coat, Replace::Yes).expect("replaced");
+        assert_eq!(folder.open("my_primer").expect("opened"), coat);
         let missing = folder.open("my_premier").expect_err("no such coat");
         assert!(
             missing.advice().contains("my_primer"),
@@ -181,7 +210,7 @@ mod tests {
     #[test]
     fn every_built_in_coat_is_read_under_its_name_and_nearly_reaches_its_target() {
         for name in BUILT_IN_COATS {
-            let coat = built_in(name).expect("built in");
+            let coat = built_in_coat(name).expect("built in");
             assert_eq!(coat.name.as_str(), name);
             assert!(coat.notes.len() > 20);
             let film = coat.recipe.flat_thickness() / coat.recipe.target;

@@ -98,7 +98,7 @@ const TABLE: &[Parameter<Coat>] = &[
     number!("angle", "Angle of the rows", Path, Fold, Degrees, [-90.0, 90.0], 0, angle,
         "Angle of the rows from the part's x axis, turning towards its y axis. Used only if the rows run at an angle."),
     number!("spacing", "Row spacing", Path, Front, Millimetres, [5.0, 500.0], 0, spacing,
-        "Distance between rows, measured along the curved surface. Two thirds of the width less overlap a third. Closer rows are more even and take longer."),
+        "Distance between rows, measured along the curved surface. At two thirds of the pattern's width, rows overlap by a third. Closer rows are more even and take longer."),
     number!("stand_off", "Stand-off", Path, Front, Millimetres, [30.0, 600.0], 0, stand_off,
         "From the gun's mouth to the surface along the jet. Farther spreads the jet wider and evens out corners."),
     number!("speed", "Speed", Path, Front, MillimetresPerSecond, [10.0, 3000.0], 0, speed,

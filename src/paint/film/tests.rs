@@ -48,7 +48,7 @@ fn rows_without_end_leave_the_mean_and_the_ripple_of_the_closed_form() {
     };
     let surface = plate(0.6, 0.6);
     let path = flat_stripes((-8..=8).map(|k| f64::from(k) * coat.spacing), &coat);
-    let film = simulate(&surface, &path, &coat).expect("simulated");
+    let film = simulate(&surface, &path, &coat, &[]).expect("simulated");
     // A sum of Gaussians is its mean and, all but, one harmonic (Poisson's sum).
     let sigma = coat.gun.width / 4.0;
     let mean = coat.flat_thickness();
@@ -74,7 +74,7 @@ fn beyond_the_last_row_the_film_ends_as_the_normal_distribution() {
         (-50..=0).map(|k| f64::from(k) * coat.spacing - 0.005),
         &coat,
     );
-    let film = simulate(&surface, &path, &coat).expect("simulated");
+    let film = simulate(&surface, &path, &coat, &[]).expect("simulated");
     let sigma = coat.gun.width / 4.0;
     // Φ by its integral, in steps of a thousandth.
     let cumulated = |z: f64| {
@@ -108,7 +108,7 @@ fn around_a_cylinder_all_the_paint_lands_evenly() {
             out.cross(&Vector3::x()),
         )
     });
-    let film = simulate(&surface, &stripes(ways, coat.speed), &coat).expect("simulated");
+    let film = simulate(&surface, &stripes(ways, coat.speed), &coat, &[]).expect("simulated");
     let expected = coat.gun.film_rate() / (coat.speed * radius * 2.0 * PI / f64::from(num));
     for t in &film.thickness {
         assert!((t / expected - 1.0).abs() < 5e-3, "{}", t / expected);
@@ -123,7 +123,7 @@ fn a_planned_path_covers_a_plate_to_its_edges_and_figures_add_up() {
         ..Coat::default()
     };
     let path = plan(&surface, &coat, &[]).expect("planned");
-    let film = simulate(&surface, &path, &coat).expect("simulated");
+    let film = simulate(&surface, &path, &coat, &[]).expect("simulated");
     let figures = &film.figures;
     assert!(figures.within > 0.97, "{figures:?}");
     assert_eq!((figures.missed, figures.double), (0.0, 0.0));
@@ -136,7 +136,7 @@ fn a_planned_path_covers_a_plate_to_its_edges_and_figures_add_up() {
     assert!((film.path.landed / expected - 1.0).abs() < 1e-9);
     assert!(film.path.landed < coat.gun.transfer && film.path.landed > 0.3);
     assert!((film.path.length / film.path.time / coat.speed - 1.0).abs() < 0.02);
-    let again = simulate(&surface, &path, &coat).expect("simulated");
+    let again = simulate(&surface, &path, &coat, &[]).expect("simulated");
     assert_eq!(again.thickness, film.thickness);
 }
 
@@ -144,7 +144,7 @@ fn a_planned_path_covers_a_plate_to_its_edges_and_figures_add_up() {
 fn half_the_speed_is_twice_the_film_and_a_gun_that_is_off_paints_nothing() {
     let surface = plate(0.4, 0.4);
     let coat = Coat::default();
-    let film = |path: &SprayPath| simulate(&surface, path, &coat);
+    let film = |path: &SprayPath| simulate(&surface, path, &coat, &[]);
     let path = flat_stripes([0.0].into_iter(), &coat);
     let slow = path.points().iter().map(|p| PathPoint {
         speed: Some(coat.speed / 2.0),
@@ -186,7 +186,7 @@ fn a_shelf_before_a_wall_takes_the_paint_that_the_wall_does_not_get() {
     let levels = (-3..=3).map(|k| f64::from(k) * coat.spacing);
     let path = flat_stripes(levels, &Coat { speed: 0.4, ..coat });
     let landed = |surface: &PaintSurface| {
-        let film = simulate(surface, &path, &coat).expect("simulated");
+        let film = simulate(surface, &path, &coat, &[]).expect("simulated");
         let volume = film.thickness.iter().sum::<f64>() * 1e-4;
         (film, volume)
     };

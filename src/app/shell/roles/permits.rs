@@ -7,7 +7,10 @@ use crate::app::shell::{action::DialogRequest, live::LiveAction, robot::RobotAct
 pub(in crate::app) fn is_operators(workspace: WorkspaceKind) -> bool {
     match workspace {
         WorkspaceKind::Inspect | WorkspaceKind::History => true,
-        WorkspaceKind::Enrol | WorkspaceKind::Compare | WorkspaceKind::Align => false,
+        WorkspaceKind::Enrol
+        | WorkspaceKind::Compare
+        | WorkspaceKind::Align
+        | WorkspaceKind::Paint => false,
     }
 }
 

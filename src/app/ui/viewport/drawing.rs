@@ -13,6 +13,8 @@ pub enum DrawnShape {
     Box,
     /// A polygon along the pointer's way, closed by a straight line.
     Lasso,
+    /// The pointer's way itself, straight or not.
+    Way,
 }
 
 /// An outline while it is drawn.
@@ -83,7 +85,7 @@ impl Drawing {
         let corners = self.corners(shape?);
         *self = Self::default();
         let share = |at: Pos2| (at - rect.min) / rect.size();
-        is_meant(&corners).then(|| {
+        (shape == Some(DrawnShape::Way) || is_meant(&corners)).then(|| {
             let shares = corners.into_iter().map(share);
             shares.map(|share| Vec2::new(share.x, share.y)).collect()
         })
@@ -101,7 +103,7 @@ impl Drawing {
                 box_corners(Rect::from_two_pos(*first, *last)).to_vec()
             }
             (DrawnShape::Box, _) => Vec::new(),
-            (DrawnShape::Lasso, trail) => trail.to_vec(),
+            (DrawnShape::Lasso | DrawnShape::Way, trail) => trail.to_vec(),
         }
     }
 }

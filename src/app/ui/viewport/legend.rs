@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Vec2};
 use super::{
     renderer::height_range,
     scene::ViewScene,
-    style::{Colouring, Legend, SCALE_STOPS, ViewStyle},
+    style::{Colouring, Legend, SCALE_STOPS, ScaleWords, ViewStyle},
 };
 use crate::{app::language::text, units::Metres};
 
@@ -39,16 +39,20 @@ pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewS
             );
         }
         Colouring::Deviation => {
-            let end = style.deviation_range.mm();
-            let values = [format!("−{end}"), "0".into(), format!("+{end}")];
-            bar(
-                painter,
-                rect,
-                &text!("view-deviation-scale"),
-                &values,
-                &colours.deviation_scale,
-                style,
-            );
+            let (title, values) = match style.scale_words {
+                ScaleWords::Deviation => {
+                    let end = style.deviation_range.mm();
+                    let values = [format!("−{end}"), "0".into(), format!("+{end}")];
+                    (text!("view-deviation-scale"), values)
+                }
+                ScaleWords::Film { target, range } => {
+                    let values = [target.0 - range.0, target.0, target.0 + range.0];
+                    let values = values.map(|metres| format!("{:.0}", 1e6 * metres));
+                    (text!("view-film-scale"), values)
+                }
+            };
+            let stops = colours.deviations(style.scale_words);
+            bar(painter, rect, &title, &values, stops, style);
         }
         Colouring::Segment | Colouring::Plain => {}
     }

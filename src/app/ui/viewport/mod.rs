@@ -57,7 +57,7 @@ pub use self::{
     picking::PickedPoint,
     scene::{Line, LineSet, PointSet, TextLabel, ViewScene},
     screenshot::{ViewShot, screenshot},
-    style::{Colouring, Legend, PointSize, Role, RoleColour, ViewColours, ViewStyle},
+    style::{Colouring, Legend, PointSize, Role, RoleColour, ScaleWords, ViewColours, ViewStyle},
     widget::{ViewTool, Viewport, ViewportResponse},
 };
 

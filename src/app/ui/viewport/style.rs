@@ -134,6 +134,21 @@ pub enum Legend {
     Hidden,
 }
 
+/// What the deviations of points are, for the words beside their scale.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum ScaleWords {
+    /// Distances from the reference.
+    #[default]
+    Deviation,
+    /// Thicknesses of a film, a thousand times as large: a set keeps whole micrometres.
+    Film {
+        /// In the middle of the scale.
+        target: Metres,
+        /// From there to its ends.
+        range: Metres,
+    },
+}
+
 /// Everything about the look of a view. Cheap to make anew each frame; the view is drawn again only when it differs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewStyle {
@@ -147,6 +162,8 @@ pub struct ViewStyle {
     pub eye_dome: f32,
     /// Deviation at the ends of the scale, above 0. Beyond it the end colour stays.
     pub deviation_range: Metres,
+    /// What deviations are.
+    pub scale_words: ScaleWords,
     /// Whether the colour scale is drawn.
     pub legend: Legend,
 }
@@ -161,6 +178,7 @@ impl ViewStyle {
             point_size: PointSize::Metres(Metres::from_mm(4.0)),
             eye_dome: 1.0,
             deviation_range: Metres::from_mm(5.0),
+            scale_words: ScaleWords::default(),
             legend: Legend::default(),
         }
     }
@@ -190,6 +208,8 @@ pub struct ViewColours {
     pub height_scale: [Color32; SCALE_STOPS],
     /// Diverging: from below the reference over 0 in the middle to above it.
     pub deviation_scale: [Color32; SCALE_STOPS],
+    /// Diverging: from a film that is too thin over the right one in the middle to one that is too thick.
+    pub film_scale: [Color32; SCALE_STOPS],
 }
 
 impl ViewColours {
@@ -228,6 +248,10 @@ impl ViewColours {
             .map(hex),
             deviation_scale: [
                 0x3a_62d8, 0x3f_8fdc, 0x4f_bcc9, 0xb9_c9bd, 0xdd_c565, 0xe5_9440, 0xdf_5a35,
+            ]
+            .map(hex),
+            film_scale: [
+                0x3f_5fe0, 0x3f_8fdc, 0x45_b5a8, 0x5b_c46c, 0xb5_cf5a, 0xe5_a040, 0xdf_5a35,
             ]
             .map(hex),
         }
@@ -270,6 +294,18 @@ impl ViewColours {
                 0x22_46b8, 0x2f_7cc7, 0x4f_a9b5, 0xa3_ada3, 0xcf_aa3a, 0xd6_7a22, 0xc2_3f1c,
             ]
             .map(hex),
+            film_scale: [
+                0x22_46b8, 0x2f_7cc7, 0x2a_9c8f, 0x2a_9440, 0x8a_a52e, 0xd6_8a22, 0xc2_3f1c,
+            ]
+            .map(hex),
+        }
+    }
+
+    /// The colours of deviations.
+    pub(super) fn deviations(&self, words: ScaleWords) -> &[Color32; SCALE_STOPS] {
+        match words {
+            ScaleWords::Deviation => &self.deviation_scale,
+            ScaleWords::Film { .. } => &self.film_scale,
         }
     }
 

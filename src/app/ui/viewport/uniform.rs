@@ -48,7 +48,7 @@ impl ViewUniform {
             focal: focal(size) * pixels_per_point,
             near: camera.near(),
             eye_dome: style.eye_dome,
-            deviation_range: (style.deviation_range.0 as f32).max(1e-6),
+            deviation_range: (style.deviation_range.0 as f32).max(1e-9),
             hidden_line_opacity: HIDDEN_LINE_OPACITY,
             padding: [0.0; 2],
             background: rgba(colours.background),
@@ -57,7 +57,7 @@ impl ViewUniform {
                 [red, green, blue, role.weight]
             }),
             height_scale: colours.height_scale.map(rgba),
-            deviation_scale: colours.deviation_scale.map(rgba),
+            deviation_scale: colours.deviations(style.scale_words).map(rgba),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The name of the recipe on trial, what can be done with kept recipes, and what differs from the defaults.
 
-use egui::{Button, Color32, Key, RichText, ScrollArea, TextEdit, TextStyle, Ui, WidgetInfo, vec2};
+use egui::{Button, Key, RichText, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::{
     CompareAction, CompareFile, CompareState,
@@ -13,7 +13,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
-            widgets::{labelled, shortened},
+            widgets::{button_width, labelled, shortened},
         },
     },
     error::Advice as _,
@@ -154,15 +154,6 @@ pub(super) fn title_of(label: &RecipeLabel) -> String {
     } else {
         label.name.clone()
     }
-}
-
-/// How wide a button with this text is.
-pub(super) fn button_width(ui: &Ui, text: &str) -> f32 {
-    let font = TextStyle::Button.resolve(ui.style());
-    let text = ui
-        .painter()
-        .layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
-    text.size().x + 2.0 * ui.spacing().button_padding.x
 }
 
 /// The line in which a name is written.

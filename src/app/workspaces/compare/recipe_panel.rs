@@ -1,10 +1,7 @@
 //! The recipe on trial: a control for every parameter, drawn from the table, and what comes of it.
 
-use std::cell::Cell;
-
 use egui::{
-    Button, CollapsingHeader, Color32, DragValue, Frame, Margin, Panel, RichText, ScrollArea,
-    Sense, Slider, TextStyle, Ui, Vec2, WidgetInfo, vec2,
+    Button, Color32, Frame, Margin, Panel, RichText, ScrollArea, Sense, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::{CompareAction, CompareState, case_bar::judged, recipe_menu, scaling_plot};
@@ -13,14 +10,15 @@ use crate::{
         language::{parameters, text, within_sentence},
         shell::session::Session,
         ui::{
+            parameter_control::{self, ParameterChange, fold},
             theme::{Theme, font, space},
-            widgets::{Mark, labelled, mark},
+            widgets::{Mark, mark},
         },
     },
     cases::CaseOutcome,
     pipeline::{
         Recipe,
-        parameters::{Group, Kind, Number, PARAMETERS, Parameter, Place},
+        parameters::{Group, PARAMETERS, Parameter, Place},
     },
 };
 
@@ -115,19 +113,7 @@ fn group_ui(
         });
 }
 
-/// A fold whose title has more than one line where the panel is too narrow.
-fn fold(ui: &Ui, title: String, colour: Color32) -> CollapsingHeader {
-    let font = TextStyle::Button.resolve(ui.style());
-    let spacing = ui.spacing();
-    let width = ui.available_width() - spacing.indent - 2.0 * spacing.button_padding.x;
-    CollapsingHeader::new(ui.painter().layout(title, font, colour, width))
-}
-
-/// Width of the number beside a slider.
-const NUMBER: f32 = 92.0;
-/// Least width of the button that resets a parameter.
-const RESET: f32 = 58.0;
-
+/// The control of a parameter, and what it asks of the recipe.
 fn control(
     ui: &mut Ui,
     parameter: &Parameter,
@@ -136,178 +122,13 @@ fn control(
     theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
-    let is_changed = parameter.differs(recipe, default);
-    let title = parameters::name(parameter);
-    let name = if is_changed {
-        let name = text!("compare-parameter-changed", parameter = &title);
-        RichText::new(name).color(theme.accent)
-    } else {
-        RichText::new(&title).color(theme.text)
-    };
-    let hover = hover_text(parameter, default);
-    ui.scope(|ui| {
-        ui.spacing_mut().interact_size.y = 0.0;
-        ui.spacing_mut().item_spacing.y = 0.0;
-        ui.label(name).on_hover_text(&hover);
-    });
-    ui.horizontal(|ui| {
-        let reset = text!("compare-reset");
-        let reset_width = recipe_menu::button_width(ui, &reset).max(RESET);
-        let taken = if is_changed {
-            reset_width + space::SMALL
-        } else {
-            0.0
-        };
-        let width = ui.available_width() - taken;
-        match &parameter.kind {
-            Kind::Number(number) => number_ui(ui, parameter, number, recipe, width, &hover, acts),
-            Kind::Choice(_) => choice_ui(ui, parameter, recipe, width, acts),
-        }
-        if is_changed {
-            let button = Button::new(reset).min_size(vec2(reset_width, space::TARGET));
-            let name = within_sentence(&title);
-            let label = text!("compare-reset-named", parameter = name);
-            let hover = text!(
-                "compare-back-to",
-                value = parameters::value(parameter, default)
-            );
-            if labelled(ui, button, &label).on_hover_text(hover).clicked() {
-                acts.push(CompareAction::Reset(parameter.key));
-            }
-        }
-    });
-}
-
-fn hover_text(parameter: &Parameter, default: &Recipe) -> String {
-    let default = parameters::value(parameter, default);
-    let valid = match &parameter.kind {
-        Kind::Number(number) => {
-            let [least, most] = number.range;
-            text!(
-                "compare-valid-range",
-                least = least.to_string(),
-                most = format!("{most}{}", number.unit.sign()),
-                default = default,
-            )
-        }
-        Kind::Choice(_) => {
-            let options = parameters::options(parameter).join(", ");
-            text!(
-                "compare-valid-options",
-                options = options,
-                default = default
-            )
-        }
-    };
-    format!("{}\n{valid}", parameters::help(parameter))
-}
-
-/// A slider for the hand, and a number that can be dragged or written.
-fn number_ui(
-    ui: &mut Ui,
-    parameter: &Parameter,
-    number: &Number,
-    recipe: &Recipe,
-    width: f32,
-    hover: &str,
-    acts: &mut Vec<CompareAction>,
-) {
-    let [least, most] = number.range;
-    let before = parameter.value(recipe);
-    let (mut slid, mut written) = (before, before);
-    ui.spacing_mut().slider_width = (width - NUMBER - space::SMALL).max(40.0);
-    let is_wide = most > 500.0 * least.max(1.0);
-    let slider = Slider::new(&mut slid, least..=most)
-        .show_value(false)
-        .logarithmic(is_wide)
-        .trailing_fill(true);
-    let slider = ui.add(slider);
-    slider.widget_info(|| {
-        let label = text!("compare-slider", parameter = parameters::name(parameter));
-        WidgetInfo::slider(true, before, label)
-    });
-    slider.on_hover_text(hover);
-    // What is out of range is told, not bent.
-    let refused = Cell::new(None);
-    let parse = |text: &str| {
-        let digits = text.trim().trim_end_matches(number.unit.sign().trim());
-        let value: f64 = digits.trim().replace(',', ".").parse().ok()?;
-        if value >= least && value <= most {
-            return Some(value);
-        }
-        refused.set(Some(value));
-        None
-    };
-    let drag = DragValue::new(&mut written)
-        .range(least..=most)
-        .speed((most - least).min(before.abs().max(1.0)) / 100.0)
-        .fixed_decimals(number.decimals)
-        .suffix(number.unit.sign())
-        .update_while_editing(false)
-        .custom_parser(parse);
-    let response = ui.add_sized(vec2(NUMBER, space::TARGET), drag);
-    response.widget_info(|| {
-        let mut info = WidgetInfo::drag_value(true, before);
-        info.label = Some(parameters::name(parameter));
-        info
-    });
-    response.on_hover_text(hover);
-    let rounded = |value: f64| {
-        let scale = 10_f64.powi(number.decimals as i32);
-        (value * scale).round() / scale
-    };
-    for now in [slid, written] {
-        let now = rounded(now).clamp(least, most);
-        if (now - rounded(before)).abs() > f64::EPSILON * now.abs() {
-            acts.push(CompareAction::Set(parameter.key, now));
-        }
-    }
-    if let Some(value) = refused.get() {
-        acts.push(CompareAction::Set(parameter.key, value));
-    }
-}
-
-fn choice_ui(
-    ui: &mut Ui,
-    parameter: &Parameter,
-    recipe: &Recipe,
-    width: f32,
-    acts: &mut Vec<CompareAction>,
-) {
-    let chosen = parameter.value(recipe) as usize;
-    let (name, options) = (parameters::name(parameter), parameters::options(parameter));
-    let each = width / options.len() as f32 - space::SMALL;
-    let widths = options
-        .iter()
-        .map(|option| recipe_menu::button_width(ui, option));
-    if each < widths.fold(64.0, f32::max) {
-        let now = options.get(chosen).cloned().unwrap_or_default();
-        ui.menu_button(format!("{now} ▼"), |ui| {
-            for (place, option) in options.iter().enumerate() {
-                if ui.selectable_label(place == chosen, option).clicked() {
-                    acts.push(CompareAction::Set(parameter.key, place as f64));
-                    ui.close();
-                }
-            }
-        })
-        .response
-        .widget_info(|| {
-            let label = format!("{name}: {now}");
-            WidgetInfo::labeled(egui::Role::Button, true, label)
+    let mut changed = |change: ParameterChange| {
+        acts.push(match change {
+            ParameterChange::Set(value) => CompareAction::Set(parameter.key, value),
+            ParameterChange::Reset => CompareAction::Reset(parameter.key),
         });
-        return;
-    }
-    for (place, option) in options.iter().enumerate() {
-        let button = Button::selectable(place == chosen, option);
-        let response = ui.add(button.min_size(vec2(each, space::TARGET)));
-        response.widget_info(|| {
-            let label = format!("{name}: {option}");
-            WidgetInfo::selected(egui::Role::Button, true, place == chosen, label)
-        });
-        if response.clicked() && place != chosen {
-            acts.push(CompareAction::Set(parameter.key, place as f64));
-        }
-    }
+    };
+    parameter_control::control(ui, parameter, recipe, default, theme, &mut changed);
 }
 
 /// What comes of it.

@@ -9,8 +9,8 @@ use crate::{
         user_error::UserError,
     },
     library::{
-        Enrolled, LibraryError, LibraryFolder, LibraryPlace, Part, PartMeta, PartName, PartNaming,
-        Saved, SprayPath,
+        Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartNaming, Saved,
+        SprayPath,
     },
 };
 
@@ -68,9 +68,7 @@ pub(super) fn change(
     library_cache: &LibraryCache,
 ) -> Result<Changed, UserError> {
     let shelved = library_cache.get();
-    let Some(folder) = shelved.place.as_ref().and_then(LibraryPlace::folder) else {
-        return Err(inside_the_program(shelved.shown.is_fixed.as_ref()));
-    };
+    let folder = shelved.folder_to_change()?;
     let title_of = |name: &PartName| {
         let place = shelved.shown.place_of(name.as_str());
         let title = place.map(|place| shelved.shown.title(place));
@@ -193,12 +191,4 @@ fn described(part: &Part, words: &PartNaming, of: Option<&PartName>) -> Part {
         },
         ..part.clone()
     }
-}
-
-/// Why the shipped parts cannot be changed where they are.
-fn inside_the_program(reason: Option<&UserError>) -> UserError {
-    reason.cloned().unwrap_or_else(|| UserError {
-        what: text!("enrol-inside-program"),
-        advice: text!("enrol-inside-program-advice"),
-    })
 }

@@ -263,7 +263,11 @@ fn likeness(
         return;
     };
     let title = title_of(session, &likeness.other);
-    let percent = format!("{:.0}", likeness.score * 100.0);
+    let percent = match likeness.score * 100.0 {
+        // Some likeness is always left.
+        little if little < 1.0 => "< 1".to_owned(),
+        percent => format!("{percent:.0}"),
+    };
     let text = if likeness.is_mirrored {
         text!(
             "enrol-most-similar-mirrored",

@@ -188,7 +188,7 @@ fn clicked(response: &Response, draft: &Draft) -> Option<Edit> {
 pub(super) fn drag_to_draw(shape: DrawnShape) -> String {
     match shape {
         DrawnShape::Box => text!("enrol-drag-box"),
-        DrawnShape::Lasso => text!("enrol-drag-lasso"),
+        DrawnShape::Lasso | DrawnShape::Way => text!("enrol-drag-lasso"),
     }
 }
 

@@ -195,7 +195,7 @@ impl EnrolState {
             EnrolAction::DrawNext => {
                 self.shape = Some(match self.shape {
                     Some(DrawnShape::Box) => DrawnShape::Lasso,
-                    Some(DrawnShape::Lasso) | None => DrawnShape::Box,
+                    Some(DrawnShape::Lasso | DrawnShape::Way) | None => DrawnShape::Box,
                 });
             }
             EnrolAction::OutlineMode(mode) => self.outline_mode = mode,

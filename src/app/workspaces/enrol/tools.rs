@@ -1,6 +1,6 @@
 //! What corrects the draft: how it is taken, boxes and lassos, segments, undo.
 
-use egui::{Button, RichText, ScrollArea, TextWrapMode, Ui, Vec2, WidgetText};
+use egui::{RichText, ScrollArea, Ui};
 
 use super::{
     EnrolAction, EnrolState,
@@ -13,40 +13,14 @@ use super::{
 use crate::app::{
     language::text,
     ui::{
-        theme::{Theme, font, space},
+        theme::{Theme, font},
+        tool_row::{Tool, choice, tool_row},
         viewport::DrawnShape,
         widgets::grouped,
     },
 };
 
-/// A button that can be the chosen one of several.
-fn choice(
-    ui: &mut Ui,
-    text: &str,
-    label: &str,
-    is_chosen: bool,
-    is_enabled: bool,
-) -> egui::Response {
-    let button = Button::new(RichText::new(text).font(font::small())).selected(is_chosen);
-    let button = button.min_size(Vec2::splat(space::TARGET));
-    let response = ui.add_enabled(is_enabled, button);
-    response.widget_info(|| {
-        egui::WidgetInfo::selected(egui::Role::Button, is_enabled, is_chosen, label)
-    });
-    response
-}
-
-/// One of the tools.
-struct Tool {
-    text: String,
-    label: String,
-    hint: Option<String>,
-    is_chosen: bool,
-    is_enabled: bool,
-    action: EnrolAction,
-}
-
-/// Draws the tools: as many in a row as there is room for, and those together that are used together.
+/// Draws the tools.
 pub(super) fn ui(
     ui: &mut Ui,
     draft: &Draft,
@@ -55,28 +29,13 @@ pub(super) fn ui(
     actions: &mut Vec<EnrolAction>,
 ) {
     let can_correct = draft.subject.can_be_corrected();
-    ui.spacing_mut().button_padding.x = 9.0;
-    let room = ui.available_width();
-    let sets = [
+    let sets = vec![
         vec![initial(draft)],
         vec![steps(draft, enrol)],
         vec![drawing(enrol, can_correct), modes(enrol, can_correct)],
         vec![panes(enrol)],
     ];
-    let gap = space::MEDIUM + ui.spacing().item_spacing.x;
-    let is_there = |set: &Vec<Vec<Tool>>| set.iter().any(|group| !group.is_empty());
-    let mut sets = sets.into_iter().filter(is_there).peekable();
-    while let Some(first) = sets.next() {
-        ui.horizontal(|ui| {
-            let mut used = width(ui, &first, gap);
-            buttons(ui, first, actions);
-            while let Some(next) = sets.next_if(|next| used + gap + width(ui, next, gap) <= room) {
-                used += gap + width(ui, &next, gap);
-                ui.add_space(space::MEDIUM);
-                buttons(ui, next, actions);
-            }
-        });
-    }
+    tool_row(ui, sets, actions);
     if !can_correct {
         let text = text!("enrol-mesh-is-whole");
         ui.label(
@@ -87,42 +46,8 @@ pub(super) fn ui(
     }
 }
 
-fn buttons(ui: &mut Ui, groups: Vec<Vec<Tool>>, actions: &mut Vec<EnrolAction>) {
-    for (place, group) in groups.into_iter().enumerate() {
-        if place > 0 {
-            ui.add_space(space::MEDIUM);
-        }
-        for tool in group {
-            let Tool { text, label, .. } = &tool;
-            let mut response = choice(ui, text, label, tool.is_chosen, tool.is_enabled);
-            if let Some(hint) = tool.hint {
-                response = response.on_hover_text(hint);
-            }
-            if response.clicked() {
-                actions.push(tool.action);
-            }
-        }
-    }
-}
-
-/// How wide groups are side by side, logical pixels.
-fn width(ui: &Ui, groups: &[Vec<Tool>], gap: f32) -> f32 {
-    let spacing = ui.spacing();
-    let of_one = |tool: &Tool| {
-        let text = WidgetText::from(RichText::new(&tool.text).font(font::small()));
-        let wrap = Some(TextWrapMode::Extend);
-        let galley = text.into_galley(ui, wrap, f32::INFINITY, font::small());
-        (galley.size().x + 2.0 * spacing.button_padding.x).max(space::TARGET)
-    };
-    let of_group = |group: &Vec<Tool>| {
-        let gaps = spacing.item_spacing.x * (group.len() - 1) as f32;
-        group.iter().map(of_one).sum::<f32>() + gaps
-    };
-    groups.iter().map(of_group).sum::<f32>() + gap * (groups.len() - 1) as f32
-}
-
 /// How the draft is taken. The shots have voted what of a scan is the part.
-fn initial(draft: &Draft) -> Vec<Tool> {
+fn initial(draft: &Draft) -> Vec<Tool<EnrolAction>> {
     let is_scan = draft.subject.scan().is_some();
     let all = InitialSelection::ALL.into_iter().filter(|_| !is_scan);
     all.map(|taking| Tool {
@@ -137,7 +62,7 @@ fn initial(draft: &Draft) -> Vec<Tool> {
 }
 
 /// What a drag does.
-fn drawing(enrol: &EnrolState, can_correct: bool) -> Vec<Tool> {
+fn drawing(enrol: &EnrolState, can_correct: bool) -> Vec<Tool<EnrolAction>> {
     [
         (text!("enrol-rotate"), text!("enrol-rotate-hint"), None),
         (
@@ -164,7 +89,7 @@ fn drawing(enrol: &EnrolState, can_correct: bool) -> Vec<Tool> {
 }
 
 /// What becomes of what is drawn around.
-fn modes(enrol: &EnrolState, can_correct: bool) -> Vec<Tool> {
+fn modes(enrol: &EnrolState, can_correct: bool) -> Vec<Tool<EnrolAction>> {
     let all = OutlineMode::ALL.into_iter();
     all.map(|mode| Tool {
         text: mode.title(),
@@ -178,7 +103,7 @@ fn modes(enrol: &EnrolState, can_correct: bool) -> Vec<Tool> {
 }
 
 /// Back and forth.
-fn steps(draft: &Draft, enrol: &EnrolState) -> Vec<Tool> {
+fn steps(draft: &Draft, enrol: &EnrolState) -> Vec<Tool<EnrolAction>> {
     let steps = &enrol.steps;
     [
         (
@@ -213,7 +138,7 @@ fn steps(draft: &Draft, enrol: &EnrolState) -> Vec<Tool> {
 }
 
 /// What is shown.
-fn panes(enrol: &EnrolState) -> Vec<Tool> {
+fn panes(enrol: &EnrolState) -> Vec<Tool<EnrolAction>> {
     let all = DraftPanes::ALL.into_iter();
     all.map(|panes| Tool {
         text: panes.title(),

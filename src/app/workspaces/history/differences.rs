@@ -12,7 +12,7 @@ use crate::{
         },
     },
     history::{Differences, InspectionSummary},
-    pipeline::parameters::Parameter,
+    pipeline::{Recipe, parameters::Parameter},
 };
 
 /// What a row tells of a finding.
@@ -76,7 +76,7 @@ pub(super) fn table(
                 |(what, of): (String, FindingText<'_>)| (shortened(&what, 14), of(before), of(now));
             let changed = found.changed_parameters().into_iter();
             let parameters = changed.map(|change| {
-                let name = Parameter::of_key(change.key).map(parameters::name);
+                let name = Parameter::<Recipe>::of_key(change.key).map(parameters::name);
                 let name = name.unwrap_or_else(|| change.name.to_owned());
                 (shortened(&name, 14), change.before, change.now)
             });

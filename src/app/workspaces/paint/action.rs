@@ -1,0 +1,92 @@
+//! What can happen in the workspace, and what a person is asked to choose.
+
+use std::path::PathBuf;
+
+use super::region::PaintTool;
+use crate::{
+    app::{
+        language::text,
+        shell::file_dialog::{FileChoice, FileRequest},
+        ui::parameter_control::ParameterChange,
+    },
+    library::PartName,
+    paint::{KeepOut, PathEdit},
+};
+
+/// Something that happened in the workspace.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PaintAction {
+    /// Paint this enrolled part.
+    ChoosePart(PartName),
+    /// Use the coat of this name.
+    ChooseCoat(String),
+    /// Change the parameter of this key.
+    Change(&'static str, ParameterChange),
+    /// Every parameter as the coat has it.
+    ResetCoat,
+    /// Write a name for the coat, or stop.
+    Name(Option<String>),
+    /// Keep the coat under the name that was written.
+    SaveCoat,
+    /// Show this path.
+    Show(ShownPath),
+    /// What a left drag in the view does.
+    Use(PaintTool),
+    /// Add these regions; areas to be painted replace none.
+    Add(Vec<KeepOut>),
+    /// Correct the path by hand.
+    Edit(PathEdit),
+    /// Forget all regions, and what was corrected by hand.
+    Clear,
+    /// Take the last step back.
+    Undo,
+    /// Do it again.
+    Redo,
+    /// Find spacing and speed.
+    Propose,
+    /// Store the path with the part.
+    Store,
+    /// Colour the part by the film, or by its shape alone.
+    ToggleFilm,
+    /// Have a person choose where a file goes.
+    Ask(PaintFile),
+    /// A person chose it.
+    Chosen(PaintFile, PathBuf),
+    /// Show the gun after this many seconds of the path.
+    Scrub(f64),
+    /// To the next or the last stroke.
+    Step(i32),
+    /// Play or pause.
+    TogglePlay,
+    /// So many seconds have passed while playing.
+    Advance(f64),
+}
+
+/// Which path is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShownPath {
+    /// The one that the coat gives.
+    #[default]
+    Planned,
+    /// The one that is stored with the part.
+    Stored,
+}
+
+/// What a person is asked to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PaintFile {
+    /// Where the path is written to as a table.
+    Table,
+}
+
+impl PaintFile {
+    pub(super) fn request(self) -> FileRequest {
+        match self {
+            Self::Table => FileRequest {
+                title: text!("paint-export-title"),
+                filters: vec![(text!("paint-csv-files"), &["csv"])],
+                choice: FileChoice::NewFile("path.csv"),
+            },
+        }
+    }
+}

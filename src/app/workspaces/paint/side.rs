@@ -1,0 +1,417 @@
+//! On the right: the part, its coat with every parameter, what the film comes to, and what can be done with the path.
+
+use egui::{
+    Button, CentralPanel, Frame, Label, Margin, Panel, Rect, Response, RichText, ScrollArea, Sense,
+    TextEdit, Ui, WidgetInfo, pos2, vec2,
+};
+
+use super::{
+    action::{PaintAction, PaintFile, ShownPath},
+    state::PaintState,
+    work::Planned,
+};
+use crate::{
+    app::{
+        language::{parameters, text, within_sentence},
+        shell::session::Session,
+        ui::{
+            parameter_control::{self, fold},
+            theme::{Theme, font, space},
+            tool_row::choice,
+            widgets::{grouped, heading, labelled, row, shortened},
+        },
+    },
+    paint::{Coat, CoatGroup, FilmFigures},
+    pipeline::parameters::{Parameters as _, Place},
+    stages::reference::Coverage,
+};
+
+/// Letters of a part's title on its menu.
+const TITLE: usize = 26;
+/// The share of the film within its tolerance from which a path is good, as `partsight path plan` has it.
+const GOOD: f64 = 0.9;
+
+/// Draws the panel.
+pub(super) fn ui(
+    ui: &mut Ui,
+    paint: &PaintState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<PaintAction>,
+) {
+    let frame = |top, bottom| {
+        Frame::new().fill(theme.panel).inner_margin(Margin {
+            left: 16,
+            right: 14,
+            top,
+            bottom,
+        })
+    };
+    Panel::bottom("paint actions")
+        .resizable(false)
+        .frame(frame(8, 12))
+        .show(ui, |ui| buttons(ui, paint, session, theme, actions));
+    Panel::top("paint head")
+        .resizable(false)
+        .frame(frame(12, 4))
+        .show(ui, |ui| head(ui, paint, session, theme, actions));
+    CentralPanel::default().frame(frame(0, 4)).show(ui, |ui| {
+        ScrollArea::vertical()
+            .id_salt("coat")
+            .auto_shrink(false)
+            .show(ui, |ui| {
+                ui.set_max_width(ui.available_width() - 8.0);
+                coat(ui, paint, theme, actions);
+                if let Some(planned) = &paint.planned {
+                    if paint.is_old(session) {
+                        ui.multiply_opacity(0.55);
+                    }
+                    check(ui, planned, theme);
+                }
+            });
+    });
+}
+
+/// The part, and whether its film is good.
+fn head(
+    ui: &mut Ui,
+    paint: &PaintState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<PaintAction>,
+) {
+    let Some(library) = &session.library else {
+        ui.label(text!("paint-library-loading"));
+        return;
+    };
+    let Some(part) = paint.part(session) else {
+        ui.label(text!("paint-no-part"));
+        return;
+    };
+    let title = library.title_of(part.as_str());
+    let chosen = part.clone();
+    let text = RichText::new(format!("{} ▼", shortened(title, TITLE))).font(font::verdict());
+    let menu = ui.menu_button(text, |ui| {
+        ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
+            for meta in &library.parts {
+                let is_chosen = meta.name == chosen;
+                if ui
+                    .selectable_label(is_chosen, library.title_of(meta.name.as_str()))
+                    .clicked()
+                {
+                    actions.push(PaintAction::ChoosePart(meta.name.clone()));
+                    ui.close();
+                }
+            }
+        });
+    });
+    let label = text!("paint-part", part = title);
+    let response = menu.response;
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
+    response.on_hover_text(text!("paint-part-hint"));
+    ui.spacing_mut().interact_size.y = 0.0;
+    if let Some(failed) = &paint.failed {
+        let text = RichText::new(&failed.what).color(theme.rejected);
+        ui.add(Label::new(text).wrap());
+        let advice = RichText::new(&failed.advice).color(theme.text);
+        ui.add(Label::new(advice).wrap());
+        return;
+    }
+    let Some(planned) = &paint.planned else {
+        return;
+    };
+    let (figures, coat) = (&planned.film.figures, &planned.coat);
+    let colour = if figures.within >= GOOD {
+        theme.accepted
+    } else {
+        theme.rejected
+    };
+    let micrometres = |metres: f64| format!("{:.0}", 1e6 * metres);
+    let text = text!(
+        "paint-within",
+        share = percent(figures.within),
+        target = micrometres(coat.target),
+        tolerance = micrometres(coat.target * coat.tolerance)
+    );
+    ui.label(RichText::new(text).font(font::body_strong()).color(colour));
+    histogram(ui, figures, coat.tolerance, theme);
+    let scope = match planned.surface.coverage {
+        Coverage::OneSide => text!("paint-scope-one-side"),
+        Coverage::AllAround => text!("paint-scope-all-around"),
+        Coverage::SeveralSides => text!("paint-scope-several-sides"),
+    };
+    let scope = RichText::new(scope)
+        .font(font::small())
+        .color(theme.weak_text);
+    ui.add(Label::new(scope).wrap());
+}
+
+/// The coat, by name and by every parameter.
+fn coat(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut Vec<PaintAction>) {
+    let design = &paint.design;
+    heading(ui, theme, &text!("paint-coat"));
+    ui.horizontal(|ui| {
+        let kept = design.kept.name.as_str();
+        let name = if design.is_coat_changed() {
+            text!("paint-coat-changed", coat = kept)
+        } else {
+            kept.to_owned()
+        };
+        let menu = ui.menu_button(format!("{} ▼", shortened(&name, TITLE)), |ui| {
+            for coat in &paint.coats {
+                if ui.selectable_label(coat == kept, coat).clicked() {
+                    actions.push(PaintAction::ChooseCoat(coat.clone()));
+                    ui.close();
+                }
+            }
+            ui.separator();
+            if ui.button(text!("paint-save-coat-as")).clicked() {
+                actions.push(PaintAction::Name(Some(String::new())));
+                ui.close();
+            }
+        });
+        let label = text!("paint-coat-named", coat = name);
+        let response = menu.response;
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
+        response.on_hover_text(&design.kept.notes);
+        if design.is_coat_changed() {
+            let reset = text!("paint-reset-coat");
+            if labelled(ui, Button::new(&reset), &reset).clicked() {
+                actions.push(PaintAction::ResetCoat);
+            }
+        }
+    });
+    if let Some(naming) = &paint.naming {
+        name_ui(ui, naming, actions);
+    }
+    // What is changed most comes first.
+    for group in [CoatGroup::Path, CoatGroup::Film, CoatGroup::Gun] {
+        parameters_of(ui, group, paint, theme, actions);
+    }
+}
+
+/// The line in which a name for the coat is written.
+fn name_ui(ui: &mut Ui, naming: &str, actions: &mut Vec<PaintAction>) {
+    let mut written = naming.to_owned();
+    ui.horizontal_wrapped(|ui| {
+        let edit = TextEdit::singleline(&mut written)
+            .hint_text(text!("paint-coat-name"))
+            .align(egui::Align2::LEFT_CENTER)
+            .desired_width(150.0)
+            .min_size(vec2(0.0, space::TARGET));
+        let response = ui.add(edit);
+        response.widget_info(|| {
+            let mut info = WidgetInfo::text_edit(true, naming, &written, text!("paint-coat-name"));
+            info.label = Some(text!("paint-coat-name"));
+            info
+        });
+        let is_entered =
+            response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        if written != naming {
+            actions.push(PaintAction::Name(Some(written.clone())));
+        }
+        let save = text!("paint-save");
+        if labelled(ui, Button::new(&save), &save).clicked() || is_entered {
+            actions.push(PaintAction::SaveCoat);
+        }
+        let cancel = text!("paint-cancel");
+        if labelled(ui, Button::new(&cancel), &cancel).clicked() {
+            actions.push(PaintAction::Name(None));
+        }
+    });
+}
+
+/// The parameters of a group: those in front, the others in its fold.
+fn parameters_of(
+    ui: &mut Ui,
+    group: CoatGroup,
+    paint: &PaintState,
+    theme: &Theme,
+    actions: &mut Vec<PaintAction>,
+) {
+    // The row of tools has it.
+    let is_here = |key: &str| key != "pattern";
+    let of = |place: Place| {
+        let all = Coat::ALL.iter();
+        all.filter(move |p| p.group == group && p.place == place && is_here(p.key))
+    };
+    let design = &paint.design;
+    let mut control = |ui: &mut Ui, parameter| {
+        let (coat, kept) = (&design.coat, &design.kept.recipe);
+        parameter_control::control(ui, parameter, coat, kept, theme, &mut |change| {
+            actions.push(PaintAction::Change(parameter.key, change));
+        });
+    };
+    let title = parameters::coat_group(group);
+    heading(ui, theme, &title);
+    for parameter in of(Place::Front) {
+        control(ui, parameter);
+    }
+    let num = of(Place::Fold).count();
+    if num == 0 {
+        return;
+    }
+    let more = text!("paint-more", group = within_sentence(&title), count = num);
+    fold(ui, more, theme.weak_text)
+        .id_salt(group.title())
+        .show_unindented(ui, |ui| {
+            for parameter in of(Place::Fold) {
+                control(ui, parameter);
+            }
+        });
+}
+
+/// What the film comes to.
+fn check(ui: &mut Ui, planned: &Planned, theme: &Theme) {
+    heading(ui, theme, &text!("paint-check"));
+    let (film, takes) = (&planned.film.figures, &planned.film.path);
+    let micrometres = |metres: f64| format!("{:.1}", 1e6 * metres);
+    let seconds = takes.time.round() as u64;
+    for (name, value) in [
+        (
+            text!("paint-thinnest-thickest"),
+            format!("{} · {} µm", micrometres(film.min), micrometres(film.max)),
+        ),
+        (
+            text!("paint-mean"),
+            format!("{} µm", micrometres(film.mean)),
+        ),
+        (text!("paint-missed"), format!("{} %", percent(film.missed))),
+        (text!("paint-double"), format!("{} %", percent(film.double))),
+        (
+            text!("paint-faced"),
+            format!("{} %", percent(film.reachable)),
+        ),
+        (
+            text!("paint-landed"),
+            format!("{} %", percent(takes.landed)),
+        ),
+        (
+            text!("paint-time"),
+            format!("{}:{:02}", seconds / 60, seconds % 60),
+        ),
+        (text!("paint-points"), grouped(planned.path.points().len())),
+    ] {
+        row(ui, theme, &name, &value);
+    }
+}
+
+/// Shares of the surface by thickness; what is within the tolerance stands out.
+fn histogram(ui: &mut Ui, film: &FilmFigures, tolerance: f64, theme: &Theme) {
+    let size = vec2(ui.available_width(), 52.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, text!("paint-histogram")));
+    let response = response.on_hover_text(text!("paint-histogram-hint"));
+    let painter = ui.painter_at(response.rect);
+    let most = film.histogram.iter().copied().fold(1e-9, f64::max);
+    let plot = rect.with_max_y(rect.bottom() - 14.0);
+    let num = film.histogram.len();
+    let width = plot.width() / num as f32;
+    for (i, share) in film.histogram.iter().enumerate() {
+        let left = plot.left() + i as f32 * width;
+        let height = (share / most) as f32 * plot.height();
+        let bar = Rect::from_min_max(
+            pos2(left + 0.5, plot.bottom() - height),
+            pos2(left + width - 0.5, plot.bottom()),
+        );
+        // Bars are a tenth of the target each.
+        let middle = (i as f64 + 0.5) / 10.0;
+        let is_within = (middle - 1.0).abs() <= tolerance;
+        let colour = if is_within {
+            theme.accepted
+        } else {
+            theme.weak_text
+        };
+        painter.rect_filled(bar, 0.0, colour);
+    }
+    painter.hline(plot.x_range(), plot.bottom(), theme.edge_stroke());
+    for (share, text) in [(0.0, "0"), (1.0, "100 %"), (2.0, "200 %")] {
+        let x = plot.left() + plot.width() * share / (num as f32 / 10.0);
+        let anchor = match text {
+            "0" => egui::Align2::LEFT_TOP,
+            "100 %" => egui::Align2::CENTER_TOP,
+            _ => egui::Align2::RIGHT_TOP,
+        };
+        let at = pos2(x, plot.bottom() + 1.0);
+        painter.text(at, anchor, text, font::scale(), theme.weak_text);
+    }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1}", 100.0 * share)
+}
+
+/// What can be done with the path.
+fn buttons(
+    ui: &mut Ui,
+    paint: &PaintState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<PaintAction>,
+) {
+    let stored = paint.stored(session);
+    if let Some(stored) = stored {
+        ui.horizontal(|ui| {
+            let count = stored.points().len();
+            for (text, path) in [
+                (text!("paint-planned-path"), ShownPath::Planned),
+                (text!("paint-stored-path", count = count), ShownPath::Stored),
+            ] {
+                let is_chosen = paint.shown_path == path;
+                if choice(ui, &text, &text, is_chosen, true).clicked() {
+                    actions.push(PaintAction::Show(path));
+                }
+            }
+        });
+    }
+    let is_ready = paint.planned.is_some() && !paint.is_old(session);
+    let half = (ui.available_width() - space::SMALL) / 2.0;
+    ui.horizontal(|ui| {
+        let can = paint.planned.is_some() || paint.failed.is_some();
+        let propose = button(ui, &text!("paint-propose"), can, half, None);
+        if propose.on_hover_text(text!("paint-propose-hint")).clicked() {
+            actions.push(PaintAction::Propose);
+        }
+        let export = button(ui, &text!("paint-export"), is_ready, half, None);
+        if export.on_hover_text(text!("paint-export-hint")).clicked() {
+            actions.push(PaintAction::Ask(PaintFile::Table));
+        }
+    });
+    let store = text!("paint-store");
+    let fixed = session
+        .library
+        .as_ref()
+        .and_then(|library| library.is_fixed.as_ref());
+    let is_stored = paint
+        .planned
+        .as_ref()
+        .is_some_and(|planned| planned.is_stored);
+    let can = is_ready && fixed.is_none() && !paint.is_storing() && !is_stored;
+    let width = ui.available_width();
+    let response = ui
+        .vertical_centered(|ui| button(ui, &store, can, width, Some(theme)))
+        .inner;
+    let reason = match (fixed, is_stored) {
+        (Some(fixed), _) => format!("{}\n{}", fixed.what, fixed.advice),
+        (None, true) => text!("paint-is-stored"),
+        (None, false) => text!("paint-store-hint"),
+    };
+    let response = response
+        .on_hover_text(text!("paint-store-hint"))
+        .on_disabled_hover_text(reason);
+    if response.clicked() {
+        actions.push(PaintAction::Store);
+    }
+}
+
+/// A button of this width; in the accent's colours of a theme if one is given.
+fn button(ui: &mut Ui, label: &str, can: bool, width: f32, accent: Option<&Theme>) -> Response {
+    let text = RichText::new(label).font(font::body_strong());
+    let button = match accent.filter(|_| can) {
+        Some(theme) => Button::new(text.color(theme.on_accent)).fill(theme.accent),
+        None => Button::new(text),
+    };
+    let response = ui.add_enabled(can, button.min_size(vec2(width, space::TARGET)));
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, label));
+    response
+}

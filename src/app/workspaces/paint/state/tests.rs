@@ -1,0 +1,284 @@
+use std::path::Path;
+
+use super::*;
+use crate::{
+    app::{
+        inspection::{camera::Camera, library_cache::LibraryCache},
+        shell::context::TestShell,
+        workspaces::paint::RegionUse,
+    },
+    library::LibraryFolder,
+};
+
+/// The workspace without a window, in front: a job runs when the test says so.
+struct Bench {
+    paint: PaintState,
+    shell: TestShell,
+    data: tempfile::TempDir,
+}
+
+impl Bench {
+    /// With the shipped parts in a folder of its own, and a path planned over the fender.
+    fn new() -> Self {
+        let data = tempfile::tempdir().expect("a folder");
+        let parts = data.path().join("parts");
+        copy(Path::new("reference_parts"), &parts);
+        let mut shell = TestShell::default();
+        shell.services.library_cache = LibraryCache::new(Some(parts), Camera::default());
+        shell.session.library = Some(Arc::clone(&shell.services.library_cache.get().shown));
+        shell.session.workspace = WorkspaceKind::Paint;
+        let coats = Some(data.path().join("coats"));
+        let paint = PaintState::new(coats, &TaskRunner::without_threads());
+        let mut bench = Self { paint, shell, data };
+        let fender = PartName::new("fender").expect("a name");
+        bench.run(PaintAction::ChoosePart(fender));
+        bench
+    }
+
+    fn act(&mut self, action: PaintAction) {
+        self.paint.apply(action, &mut self.shell.context());
+    }
+
+    /// What the window does between frames, with all work done.
+    fn settle(&mut self) {
+        self.paint.update(&mut self.shell.context());
+        while self.paint.task.run_waiting() || self.paint.storing.run_waiting() {
+            self.paint.update(&mut self.shell.context());
+            let library = self.shell.services.library_cache.get();
+            self.shell.session.library = Some(Arc::clone(&library.shown));
+            self.paint.update(&mut self.shell.context());
+        }
+    }
+
+    fn run(&mut self, action: PaintAction) {
+        self.act(action);
+        self.settle();
+    }
+
+    fn planned(&self) -> &Planned {
+        self.paint.planned.as_ref().expect("planned")
+    }
+
+    fn set(&mut self, key: &'static str, value: f64) {
+        self.run(PaintAction::Change(key, ParameterChange::Set(value)));
+    }
+
+    fn stored(&self) -> Option<SprayPath> {
+        let folder = LibraryFolder::open(&self.data.path().join("parts")).expect("opened");
+        folder.spray_path("fender").expect("read")
+    }
+}
+
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir(to).expect("made");
+    for entry in std::fs::read_dir(from).expect("listed") {
+        let entry = entry.expect("an entry");
+        let to = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            copy(&entry.path(), &to);
+        } else {
+            std::fs::copy(entry.path(), to).expect("copied");
+        }
+    }
+}
+
+#[test]
+fn a_changed_parameter_gives_another_path_and_undo_the_former() {
+    let mut bench = Bench::new();
+    let first = bench.planned().path.clone();
+    bench.set("spacing", 40.0);
+    let closer = bench.planned().path.clone();
+    assert!(closer.points().len() > first.points().len());
+    assert!(bench.paint.design.is_coat_changed());
+    bench.set("spacing", 5000.0);
+    assert!(
+        bench.shell.notices()[0].contains("cannot be"),
+        "out of range"
+    );
+    assert_eq!(bench.planned().path, closer);
+    bench.run(PaintAction::Undo);
+    assert_eq!(bench.planned().path, first);
+    bench.run(PaintAction::Redo);
+    assert_eq!(bench.planned().path, closer);
+    bench.run(PaintAction::Change("spacing", ParameterChange::Reset));
+    assert_eq!(bench.planned().path, first);
+    assert!(!bench.paint.design.is_coat_changed());
+}
+
+#[test]
+fn a_proposal_changes_the_coat_in_one_step_and_brings_more_within_the_tolerance() {
+    let mut bench = Bench::new();
+    bench.set("speed", 150.0);
+    let before = bench.planned().film.figures.clone();
+    bench.run(PaintAction::Propose);
+    let after = &bench.planned().film.figures;
+    assert!(after.within > before.within + 0.2, "{before:?} {after:?}");
+    assert_eq!(bench.planned().coat, bench.paint.design.coat);
+    bench.run(PaintAction::Undo);
+    assert_eq!(bench.planned().film.figures, before);
+}
+
+#[test]
+fn regions_are_left_out_of_path_and_figures_and_areas_add_up() {
+    let mut bench = Bench::new();
+    let whole = bench.planned().film.path.paint;
+    let middle = bench.planned().surface.middle;
+    let square = |x: f64| {
+        let corners = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]];
+        let at = corners.map(|[u, v]| middle + nalgebra::Vector3::new(x + u, v, 0.0));
+        at.to_vec()
+    };
+    let hole = KeepOut::Polygon {
+        corners: square(0.0),
+    };
+    bench.run(PaintAction::Add(vec![hole]));
+    let planned = bench.planned();
+    assert!(planned.film.path.paint < 0.97 * whole);
+    // What is kept out counts neither as missed nor as painted.
+    assert!(
+        planned.film.figures.missed < 0.02,
+        "{:?}",
+        planned.film.figures
+    );
+    bench.run(PaintAction::Clear);
+    let area = |x| KeepOut::Outside {
+        areas: vec![square(x)],
+    };
+    bench.run(PaintAction::Add(vec![area(-0.15)]));
+    let one = bench.planned().film.path.paint;
+    bench.run(PaintAction::Add(vec![area(0.15)]));
+    let two = bench.planned().film.path.paint;
+    assert_eq!(bench.paint.design.regions.len(), 1);
+    assert!(one < 0.6 * whole && two > 1.5 * one, "{one} {two} {whole}");
+    assert!(bench.paint.unsaved().is_some());
+}
+
+#[test]
+fn a_stored_path_can_be_taken_back_and_the_former_is_there_again() {
+    let mut bench = Bench::new();
+    assert_eq!(bench.stored(), None);
+    bench.run(PaintAction::Store);
+    let first = bench.stored().expect("stored");
+    assert!(bench.planned().is_stored);
+    bench.set("spacing", 50.0);
+    assert!(!bench.planned().is_stored);
+    bench.run(PaintAction::Store);
+    assert!(!bench.stored().expect("stored").is_as_written(&first));
+    bench.run(PaintAction::Undo);
+    assert!(bench.stored().expect("stored").is_as_written(&first));
+    bench.run(PaintAction::Show(ShownPath::Stored));
+    let num = bench.planned().path.points().len();
+    assert_eq!(Some(num), bench.stored().map(|path| path.points().len()));
+    // The step before is the spacing, the one before that the first storing.
+    bench.run(PaintAction::Undo);
+    bench.run(PaintAction::Undo);
+    assert_eq!(bench.stored(), None);
+    bench.run(PaintAction::Redo);
+    assert!(bench.stored().is_some());
+}
+
+#[test]
+fn a_part_that_cannot_be_painted_says_why_and_the_former_path_stays() {
+    let mut bench = Bench::new();
+    let before = bench.planned().path.clone();
+    let everything = KeepOut::Sphere {
+        centre: bench.planned().surface.middle,
+        radius: 5.0,
+    };
+    bench.run(PaintAction::Add(vec![everything]));
+    let failed = bench.paint.failed.clone().expect("a reason");
+    assert!(!failed.advice.is_empty());
+    assert_eq!(bench.planned().path, before);
+    assert!(bench.paint.is_old(&bench.shell.session));
+    bench.run(PaintAction::Undo);
+    assert_eq!(bench.paint.failed, None);
+}
+
+#[test]
+fn a_coat_is_kept_by_name_and_chosen_again() {
+    let mut bench = Bench::new();
+    bench.set("spacing", 45.0);
+    for name in ["", "primer", "a/b"] {
+        bench.act(PaintAction::Name(Some(name.into())));
+        bench.act(PaintAction::SaveCoat);
+        assert!(bench.paint.naming.is_some(), "{name:?}");
+    }
+    bench.act(PaintAction::Name(Some("booth_3".into())));
+    bench.act(PaintAction::SaveCoat);
+    assert_eq!(bench.paint.naming, None);
+    assert!(!bench.paint.design.is_coat_changed());
+    assert!(bench.paint.coats.contains(&"booth_3".to_owned()));
+    bench.run(PaintAction::ChooseCoat("clear_coat".into()));
+    assert!((bench.paint.design.coat.spacing - 0.045).abs() > 1e-6);
+    bench.run(PaintAction::ChooseCoat("booth_3".into()));
+    assert!((bench.paint.design.coat.spacing - 0.045).abs() < 1e-9);
+    bench.act(PaintAction::ChooseCoat("no_such".into()));
+    assert!(
+        bench
+            .shell
+            .notices()
+            .last()
+            .is_some_and(|n| n.contains("no_such"))
+    );
+}
+
+#[test]
+fn the_gun_is_scrubbed_stepped_and_played_to_the_end() {
+    let mut bench = Bench::new();
+    let end = bench.paint.duration();
+    assert!(end > 5.0);
+    bench.act(PaintAction::Step(1));
+    let course = &bench.planned().course;
+    let begins: Vec<f64> = course.strokes.iter().map(|s| course.times(*s)[0]).collect();
+    assert!((bench.paint.time - begins[0]).abs() < 1e-9);
+    bench.act(PaintAction::Step(1));
+    assert!((bench.paint.time - begins[1]).abs() < 1e-9);
+    bench.act(PaintAction::Step(-1));
+    assert!((bench.paint.time - begins[0]).abs() < 1e-9);
+    bench.act(PaintAction::Scrub(end - 0.1));
+    bench.act(PaintAction::TogglePlay);
+    bench.act(PaintAction::Advance(0.05));
+    assert_eq!(bench.paint.playback, Playback::Playing);
+    bench.act(PaintAction::Advance(0.2));
+    assert_eq!(bench.paint.playback, Playback::Paused);
+    assert!((bench.paint.time - end).abs() < 1e-9);
+    bench.act(PaintAction::TogglePlay);
+    assert!(bench.paint.time.abs() < 1e-9, "from the beginning");
+}
+
+#[test]
+fn a_stroke_moved_by_hand_stays_until_another_path_is_planned_and_undo_brings_it_back() {
+    let mut bench = Bench::new();
+    let planned = bench.planned().path.clone();
+    let by = nalgebra::Vector3::new(0.0, 0.03, 0.0);
+    bench.run(PaintAction::Edit(PathEdit::Stroke { stroke: 2, by }));
+    let moved = bench.planned().path.clone();
+    assert_ne!(moved, planned);
+    assert!(bench.paint.unsaved().is_some());
+    bench.set("spacing", 50.0);
+    assert!(bench.paint.design.edits.is_empty());
+    assert!(
+        bench
+            .shell
+            .notices()
+            .iter()
+            .any(|notice| notice.contains("by hand"))
+    );
+    bench.run(PaintAction::Undo);
+    assert_eq!(bench.planned().path, moved);
+    bench.run(PaintAction::Undo);
+    assert_eq!(bench.planned().path, planned);
+}
+
+#[test]
+fn escape_gives_the_drag_back_to_the_view() {
+    let mut bench = Bench::new();
+    let lasso = PaintTool::Outline(
+        crate::app::ui::viewport::DrawnShape::Lasso,
+        RegionUse::KeepOut,
+    );
+    bench.act(PaintAction::Use(lasso));
+    let Bench { paint, shell, .. } = &mut bench;
+    paint.on_event(&Event::Escape, &shell.context());
+    assert_eq!(bench.paint.tool, PaintTool::Look);
+}

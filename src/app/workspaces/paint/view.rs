@@ -1,0 +1,436 @@
+//! The part in three dimensions with its film, the path over it, and the gun at the moment shown.
+
+use std::{f64::consts::TAU, sync::Arc};
+
+use egui::{Button, Frame, Label, Rect, RichText, Ui, UiBuilder, Vec2, vec2};
+use glam::Vec3;
+use nalgebra::Vector3;
+
+use super::{
+    action::PaintAction,
+    course::GunState,
+    region::{BRUSH, EditKind, PaintTool, RegionUse, at_depth_of, brushed, corners_of},
+    state::PaintState,
+    work::{MAGNIFIED, Planned, aim},
+};
+use crate::{
+    app::{
+        language::text,
+        shell::session::{Session, ThemeChoice},
+        ui::{
+            theme::{ROUNDING, font, space},
+            viewport::{
+                Colouring, DrawnShape, FitRequest, Legend, Line, LineSet, PointSize, Role,
+                ScaleWords, StandardView, TextLabel, ViewCamera, ViewColours, ViewError, ViewScene,
+                ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
+            },
+        },
+    },
+    library::PartName,
+    paint::{KeepOut, PathEdit},
+    units::Metres,
+};
+
+/// The view of the part.
+pub(super) struct PaintView {
+    viewport: Viewport,
+    camera: ViewCamera,
+    style: ViewStyle,
+    styled: Option<ThemeChoice>,
+    /// The part that the camera was put before.
+    fitted: Option<PartName>,
+    /// The gun's lines, and of which path and moment they are.
+    gun: Option<(Arc<Planned>, f64, Gun)>,
+    has_focus: bool,
+}
+
+/// The gun as it is drawn.
+#[derive(Clone)]
+struct Gun {
+    lines: LineSet,
+    label: TextLabel,
+}
+
+/// How far from the pointer a point of the path is taken, logical pixels.
+const REACH: f32 = 24.0;
+
+/// Size of the marks where the gun goes on and off, in points of the part.
+const MARKS: f32 = 1.2;
+
+/// Width of a view in which controls and scale stand side by side, logical pixels.
+const BESIDE_CONTROLS: f32 = 560.0;
+
+/// What the film's scale spans on both sides of the target, in tolerances.
+const SCALE: f64 = 2.0;
+
+impl PaintView {
+    pub(super) fn new(gpu: &Result<ViewportGpu, ViewError>) -> Self {
+        Self {
+            viewport: Viewport::new(gpu.clone()),
+            camera: ViewCamera::default(),
+            style: ViewStyle::new(ViewColours::dark()),
+            styled: None,
+            fitted: None,
+            gun: None,
+            has_focus: false,
+        }
+    }
+
+    /// True while keys go to the view.
+    pub(super) fn has_focus(&self) -> bool {
+        self.has_focus
+    }
+
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        paint: &PaintState,
+        session: &Session,
+        actions: &mut Vec<PaintAction>,
+    ) {
+        self.style_as(paint, session.theme);
+        self.style.legend = if ui.available_width() < BESIDE_CONTROLS {
+            Legend::BelowControls
+        } else {
+            Legend::Shown
+        };
+        let scene = self.scene(paint, session);
+        let part = paint.planned.as_ref().map(|planned| &planned.part);
+        if part.is_some() && self.fitted.as_ref() != part {
+            self.fitted = part.cloned();
+            self.camera.look(StandardView::Front);
+            self.camera.request_fit(FitRequest::Focus);
+        }
+        self.viewport.tool = match (paint.tool, self.viewport.tool) {
+            (PaintTool::Outline(shape, _), _) => ViewTool::Draw(shape),
+            (PaintTool::Brush | PaintTool::Edit(_), _) => ViewTool::Draw(DrawnShape::Way),
+            (PaintTool::Look, ViewTool::Draw(_)) => ViewTool::Look,
+            (PaintTool::Look, tool) => tool,
+        };
+        let rect = ui.available_rect_before_wrap();
+        let label = text!("paint-view");
+        let seen = self
+            .viewport
+            .ui(ui, &label, &mut self.camera, &scene, &self.style);
+        self.has_focus = seen.response.has_focus();
+        // A click of the brush is a way of one point.
+        let clicked = seen.response.interact_pointer_pos();
+        let clicked = clicked.filter(|_| seen.response.clicked());
+        let clicked = clicked.map(|at| vec![share_of(at, rect)]);
+        if let (Some(way), Some(planned)) = (seen.drawn.or(clicked), &paint.planned) {
+            actions.extend(self.drawn(&way, planned, paint.tool, rect));
+        }
+        let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
+        let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);
+        ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
+            ui.horizontal(|ui| self.controls(ui));
+        });
+        self.tool_overlay(ui, rect, paint);
+    }
+
+    /// What becomes of what was drawn, corners in shares of the view.
+    fn drawn(
+        &self,
+        way: &[glam::Vec2],
+        planned: &Planned,
+        tool: PaintTool,
+        rect: Rect,
+    ) -> Option<PaintAction> {
+        let surface = &planned.surface;
+        let clip_from_part = self.camera.clip_from_world(size_of(rect));
+        let regions = match tool {
+            PaintTool::Look => return None,
+            PaintTool::Edit(kind) => {
+                let edit = self.edit(kind, *way.first()?, *way.last()?, planned, rect)?;
+                return Some(PaintAction::Edit(edit));
+            }
+            PaintTool::Brush => brushed(way, surface, &clip_from_part),
+            // A click.
+            PaintTool::Outline(..) if way.len() < 3 => return None,
+            PaintTool::Outline(_, RegionUse::KeepOut) => vec![KeepOut::Polygon {
+                corners: corners_of(way, surface, &clip_from_part),
+            }],
+            PaintTool::Outline(_, RegionUse::PaintOnly) => vec![KeepOut::Outside {
+                areas: vec![corners_of(way, surface, &clip_from_part)],
+            }],
+        };
+        (!regions.is_empty()).then_some(PaintAction::Add(regions))
+    }
+
+    /// The correction by a drag from a point of a stroke.
+    fn edit(
+        &self,
+        kind: EditKind,
+        from: glam::Vec2,
+        to: glam::Vec2,
+        planned: &Planned,
+        rect: Rect,
+    ) -> Option<PathEdit> {
+        let (stroke, point) = self.nearest_point(from, planned, rect)?;
+        let handle = aim(&planned.path, point, &planned.coat);
+        let handle = nalgebra::Point3::new(handle.x, handle.y, handle.z).cast();
+        let clip_from_part = self.camera.clip_from_world(size_of(rect));
+        let [from, to] = [from, to].map(|place| at_depth_of(&handle, place, &clip_from_part));
+        let by = to - from;
+        Some(match kind {
+            EditKind::Stroke => PathEdit::Stroke { stroke, by },
+            EditKind::Point => PathEdit::Point { point, by },
+            EditKind::Turn => PathEdit::Turn { point, by },
+        })
+    }
+
+    /// The point of a stroke that is seen nearest to a place, and its stroke; none is near beside them.
+    fn nearest_point(
+        &self,
+        place: glam::Vec2,
+        planned: &Planned,
+        rect: Rect,
+    ) -> Option<(usize, usize)> {
+        let size = size_of(rect);
+        let strokes = planned.course.strokes.iter().enumerate();
+        let points = strokes
+            .flat_map(|(stroke, [first, last])| (*first..=*last).map(move |point| (stroke, point)));
+        let seen = points.filter_map(|(stroke, point)| {
+            let at = aim(&planned.path, point, &planned.coat);
+            let at = self.camera.screen_from_world(at, size)?;
+            Some((stroke, point, at.distance(place * size)))
+        });
+        let nearest = seen.min_by(|a, b| a.2.total_cmp(&b.2));
+        let nearest = nearest.filter(|(_, _, off)| *off <= REACH);
+        nearest.map(|(stroke, point, _)| (stroke, point))
+    }
+
+    /// What is being drawn, and how it is done.
+    fn tool_overlay(&self, ui: &mut Ui, rect: Rect, paint: &PaintState) {
+        let painter = ui.painter_at(rect);
+        let colours = &self.style.colours;
+        let (title, hint) = match paint.tool {
+            PaintTool::Look => return,
+            PaintTool::Brush => (text!("paint-keep-out"), text!("paint-brush-hint")),
+            PaintTool::Outline(_, RegionUse::KeepOut) => {
+                (text!("paint-keep-out"), text!("paint-keep-out-hint"))
+            }
+            PaintTool::Outline(_, RegionUse::PaintOnly) => {
+                (text!("paint-only"), text!("paint-only-hint"))
+            }
+            PaintTool::Edit(EditKind::Stroke) => (String::new(), text!("paint-move-stroke-hint")),
+            PaintTool::Edit(EditKind::Point) => (String::new(), text!("paint-move-point-hint")),
+            PaintTool::Edit(EditKind::Turn) => (String::new(), text!("paint-turn-gun-hint")),
+        };
+        let shape = match paint.tool {
+            PaintTool::Outline(shape, _) => shape,
+            PaintTool::Look | PaintTool::Brush | PaintTool::Edit(_) => DrawnShape::Way,
+        };
+        let corners = self.viewport.drawing.corners(shape);
+        let bright = colours.role(Role::Measure).colour;
+        let stroke = egui::Stroke::new(2.0, bright);
+        let pointer = ui.input(|input| input.pointer.hover_pos());
+        let pointer = pointer.filter(|at| rect.contains(*at));
+        match paint.tool {
+            PaintTool::Brush => {
+                let radius = self.pixels(BRUSH, rect);
+                for at in &corners {
+                    painter.circle_filled(*at, radius, bright.gamma_multiply(0.35));
+                }
+                if let Some(at) = pointer {
+                    painter.circle_stroke(at, radius, stroke);
+                }
+            }
+            PaintTool::Edit(_) => {
+                let from = corners.first().copied().or(pointer);
+                let handle = from.zip(paint.planned.as_ref()).and_then(|(at, planned)| {
+                    let (_, point) = self.nearest_point(share_of(at, rect), planned, rect)?;
+                    let at = aim(&planned.path, point, &planned.coat);
+                    self.camera.screen_from_world(at, size_of(rect))
+                });
+                if let Some(handle) = handle {
+                    let handle = rect.min + vec2(handle.x, handle.y);
+                    painter.circle_stroke(handle, 7.0, stroke);
+                    if let (Some(first), Some(last)) = (corners.first(), corners.last()) {
+                        painter.arrow(handle, *last - *first, stroke);
+                    }
+                }
+            }
+            PaintTool::Look | PaintTool::Outline(..) => {
+                drawing::outline(&painter, &corners, &title, colours);
+            }
+        }
+        // It would cover what is drawn around.
+        if corners.is_empty() {
+            let place = rect.with_min_y(rect.bottom() - 2.0 * space::TARGET);
+            let text = RichText::new(hint).font(font::small()).color(colours.text);
+            let plate = Frame::new()
+                .fill(colours.background.gamma_multiply(0.85))
+                .corner_radius(ROUNDING)
+                .inner_margin(space::SMALL);
+            ui.scope_builder(
+                UiBuilder::new().max_rect(place.shrink(space::SMALL)),
+                |ui| {
+                    // Selectable text would take the drags away from the view.
+                    plate.show(ui, |ui| ui.add(Label::new(text).selectable(false)));
+                },
+            );
+        }
+    }
+
+    /// About how many logical pixels a length takes where the camera looks at.
+    fn pixels(&self, metres: f64, rect: Rect) -> f32 {
+        let size = size_of(rect);
+        let target = self.camera.target();
+        let beside = target + self.camera.right() * metres as f32;
+        let [a, b] = [target, beside].map(|at| self.camera.screen_from_world(at, size));
+        a.zip(b).map_or(8.0, |(a, b)| a.distance(b))
+    }
+
+    fn style_as(&mut self, paint: &PaintState, theme: ThemeChoice) {
+        if self.styled != Some(theme) {
+            self.style = ViewStyle::new(match theme {
+                ThemeChoice::Dark => ViewColours::dark(),
+                ThemeChoice::Light => ViewColours::light(),
+            });
+            // Where the gun goes on and off is seen from afar.
+            for role in [Role::AxisX, Role::AxisY] {
+                self.style.colours.roles[role as usize].weight = MARKS;
+            }
+            self.styled = Some(theme);
+        }
+        let Some(planned) = &paint.planned else {
+            return;
+        };
+        let coat = &planned.coat;
+        // Enrolled parts are thinned: closed from afar.
+        self.style.point_size = PointSize::Metres(Metres(1.9 * planned.surface.spacing));
+        let range = SCALE * coat.tolerance * coat.target;
+        self.style.deviation_range = Metres(range * MAGNIFIED);
+        self.style.scale_words = ScaleWords::Film {
+            target: Metres(coat.target),
+            range: Metres(range),
+        };
+        self.style.colouring = if paint.is_film_shown {
+            Colouring::Deviation
+        } else {
+            Colouring::Plain
+        };
+    }
+
+    fn scene(&mut self, paint: &PaintState, session: &Session) -> ViewScene {
+        let Some(planned) = &paint.planned else {
+            return ViewScene::default();
+        };
+        let [on, off] = planned
+            .marks
+            .clone()
+            .map(|marks| marks.coloured(Colouring::Segment));
+        let gun = self.gun(planned, paint.time, session);
+        ViewScene {
+            points: vec![planned.points.clone(), on, off],
+            lines: vec![planned.lines.clone(), gun.lines],
+            labels: vec![gun.label],
+        }
+    }
+
+    /// The gun, made anew only where it has moved.
+    fn gun(&mut self, planned: &Arc<Planned>, time: f64, session: &Session) -> Gun {
+        if let Some((of, at, gun)) = &self.gun
+            && Arc::ptr_eq(of, planned)
+            && (*at - time).abs() < 1e-9
+        {
+            return gun.clone();
+        }
+        let state = planned.course.at(&planned.path, planned.coat.speed, time);
+        let gun = drawn_gun(planned, &state, session);
+        self.gun = Some((Arc::clone(planned), time, gun.clone()));
+        gun
+    }
+
+    fn controls(&mut self, ui: &mut Ui) {
+        let button = |ui: &mut Ui, text: String| {
+            let text = RichText::new(text).font(font::small());
+            ui.add(Button::new(text).min_size(Vec2::splat(space::TARGET)))
+        };
+        if button(ui, text!("paint-view-fit")).clicked() {
+            self.camera.request_fit(FitRequest::Focus);
+        }
+        for (text, view) in [
+            (text!("paint-view-front"), StandardView::Front),
+            (text!("paint-view-top"), StandardView::Top),
+            (text!("paint-view-side"), StandardView::Side),
+        ] {
+            if button(ui, text).clicked() {
+                self.camera.look(view);
+                self.camera.request_fit(FitRequest::Focus);
+            }
+        }
+    }
+}
+
+fn size_of(rect: Rect) -> glam::Vec2 {
+    glam::Vec2::new(rect.width(), rect.height())
+}
+
+/// A place on the screen in shares of the view.
+fn share_of(at: egui::Pos2, rect: Rect) -> glam::Vec2 {
+    let share = (at - rect.min) / rect.size();
+    glam::Vec2::new(share.x, share.y)
+}
+
+/// The jet's axis, the pattern where it lands, and stand-off, speed and angle in words.
+fn drawn_gun(planned: &Planned, gun: &GunState, session: &Session) -> Gun {
+    let surface = &planned.surface;
+    let coat = &planned.coat;
+    let jet = gun.direction.into_inner();
+    let aim = gun.nozzle + jet * coat.stand_off;
+    let off = |p: &nalgebra::Point3<f64>| (p - aim).norm_squared();
+    let nearest = surface.points.iter().enumerate();
+    let nearest = nearest.min_by(|a, b| off(a.1).total_cmp(&off(b.1)));
+    // Beside the part there is no distance to tell.
+    let near = nearest.filter(|(_, p)| off(p).sqrt() < 3.0 * surface.spacing);
+    let mut words = Vec::new();
+    if let Some((place, p)) = near {
+        words.push(session.units.length((p - gun.nozzle).dot(&jet)));
+        words.push(speed_text(gun.speed));
+        let facing = -surface.normals[place].dot(&jet);
+        words.push(session.units.angle(facing.clamp(-1.0, 1.0).acos()));
+    } else {
+        words.push(speed_text(gun.speed));
+    }
+    if !gun.is_on {
+        words.push(text!("paint-gun-off"));
+    }
+    let vec3 = |p: nalgebra::Point3<f64>| Vec3::new(p.x as f32, p.y as f32, p.z as f32);
+    let across = if jet.x.abs() < 0.9 {
+        Vector3::x()
+    } else {
+        Vector3::y()
+    };
+    let u = (across - jet * jet.dot(&across)).normalize();
+    let v = jet.cross(&u);
+    let radius = coat.gun.depth * coat.stand_off / coat.gun.distance / 2.0;
+    let ring = |centre: nalgebra::Point3<f64>, radius: f64| -> Vec<Vec3> {
+        let angles = (0..=32).map(|i| TAU * f64::from(i) / 32.0);
+        let each = angles.map(|a| vec3(centre + (u * a.cos() + v * a.sin()) * radius));
+        each.collect()
+    };
+    let role = if gun.is_on {
+        Role::Measure
+    } else {
+        Role::Nozzle
+    };
+    let lines = vec![
+        Line::new(vec![vec3(gun.nozzle), vec3(aim)], role),
+        Line::new(ring(gun.nozzle, 0.012), role),
+        Line::new(ring(aim - jet * 0.01, radius), role).with_width(1.5),
+    ];
+    Gun {
+        lines: LineSet::new(lines),
+        label: TextLabel {
+            at: vec3(aim),
+            text: words.join(" · "),
+        },
+    }
+}
+
+/// A speed as paint shops write it.
+pub(super) fn speed_text(speed: f64) -> String {
+    format!("{:.0} mm/s", 1000.0 * speed)
+}

@@ -1,0 +1,238 @@
+//! What the workspace's tasks do: plan a path, simulate its film, store it.
+
+use std::{path::PathBuf, sync::Arc};
+
+use glam::Vec3;
+
+use super::{action::ShownPath, course::GunCourse};
+use crate::{
+    app::{
+        inspection::library_cache::{LibraryCache, LibraryView},
+        language::text,
+        task::{TaskContext, TaskError},
+        ui::viewport::{Line, LineSet, PointSet, Role},
+        user_error::UserError,
+    },
+    files::write_atomically,
+    library::{PartName, SprayCheck, SprayPath},
+    paint::{Coat, Film, KeepOut, PaintSurface, PathEdit, edited, plan, propose, simulate},
+};
+
+/// What a path is planned of.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Request {
+    pub(super) part: PartName,
+    /// The library that the part is of.
+    pub(super) library: String,
+    /// The path that is stored with it.
+    pub(super) stored: Option<SprayCheck>,
+    pub(super) coat: Coat,
+    pub(super) regions: Vec<KeepOut>,
+    pub(super) edits: Vec<PathEdit>,
+    pub(super) shown: ShownPath,
+}
+
+/// A path and its film, and what the view shows of them.
+#[derive(Debug)]
+pub struct Planned {
+    /// The part.
+    pub part: PartName,
+    /// The surface that is painted.
+    pub surface: PaintSurface,
+    /// The path.
+    pub path: SprayPath,
+    /// Its film.
+    pub film: Film,
+    /// When the gun is where.
+    pub course: GunCourse,
+    /// The coat; of a proposal the one that was found.
+    pub coat: Coat,
+    /// True if the same path was stored with the part when it was planned.
+    pub is_stored: bool,
+    /// The surface by its film.
+    pub(super) points: PointSet,
+    /// Strokes, and the ways between them in dashes.
+    pub(super) lines: LineSet,
+    /// Where the gun goes on, and where off.
+    pub(super) marks: [PointSet; 2],
+}
+
+/// What a task hands over.
+#[derive(Debug)]
+pub(super) enum PaintResult {
+    /// A path and its film.
+    Planned(Arc<Planned>),
+    /// The same of a coat whose spacing and speed were found.
+    Proposed(Arc<Planned>),
+    /// A path was stored with a part, or taken away; and what was there before.
+    Stored {
+        part: PartName,
+        former: Option<SprayPath>,
+        num_points: Option<usize>,
+        library: Arc<LibraryView>,
+    },
+}
+
+/// Plans or reads a path, and simulates its film.
+pub(super) fn planned(
+    request: &Request,
+    is_proposal: bool,
+    library_cache: &LibraryCache,
+    context: &TaskContext<PaintResult>,
+) -> Result<PaintResult, TaskError> {
+    let loaded = library_cache.get();
+    let place = loaded.shown.place_of(request.part.as_str());
+    let reference = place.and_then(|place| Some((place, loaded.library.references.get(place)?)));
+    let Some((place, reference)) = reference else {
+        return Err(UserError {
+            what: text!("paint-no-such-part", part = request.part.as_str()),
+            advice: text!("paint-no-such-part-advice"),
+        }
+        .into());
+    };
+    let (coat, regions) = (&request.coat, &request.regions);
+    let coverage = loaded.shown.parts[place].coverage;
+    let surface = PaintSurface::of(reference, coverage).map_err(|error| UserError::of(&error))?;
+    context.check()?;
+    let stored = loaded.shown.spray_paths.get(place).cloned().flatten();
+    let failed = |error| UserError::of(&error);
+    let (coat, path, film) = match (request.shown, &stored) {
+        (ShownPath::Stored, Some(path)) => {
+            let film = simulate(&surface, path, coat, regions).map_err(failed)?;
+            (*coat, path.clone(), film)
+        }
+        _ if is_proposal => {
+            let found = propose(&surface, coat, regions).map_err(failed)?;
+            (found.coat, found.path, found.film)
+        }
+        _ => {
+            let path = plan(&surface, coat, regions).map_err(failed)?;
+            let path = edited(path, &request.edits, coat.stand_off);
+            context.check()?;
+            let film = simulate(&surface, &path, coat, regions).map_err(failed)?;
+            (*coat, path, film)
+        }
+    };
+    context.check()?;
+    let course = GunCourse::of(&path, coat.speed);
+    let planned = Planned {
+        part: request.part.clone(),
+        points: coloured(&surface, &film, &coat),
+        lines: lines(&path, &course, &coat),
+        marks: marks(&path, &course, &coat),
+        is_stored: stored.is_some_and(|stored| path.is_as_written(&stored)),
+        surface,
+        path,
+        film,
+        course,
+        coat,
+    };
+    let planned = Arc::new(planned);
+    Ok(if is_proposal {
+        PaintResult::Proposed(planned)
+    } else {
+        PaintResult::Planned(planned)
+    })
+}
+
+/// A view keeps whole micrometres of deviations, and films are as thin.
+pub(super) const MAGNIFIED: f64 = 1000.0;
+
+/// The surface with the film's distance from its target; what the gun cannot face, or is kept out, has none.
+fn coloured(surface: &PaintSurface, film: &Film, coat: &Coat) -> PointSet {
+    let positions: Vec<[f32; 3]> = surface
+        .points
+        .iter()
+        .map(|p| [p.x as f32, p.y as f32, p.z as f32])
+        .collect();
+    let each = film.thickness.iter().zip(&film.is_reachable);
+    let off: Vec<f32> = each
+        .map(|(thickness, is_reachable)| {
+            if *is_reachable {
+                (MAGNIFIED * (thickness - coat.target)) as f32
+            } else {
+                f32::NAN
+            }
+        })
+        .collect();
+    PointSet::new(positions, Role::Part)
+        .with_deviations(off)
+        .packed()
+}
+
+/// How far before the surface lines are drawn, metres: points have a size.
+const BEFORE: f64 = 0.008;
+
+/// Where the gun aims at a point of the path, a little before the surface.
+pub(super) fn aim(path: &SprayPath, point: usize, coat: &Coat) -> Vec3 {
+    let point = &path.points()[point];
+    let stand_off = point.stand_off.map_or(coat.stand_off, |d| d.0);
+    let at = point.nozzle + point.direction.into_inner() * (stand_off - BEFORE);
+    Vec3::new(at.x as f32, at.y as f32, at.z as f32)
+}
+
+fn lines(path: &SprayPath, course: &GunCourse, coat: &Coat) -> LineSet {
+    let stretch = |first: usize, last: usize| -> Vec<Vec3> {
+        (first..=last).map(|i| aim(path, i, coat)).collect()
+    };
+    let mut lines = Vec::new();
+    let mut from = 0;
+    for stroke in &course.strokes {
+        let [first, last] = *stroke;
+        if first > from {
+            let between = Line::new(stretch(from, first), Role::Contour);
+            lines.push(between.dashed().with_width(1.0));
+        }
+        let spraying = Line::new(stretch(first, last), Role::Contour);
+        lines.push(spraying.with_width(1.6));
+        from = last;
+    }
+    let last = path.points().len() - 1;
+    if last > from {
+        let out = Line::new(stretch(from, last), Role::Contour);
+        lines.push(out.dashed().with_width(1.0));
+    }
+    LineSet::new(lines)
+}
+
+fn marks(path: &SprayPath, course: &GunCourse, coat: &Coat) -> [PointSet; 2] {
+    let at = |point: usize| aim(path, point, coat).to_array();
+    let on: Vec<[f32; 3]> = course.strokes.iter().map(|[first, _]| at(*first)).collect();
+    let off: Vec<[f32; 3]> = course.strokes.iter().map(|[_, last]| at(*last)).collect();
+    [
+        PointSet::new(on, Role::AxisY),
+        PointSet::new(off, Role::AxisX),
+    ]
+}
+
+/// Stores a path with a part, or takes it away, and loads the library anew.
+pub(super) fn store(
+    part: &PartName,
+    path: Option<&SprayPath>,
+    library_cache: &LibraryCache,
+) -> Result<PaintResult, UserError> {
+    let loaded = library_cache.get();
+    let folder = loaded.folder_to_change()?;
+    // One that is damaged cannot be brought back.
+    let former = folder.spray_path(part.as_str()).ok().flatten();
+    folder
+        .set_spray_path(part, path)
+        .map_err(|error| UserError::of(&error))?;
+    let library = library_cache
+        .reload()
+        .map_err(|error| UserError::of(&error))?;
+    Ok(PaintResult::Stored {
+        part: part.clone(),
+        former,
+        num_points: path.map(|path| path.points().len()),
+        library: Arc::clone(&library.shown),
+    })
+}
+
+/// Writes a path as a table, whole or not at all.
+pub(super) fn write(file: PathBuf, path: &SprayPath) -> Result<PathBuf, UserError> {
+    let text = path.to_text();
+    write_atomically(&file, |to| to.write_all(text.as_bytes()))
+        .map_err(|error| UserError::of(&error))?;
+    Ok(file)
+}

@@ -1,0 +1,225 @@
+//! The Paint workspace, by what a person reads and presses. No graphics adapter is needed.
+
+use std::path::Path;
+
+use egui::{Key, Modifiers, Vec2};
+use egui_kittest::kittest::Queryable as _;
+use partsight::{
+    app::{
+        WindowOptions,
+        shell::{action::Action, session::WorkspaceKind},
+        workspaces::paint::{
+            PaintAction, PaintFile, PaintState, PaintWorkspace, Playback, ShownPath,
+        },
+    },
+    library::{LibraryFolder, SprayPath},
+    paint::KeepOut,
+};
+
+use super::{
+    enrol,
+    set_up::{SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle},
+};
+
+/// Paint in front, with a path over the fender.
+fn open_at(size: Vec2, options: WindowOptions) -> WindowHarness {
+    let mut harness = open_with(size, options);
+    act(&mut harness, Action::GoTo(WorkspaceKind::Paint));
+    let menu = format!("Part to paint: {}", part(&harness));
+    press(&mut harness, &menu);
+    press(&mut harness, "Fender, left");
+    harness
+}
+
+fn open() -> WindowHarness {
+    open_at(USUAL, plain_options())
+}
+
+/// A window with a library of its own.
+fn open_own(folder: &Path) -> WindowHarness {
+    let library = folder.join("parts");
+    copy(Path::new("reference_parts"), &library);
+    let options = WindowOptions {
+        library: Some(library),
+        recipes: Some(folder.join("recipes")),
+        ..plain_options()
+    };
+    open_at(SMALL, options)
+}
+
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir(to).expect("made");
+    for entry in std::fs::read_dir(from).expect("listed") {
+        let entry = entry.expect("an entry");
+        let to = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            copy(&entry.path(), &to);
+        } else {
+            std::fs::copy(entry.path(), to).expect("copied");
+        }
+    }
+}
+
+fn own(harness: &WindowHarness) -> &PaintState {
+    let workspace = harness.state().workspace::<PaintWorkspace>();
+    workspace.expect("the workspace").state()
+}
+
+/// The title of the part that is painted.
+fn part(harness: &WindowHarness) -> String {
+    let session = &harness.state().state().session;
+    let part = own(harness).part(session).expect("a part");
+    let library = session.library.as_ref().expect("a library");
+    library.title_of(part.as_str()).to_owned()
+}
+
+/// Points of the path and litres of paint.
+fn figures(harness: &WindowHarness) -> (usize, f64) {
+    let planned = own(harness).planned.as_ref().expect("planned");
+    (planned.path.points().len(), planned.film.path.paint)
+}
+
+/// Draws along these shares of the view, and lets go.
+pub(crate) fn draw(harness: &mut WindowHarness, way: &[(f32, f32)]) {
+    let view = harness.get_by_label("3-D view of the part and its spray path");
+    let view = view.rect();
+    let way = way
+        .iter()
+        .map(|(x, y)| view.min + view.size() * Vec2::new(*x, *y));
+    let way: Vec<egui::Pos2> = way.collect();
+    enrol::draw(harness, &way);
+    enrol::let_go(harness);
+}
+
+#[test]
+fn a_part_is_planned_when_it_is_chosen_and_its_film_is_told() {
+    let mut harness = open();
+    assert_eq!(part(&harness), "Fender, left");
+    harness.get_by_label_contains("% within 40 ± 8 µm");
+    harness.get_by_label_contains("Of the side that the camera saw");
+    harness.get_by_label_contains("stroke 1 of ");
+    let (num, _) = figures(&harness);
+    press(&mut harness, "Pattern: Cross-hatch");
+    assert!(figures(&harness).0 > 3 * num / 2);
+    // Twice the film: out of the tolerance.
+    let before = own(&harness)
+        .planned
+        .as_ref()
+        .expect("planned")
+        .film
+        .figures
+        .within;
+    assert!(before < 0.5, "{before}");
+    press(&mut harness, "Propose");
+    let after = own(&harness)
+        .planned
+        .as_ref()
+        .expect("planned")
+        .film
+        .figures
+        .within;
+    assert!(after > 0.9, "{after}");
+    harness.get_by_label_contains("Coat: primer, changed");
+    press(&mut harness, "Undo");
+    press(&mut harness, "Undo");
+    assert_eq!(figures(&harness).0, num);
+}
+
+#[test]
+fn what_is_drawn_around_gets_no_paint_and_ctrl_z_brings_it_back() {
+    let mut harness = open();
+    let (_, whole) = figures(&harness);
+    press(&mut harness, "Keep out: box");
+    harness.get_by_label_contains("Drag around what gets no paint");
+    draw(&mut harness, &[(0.35, 0.3), (0.6, 0.7)]);
+    assert!(matches!(
+        own(&harness).design.regions[..],
+        [KeepOut::Polygon { .. }]
+    ));
+    let (_, less) = figures(&harness);
+    assert!(less < 0.95 * whole, "{less} of {whole}");
+    press(&mut harness, "Keep out: brush");
+    draw(&mut harness, &[(0.45, 0.45), (0.5, 0.5), (0.55, 0.5)]);
+    assert!(own(&harness).design.regions.len() > 2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(2);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut harness);
+    let (_, again) = figures(&harness);
+    assert!((again - whole).abs() < 1e-12);
+    // Beside the part there is nothing to keep out of the paint.
+    press(&mut harness, "Paint only: box");
+    draw(&mut harness, &[(0.35, 0.3), (0.6, 0.7)]);
+    let (_, only) = figures(&harness);
+    assert!(only < 0.7 * whole, "{only} of {whole}");
+}
+
+#[test]
+fn a_path_is_stored_with_its_part_and_shown_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_own(folder.path());
+    press(&mut harness, "Store with the part");
+    let library = LibraryFolder::open(&folder.path().join("parts")).expect("opened");
+    let stored = library.spray_path("fender").expect("read").expect("stored");
+    let (num, _) = figures(&harness);
+    assert_eq!(stored.points().len(), num);
+    press(&mut harness, &format!("Stored, {num} points"));
+    assert_eq!(own(&harness).shown_path, ShownPath::Stored);
+    let file = folder.path().join("path.csv");
+    let to = file.clone();
+    act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
+        let chosen = PaintAction::Chosen(PaintFile::Table, to);
+        paint.state_mut().apply(chosen, cx);
+    });
+    assert_eq!(SprayPath::read(&file).expect("read").points().len(), num);
+    press(&mut harness, "Undo");
+    assert_eq!(library.spray_path("fender").expect("read"), None);
+}
+
+#[test]
+fn the_timeline_moves_the_gun_by_hand_by_key_and_by_itself() {
+    let mut harness = open();
+    let end = own(&harness).duration();
+    harness
+        .get_by_label("Place of the gun on the path, seconds")
+        .focus();
+    harness.run_steps(2);
+    harness.key_press(Key::End);
+    harness.run_steps(2);
+    assert!((own(&harness).time - end).abs() < 1e-9);
+    harness.key_press(Key::Home);
+    harness.run_steps(2);
+    harness.key_press(Key::ArrowRight);
+    harness.run_steps(2);
+    assert!((own(&harness).time - 0.5).abs() < 1e-9);
+    let num_captures = harness.state().state().inspector.num_captures;
+    harness.key_press(Key::Space);
+    harness.run_steps(3);
+    assert_eq!(own(&harness).playback, Playback::Playing);
+    assert!(own(&harness).time > 0.5);
+    harness.key_press(Key::P);
+    harness.run_steps(2);
+    assert_eq!(own(&harness).playback, Playback::Paused);
+    harness.key_press(Key::Period);
+    harness.run_steps(2);
+    harness.get_by_label_contains("· gun on");
+    assert_eq!(harness.state().state().inspector.num_captures, num_captures);
+}
+
+#[test]
+fn a_coat_is_kept_under_a_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_own(folder.path());
+    press(&mut harness, "Propose");
+    press(&mut harness, "Coat: primer, changed");
+    press(&mut harness, "Save as…");
+    harness.get_by_label("Name of the coat").focus();
+    harness.run_steps(2);
+    harness
+        .get_by_label("Name of the coat")
+        .type_text("booth_3");
+    harness.run_steps(2);
+    press(&mut harness, "Save");
+    harness.get_by_label("Coat: booth_3");
+    assert!(folder.path().join("coats/booth_3.toml").exists());
+}
