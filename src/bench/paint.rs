@@ -140,14 +140,11 @@ pub fn paint_part(
 
 impl PaintTrial {
     fn of(way: &'static str, start: Instant, coat: &Coat, path: &SprayPath, film: &Film) -> Self {
-        let points = path.points();
-        let begins = (0..points.len())
-            .filter(|i| points[*i].is_gun_on && (*i == 0 || !points[i - 1].is_gun_on));
         Self {
             way,
             seconds: start.elapsed().as_secs_f64(),
-            num_points: points.len(),
-            num_rows: begins.count(),
+            num_points: path.points().len(),
+            num_rows: path.strokes().len(),
             spacing: coat.spacing,
             speed: coat.speed,
             path: film.path,

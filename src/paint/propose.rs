@@ -44,7 +44,8 @@ pub fn propose(
     let mut best: Option<(f64, Coat)> = None;
     for share in SPACINGS {
         let spaced = Coat {
-            spacing: share * width,
+            // Whole millimetres: what is stored and shown is what is planned.
+            spacing: (1e3 * share * width).round() / 1e3,
             ..*coat
         };
         let path = plan(surface, &spaced, keep_outs)?;

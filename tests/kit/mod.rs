@@ -4,7 +4,7 @@
 
 #![allow(dead_code, reason = "every test program uses some of it")]
 
-use std::{path::Path, sync::Arc};
+use std::{fs, path::Path, sync::Arc};
 
 use image::RgbImage;
 use jiff::{SignedDuration, Timestamp};
@@ -43,6 +43,21 @@ pub(crate) fn shipped_library() -> Library {
     let folder = LibraryFolder::open(&path).expect("the shipped parts");
     let load = folder.load(&ReferenceParams::default()).expect("loaded");
     load.library
+}
+
+/// Copies the shipped parts into a new folder, to be changed by a test.
+pub(crate) fn copy_library(to: &Path) {
+    for part in fs::read_dir("reference_parts").expect("the shipped parts") {
+        let from = part.expect("a part").path();
+        if from.is_dir() {
+            let to = to.join(from.file_name().expect("a name"));
+            fs::create_dir_all(&to).expect("made");
+            for file in fs::read_dir(from).expect("listed") {
+                let file = file.expect("a file").path();
+                fs::copy(&file, to.join(file.file_name().expect("a name"))).expect("copied");
+            }
+        }
+    }
 }
 
 /// The scene that a simulated camera captures.

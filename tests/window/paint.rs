@@ -18,6 +18,7 @@ use partsight::{
 
 use super::{
     enrol,
+    kit::copy_library,
     set_up::{SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle},
 };
 
@@ -38,26 +39,13 @@ fn open() -> WindowHarness {
 /// A window with a library of its own.
 fn open_own(folder: &Path) -> WindowHarness {
     let library = folder.join("parts");
-    copy(Path::new("reference_parts"), &library);
+    copy_library(&library);
     let options = WindowOptions {
         library: Some(library),
         recipes: Some(folder.join("recipes")),
         ..plain_options()
     };
     open_at(SMALL, options)
-}
-
-fn copy(from: &Path, to: &Path) {
-    std::fs::create_dir(to).expect("made");
-    for entry in std::fs::read_dir(from).expect("listed") {
-        let entry = entry.expect("an entry");
-        let to = to.join(entry.file_name());
-        if entry.path().is_dir() {
-            copy(&entry.path(), &to);
-        } else {
-            std::fs::copy(entry.path(), to).expect("copied");
-        }
-    }
 }
 
 fn own(harness: &WindowHarness) -> &PaintState {

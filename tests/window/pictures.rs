@@ -33,7 +33,9 @@ use partsight::{
 };
 
 use super::{
-    enrol, live, paint, robot,
+    enrol,
+    kit::copy_library,
+    live, paint, robot,
     set_up::{SMALL, USUAL, WindowHarness, act, act_in, plain_options, press, settle},
     shots::ScanFolder,
 };
@@ -311,7 +313,7 @@ fn the_robots_cell_looks_as_it_did() {
     compare(&mut harness, "robot_pairs");
 
     let parts = folder.path().join("parts");
-    robot::copy_library(&parts);
+    copy_library(&parts);
     let name = PartName::new("front_door").expect("a name");
     let library = LibraryFolder::open(&parts).expect("a library");
     library

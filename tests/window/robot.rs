@@ -27,9 +27,12 @@ use partsight::{
     },
 };
 
-use super::set_up::{
-    USUAL, WindowHarness, act, act_in, choose_in_inspect, inspect_of, open, open_with,
-    plain_options, press, settle,
+use super::{
+    kit::copy_library,
+    set_up::{
+        USUAL, WindowHarness, act, act_in, choose_in_inspect, inspect_of, open, open_with,
+        plain_options, press, settle,
+    },
 };
 
 fn state(harness: &WindowHarness) -> &State {
@@ -338,20 +341,6 @@ pub(crate) fn door_path() -> SprayPath {
 }
 
 /// A copy of the shipped library in this folder.
-pub(crate) fn copy_library(to: &Path) {
-    for part in fs::read_dir("reference_parts").expect("the shipped parts") {
-        let from = part.expect("a part").path();
-        if from.is_dir() {
-            let to = to.join(from.file_name().expect("a name"));
-            fs::create_dir_all(&to).expect("made");
-            for file in fs::read_dir(from).expect("listed") {
-                let file = file.expect("a file").path();
-                fs::copy(&file, to.join(file.file_name().expect("a name"))).expect("copied");
-            }
-        }
-    }
-}
-
 fn in_enrol(harness: &mut WindowHarness, action: EnrolAction) {
     act_in(harness, |enrol: &mut EnrolWorkspace, cx| {
         enrol.state_mut().apply(action, cx);

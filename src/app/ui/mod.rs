@@ -3,6 +3,7 @@
 
 pub mod parameter_control;
 pub(in crate::app) mod plot;
+pub(in crate::app) mod scrubber;
 pub mod theme;
 pub(in crate::app) mod tool_row;
 pub mod viewport;

@@ -143,7 +143,7 @@ fn number_ui<R: Parameters>(
         WidgetInfo::slider(true, before, label)
     });
     slider.on_hover_text(hover);
-    // What is out of range is told, not bent.
+    // A value out of range is refused, not clamped.
     let refused = Cell::new(None);
     let parse = |text: &str| {
         let digits = text.trim().trim_end_matches(number.unit.sign().trim());

@@ -1,7 +1,7 @@
 //! Drawing a box or a lasso with the pointer, over a 3-D view or a picture.
 
 use egui::{Event, Key, Painter, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
-use glam::Vec2;
+use glam::{Mat4, Vec2, Vec3};
 
 use super::style::{Role, ViewColours};
 use crate::app::ui::theme::font;
@@ -24,6 +24,14 @@ pub struct Drawing {
     trail: Vec<Pos2>,
     /// True from the press that began it to the release, given up or not.
     is_held: bool,
+}
+
+/// Where a view shows a point, in shares of its width and height from the top left; `None` behind the eye.
+pub fn seen_at(clip_from_world: &Mat4, point: Vec3) -> Option<Vec2> {
+    let clip = *clip_from_world * point.extend(1.0);
+    // Beyond the near plane, as the view draws it; false for NaN as well.
+    let is_before_eye = clip.w > clip.z;
+    is_before_eye.then(|| (Vec2::new(clip.x, -clip.y) / clip.w + 1.0) / 2.0)
 }
 
 /// Corners of a lasso are this far apart, logical pixels.

@@ -51,7 +51,7 @@ mod widget;
 
 pub use self::{
     camera::{FitRequest, StandardView, ViewCamera},
-    drawing::{Drawing, DrawnShape},
+    drawing::{Drawing, DrawnShape, seen_at},
     gpu::{ViewError, ViewportGpu},
     measure::Measurement,
     picking::PickedPoint,

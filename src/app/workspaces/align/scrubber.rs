@@ -1,9 +1,6 @@
 //! Below the views: the plot, which is also the scrubber, and Play.
 
-use egui::{
-    Align, Button, EventFilter, Id, Key, Layout, Modifiers, Response, RichText, Sense, Ui,
-    accesskit::Action as Asked, vec2,
-};
+use egui::{Align, Button, Id, Layout, RichText, Sense, Ui, vec2};
 
 use super::{
     action::AlignAction,
@@ -14,6 +11,7 @@ use super::{
 use crate::app::{
     language::text,
     ui::{
+        scrubber::{Scrubber, ScrubberInput},
         theme::{Theme, font, space},
         widgets::{focus_ring, labelled},
     },
@@ -43,7 +41,6 @@ pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut V
     let response = ui.interact(rect, id, sense);
     ui.allocate_rect(rect, Sense::hover());
     let drawn = plot::show(ui, rect, shown, align.place, theme);
-    describe(ui, &response, align);
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
@@ -53,7 +50,22 @@ pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut V
         let place = drawn.value_from_position(at).x.round() as f32;
         actions.push(AlignAction::Scrub(place));
     }
-    keys(ui, &response, align, actions);
+    let last = align.last_place() as f32;
+    let scrubber = Scrubber {
+        label: text!("align-scrubber"),
+        keys: text!("align-scrubber-keys"),
+        place: f64::from(align.place.round()),
+        last: f64::from(last),
+    };
+    for input in scrubber.input(ui, &response) {
+        actions.push(match input {
+            ScrubberInput::First => AlignAction::Scrub(0.0),
+            ScrubberInput::Last => AlignAction::Scrub(last),
+            ScrubberInput::Steps(steps) => AlignAction::Step(steps as f32),
+            ScrubberInput::Pages(pages) => AlignAction::Step(PAGE * pages as f32),
+            ScrubberInput::TogglePlay => AlignAction::TogglePlay,
+        });
+    }
     focus_ring(ui, rect, &response, theme);
 }
 
@@ -92,58 +104,6 @@ fn heading(
             ui.label(text.color(theme.weak_text));
         });
     });
-}
-
-/// Names the scrubber for a screen reader.
-fn describe(ui: &Ui, response: &Response, align: &AlignState) {
-    let last = align.last_place() as f64;
-    let place = f64::from(align.place.round());
-    ui.accesskit_node_builder(response.id, |node| {
-        node.set_role(egui::accesskit::Role::Slider);
-        node.set_label(text!("align-scrubber"));
-        node.set_description(text!("align-scrubber-keys"));
-        node.set_min_numeric_value(0.0);
-        node.set_max_numeric_value(last);
-        node.set_numeric_value(place);
-        node.add_action(Asked::Increment);
-        node.add_action(Asked::Decrement);
-    });
-}
-
-/// Keys of the scrubber while it has the focus; what a screen reader asks for, always.
-fn keys(ui: &Ui, response: &Response, align: &AlignState, actions: &mut Vec<AlignAction>) {
-    let id = response.id;
-    let mut steps = ui.input(|input| {
-        let times = |asked| input.num_accesskit_action_requests(id, asked) as f32;
-        times(Asked::Increment) - times(Asked::Decrement)
-    });
-    if response.has_focus() {
-        // The arrows are ours; Tab still leaves the plot.
-        let arrows = EventFilter {
-            tab: false,
-            horizontal_arrows: true,
-            vertical_arrows: false,
-            escape: false,
-        };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, arrows));
-        let pressed =
-            |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as f32;
-        steps += pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
-        steps += PAGE * (pressed(Key::PageUp) - pressed(Key::PageDown));
-        if pressed(Key::Home) > 0.0 {
-            actions.push(AlignAction::Scrub(0.0));
-        }
-        if pressed(Key::End) > 0.0 {
-            let last = align.last_place() as f32;
-            actions.push(AlignAction::Scrub(last));
-        }
-        if pressed(Key::Space) > 0.0 {
-            actions.push(AlignAction::TogglePlay);
-        }
-    }
-    if steps != 0.0 {
-        actions.push(AlignAction::Step(steps));
-    }
 }
 
 /// Before there is a curve.

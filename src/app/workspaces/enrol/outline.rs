@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::{Mat4, Vec2, Vec3};
 
 use super::subject::EnrolInput;
+use crate::app::ui::viewport::seen_at;
 
 /// A box or a lasso that a person drew.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,14 +54,6 @@ impl DrawnOutline {
                 .collect(),
         }
     }
-}
-
-/// Where a view shows a point; `None` behind the eye.
-fn seen_at(clip_from_world: &Mat4, point: Vec3) -> Option<Vec2> {
-    let clip = *clip_from_world * point.extend(1.0);
-    // Beyond the near plane, as the view draws it; false for NaN as well.
-    let is_before_eye = clip.w > clip.z;
-    is_before_eye.then(|| (Vec2::new(clip.x, -clip.y) / clip.w + 1.0) / 2.0)
 }
 
 /// The edges of a polygon by the rows they cross, so that a place meets a few of a thousand.

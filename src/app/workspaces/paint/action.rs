@@ -58,7 +58,7 @@ pub enum PaintAction {
     Step(i32),
     /// Play or pause.
     TogglePlay,
-    /// So many seconds have passed while playing.
+    /// Seconds that have passed while playing.
     Advance(f64),
 }
 

@@ -53,7 +53,7 @@ impl GunCourse {
         stroke.map(|point| self.seconds[point])
     }
 
-    /// The gun after so many seconds of the path that this is the course of.
+    /// The gun at a time in seconds on `path`, whose course this is.
     pub fn at(&self, path: &SprayPath, speed: f64, time: f64) -> GunState {
         let points = path.points();
         let behind = self.seconds.partition_point(|t| *t <= time);

@@ -5,11 +5,15 @@
 //! tools     pattern, regions, undo
 //! view      the part by its film, rows, the gun   region: what is drawn becomes a region
 //! timeline  the path over time                    course: when the gun is where
-//! state     the design and its undo               work: plan, simulate, store
+//! state     what is shown, asked for and stored   work: plan, simulate, store
+//! design    what is painted how, and its undo     coats: chosen, changed, saved; playback: the place in time
 //! ```
 
 mod action;
+mod coats;
 mod course;
+mod design;
+mod playback;
 mod region;
 mod side;
 mod state;
@@ -26,8 +30,10 @@ use self::view::PaintView;
 pub use self::{
     action::{PaintAction, PaintFile, ShownPath},
     course::{GunCourse, GunState},
+    design::Design,
+    playback::Playback,
     region::{EditKind, PaintTool, RegionUse},
-    state::{Design, PaintState, Playback},
+    state::PaintState,
     work::Planned,
 };
 use crate::app::{

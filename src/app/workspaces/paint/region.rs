@@ -4,7 +4,7 @@ use glam::{DVec2, DVec4, Mat4, Vec2, Vec3};
 use nalgebra::Point3;
 
 use crate::{
-    app::ui::viewport::DrawnShape,
+    app::ui::viewport::{DrawnShape, seen_at},
     paint::{KeepOut, PaintSurface},
 };
 
@@ -54,12 +54,9 @@ struct Seen<'a> {
 
 impl<'a> Seen<'a> {
     fn new(surface: &'a PaintSurface, clip_from_part: &Mat4) -> Self {
-        let at = surface.points.iter().map(|p| {
-            let clip = *clip_from_part * Vec3::new(p.x as f32, p.y as f32, p.z as f32).extend(1.0);
-            // Beyond the near plane, as the view draws it; false for NaN as well.
-            let is_before_eye = clip.w > clip.z;
-            is_before_eye.then(|| (Vec2::new(clip.x, -clip.y) / clip.w + 1.0) / 2.0)
-        });
+        let points = surface.points.iter();
+        let points = points.map(|p| Vec3::new(p.x as f32, p.y as f32, p.z as f32));
+        let at = points.map(|point| seen_at(clip_from_part, point));
         Self {
             surface,
             at: at.collect(),

@@ -4,6 +4,8 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     action::{PaintAction, PaintFile, ShownPath},
+    design::{Design, Step, UndoDirection, UndoStack},
+    playback::Playback,
     region::PaintTool,
     work::{self, PaintResult, Planned, Request},
 };
@@ -19,59 +21,12 @@ use crate::{
             session::{Session, WorkspaceKind},
         },
         task::{Running, Task, TaskEvent, TaskRunner},
-        ui::parameter_control::ParameterChange,
         user_error::UserError,
     },
-    error::Advice as _,
     library::{PartName, SprayPath},
-    paint::{BUILT_IN_COATS, Coat, CoatFolder, KeepOut, PathEdit, built_in_coat},
-    pipeline::{RecipeFile, Replace, Verdict, parameters::Parameter},
+    paint::{BUILT_IN_COATS, CoatFolder, built_in_coat},
+    pipeline::Verdict,
 };
-
-/// What is painted how: what Undo brings back.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Design {
-    /// The part; none before one was chosen.
-    pub part: Option<PartName>,
-    /// The coat as it is kept.
-    pub kept: RecipeFile<Coat>,
-    /// The coat as it is now.
-    pub coat: Coat,
-    /// Where paint goes and where not.
-    pub regions: Vec<KeepOut>,
-    /// What was corrected by hand in the path that they give.
-    pub edits: Vec<PathEdit>,
-}
-
-/// A step that can be taken back.
-#[derive(Clone, Debug)]
-enum Step {
-    /// The design as it was.
-    Design(Box<Design>),
-    /// The path that was stored with a part.
-    Stored(PartName, Option<SprayPath>),
-}
-
-/// More steps than this are forgotten, the oldest first.
-const MAX_STEPS: usize = 100;
-
-/// Whether the gun moves by itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Playback {
-    /// It stands.
-    #[default]
-    Paused,
-    /// It moves on.
-    Playing,
-}
-
-/// Which way a path that was stored goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
-    First,
-    Back,
-    Again,
-}
 
 /// What the workspace knows.
 #[derive(Debug)]
@@ -96,13 +51,13 @@ pub struct PaintState {
     pub naming: Option<String>,
     /// Names of all coats.
     pub coats: Vec<String>,
-    coat_folder: Option<CoatFolder>,
+    pub(super) coat_folder: Option<CoatFolder>,
+    pub(super) steps: UndoStack,
     asked: Option<Request>,
-    done: Vec<Step>,
-    undone: Vec<Step>,
     task: Task<PaintResult>,
     storing: Task<PaintResult>,
-    way: Way,
+    /// What is being stored, and which way.
+    pending: Option<(UndoDirection, Step)>,
     writing: Task<PathBuf>,
     dialog: FileDialog<PaintFile>,
 }
@@ -129,12 +84,11 @@ impl PaintState {
             naming: None,
             coats: BUILT_IN_COATS.map(str::to_owned).to_vec(),
             coat_folder: coats.map(CoatFolder::at),
+            steps: UndoStack::default(),
             asked: None,
-            done: Vec::new(),
-            undone: Vec::new(),
             task: Task::new("paint", runner),
             storing: Task::new("paint-store", runner),
-            way: Way::First,
+            pending: None,
             writing: Task::new("paint-write", runner),
             dialog: FileDialog::default(),
         }
@@ -157,7 +111,8 @@ impl PaintState {
 
     /// True if there is something to take back, and something to do again.
     pub fn can_undo(&self) -> [bool; 2] {
-        [!self.done.is_empty(), !self.undone.is_empty()]
+        let steps = &self.steps;
+        [!steps.done.is_empty(), !steps.undone.is_empty()]
     }
 
     /// Regions that a person has drawn and whose path is not stored, in words.
@@ -251,8 +206,8 @@ impl PaintState {
                 design.regions.clear();
                 design.edits.clear();
             }),
-            PaintAction::Undo => self.step(Way::Back, cx),
-            PaintAction::Redo => self.step(Way::Again, cx),
+            PaintAction::Undo => self.step(UndoDirection::Back, cx),
+            PaintAction::Redo => self.step(UndoDirection::Again, cx),
             PaintAction::Propose => {
                 self.shown_path = ShownPath::Planned;
                 self.plan(true, cx);
@@ -273,164 +228,7 @@ impl PaintState {
                 self.go_by(strokes);
             }
             PaintAction::TogglePlay => self.toggle_play(),
-            PaintAction::Advance(seconds) => {
-                if self.playback == Playback::Playing {
-                    self.go_to(self.time + seconds);
-                    if self.time >= self.duration() {
-                        self.playback = Playback::Paused;
-                    }
-                }
-            }
-        }
-    }
-
-    /// Changes the design; Undo brings back what it was.
-    fn change(&mut self, change: impl FnOnce(&mut Design)) {
-        let before = self.design.clone();
-        change(&mut self.design);
-        if self.design == before {
-            return;
-        }
-        self.shown_path = ShownPath::Planned;
-        self.undone.clear();
-        self.done.push(Step::Design(Box::new(before)));
-        if self.done.len() > MAX_STEPS {
-            self.done.remove(0);
-        }
-    }
-
-    fn change_parameter(
-        &mut self,
-        key: &'static str,
-        change: ParameterChange,
-        cx: &mut ShellContext<'_>,
-    ) {
-        let Some(parameter) = Parameter::<Coat>::of_key(key) else {
-            return;
-        };
-        let mut coat = self.design.coat;
-        match change {
-            ParameterChange::Reset => parameter.copy(&self.design.kept.recipe, &mut coat),
-            ParameterChange::Set(value) => {
-                if let Err(error) = parameter.set(&mut coat, value) {
-                    cx.notify(UserError::of(&error));
-                    return;
-                }
-            }
-        }
-        // A slider that is being drawn is one step.
-        let is_same_slider = matches!(self.done.last(), Some(Step::Design(before))
-            if self.undone.is_empty() && differs_by(&before.coat, &self.design.coat, parameter)
-                && before.regions == self.design.regions && before.part == self.design.part);
-        if is_same_slider && cx.egui.input(|input| input.pointer.any_down()) {
-            self.design.coat = coat;
-        } else {
-            self.change(|design| design.coat = coat);
-        }
-    }
-
-    fn choose_coat(&mut self, name: &str, cx: &mut ShellContext<'_>) {
-        let found = match (built_in_coat(name), &self.coat_folder) {
-            (Some(own), _) => Ok(own),
-            (None, Some(folder)) => folder.open(name),
-            (None, None) => return,
-        };
-        match found {
-            Ok(kept) => self.change(|design| {
-                design.coat = kept.recipe;
-                design.kept = kept;
-            }),
-            Err(error) => cx.notify(UserError::of(&error)),
-        }
-    }
-
-    /// Lists the coats anew: files may have been added.
-    pub(super) fn list_coats(&mut self, cx: &mut ShellContext<'_>) {
-        let Some(folder) = &self.coat_folder else {
-            return;
-        };
-        match folder.names() {
-            Ok(names) => self.coats = names,
-            Err(error) => cx.notify(UserError::of(&error)),
-        }
-    }
-
-    fn save_coat(&mut self, cx: &mut ShellContext<'_>) {
-        let Some(written) = &self.naming else { return };
-        let Some(folder) = &self.coat_folder else {
-            cx.notify(Notice::look(
-                text!("paint-no-coat-folder"),
-                text!("paint-no-coat-folder-advice"),
-            ));
-            return;
-        };
-        let name = match PartName::new(written.trim()) {
-            Ok(name) => name,
-            Err(error) => {
-                cx.notify(Notice::look(error.to_string(), error.advice()));
-                return;
-            }
-        };
-        let coat = RecipeFile {
-            name,
-            notes: self.design.kept.notes.clone(),
-            recipe: self.design.coat,
-        };
-        // What is kept under the name that the coat has is what is being changed.
-        let replace = if coat.name == self.design.kept.name {
-            Replace::Yes
-        } else {
-            Replace::No
-        };
-        match folder.save(&coat, replace) {
-            Ok(()) => {
-                let name = coat.name.to_string();
-                cx.notify(Notice::done(text!("paint-saved-coat", coat = name)));
-                self.naming = None;
-                self.change(|design| design.kept = coat);
-                self.list_coats(cx);
-            }
-            Err(error) => cx.notify(UserError::of(&error)),
-        }
-    }
-
-    /// Areas to be painted are one region together; others stand for themselves.
-    fn add(&mut self, regions: Vec<KeepOut>) {
-        self.change(|design| {
-            for region in regions {
-                let former = design.regions.iter_mut().find_map(|former| match former {
-                    KeepOut::Outside { areas } => Some(areas),
-                    KeepOut::Sphere { .. } | KeepOut::Polygon { .. } => None,
-                });
-                match (region, former) {
-                    (KeepOut::Outside { areas }, Some(former)) => former.extend(areas),
-                    (region, _) => design.regions.push(region),
-                }
-            }
-        });
-    }
-
-    /// Takes the last step back, or does it again.
-    fn step(&mut self, way: Way, cx: &ShellContext<'_>) {
-        if self.is_storing() {
-            return;
-        }
-        let from = match way {
-            Way::Back | Way::First => &mut self.done,
-            Way::Again => &mut self.undone,
-        };
-        match from.pop() {
-            None => {}
-            Some(Step::Design(other)) => {
-                let now = std::mem::replace(&mut self.design, *other);
-                let to = match way {
-                    Way::Back | Way::First => &mut self.undone,
-                    Way::Again => &mut self.done,
-                };
-                to.push(Step::Design(Box::new(now)));
-                self.shown_path = ShownPath::Planned;
-            }
-            Some(Step::Stored(part, former)) => self.store(way, part, former, cx),
+            PaintAction::Advance(seconds) => self.advance(seconds),
         }
     }
 
@@ -439,14 +237,21 @@ impl PaintState {
             return;
         };
         let (part, path) = (planned.part.clone(), planned.path.clone());
-        self.store(Way::First, part, Some(path), cx);
+        self.store(UndoDirection::First, part, Some(path), cx);
     }
 
-    fn store(&mut self, way: Way, part: PartName, path: Option<SprayPath>, cx: &ShellContext<'_>) {
+    /// Stores a path with a part, or removes the one it has.
+    pub(super) fn store(
+        &mut self,
+        way: UndoDirection,
+        part: PartName,
+        path: Option<SprayPath>,
+        cx: &ShellContext<'_>,
+    ) {
         if self.is_storing() {
             return;
         }
-        self.way = way;
+        self.pending = Some((way, Step::Stored(part.clone(), path.clone())));
         let library_cache = cx.services.library_cache.clone();
         self.storing.start(text!("paint-storing"), move |_| {
             Ok(work::store(&part, path.as_ref(), &library_cache)?)
@@ -460,41 +265,6 @@ impl PaintState {
         let title = text!("paint-writing", file = file_name(&file));
         self.writing
             .start(title, move |_| Ok(work::write(file, &planned.path)?));
-    }
-
-    /// The whole path, seconds.
-    pub fn duration(&self) -> f64 {
-        let planned = self.planned.as_ref();
-        planned.map_or(0.0, |planned| planned.course.duration())
-    }
-
-    fn go_to(&mut self, time: f64) {
-        self.time = time.clamp(0.0, self.duration());
-    }
-
-    /// To the beginning of a stroke before or behind.
-    fn go_by(&mut self, strokes: i32) {
-        let Some(planned) = &self.planned else { return };
-        let course = &planned.course;
-        let begins = course.strokes.iter().map(|stroke| course.times(*stroke)[0]);
-        let begins: Vec<f64> = begins.collect();
-        // Just begun, the one before is meant.
-        let now = begins.partition_point(|begin| *begin <= self.time + 1e-6) as i32 - 1;
-        let wanted = usize::try_from(now + strokes).unwrap_or(0);
-        let time = begins.get(wanted).copied().unwrap_or(course.duration());
-        self.go_to(time);
-    }
-
-    fn toggle_play(&mut self) {
-        self.playback = match self.playback {
-            Playback::Paused if self.duration() > 0.0 => {
-                if self.time >= self.duration() {
-                    self.time = 0.0;
-                }
-                Playback::Playing
-            }
-            Playback::Playing | Playback::Paused => Playback::Paused,
-        };
     }
 
     /// What is asked for now, if there is a part.
@@ -539,7 +309,15 @@ impl PaintState {
         }
         match self.storing.poll() {
             Some(TaskEvent::Done(result) | TaskEvent::Partial(result)) => self.receive(result, cx),
-            Some(TaskEvent::Failed(error)) => cx.notify(error),
+            Some(TaskEvent::Failed(error)) => {
+                // A step that could not be made can be tried again.
+                if let Some((way @ (UndoDirection::Back | UndoDirection::Again), step)) =
+                    self.pending.take()
+                {
+                    self.steps.from(way).push(step);
+                }
+                cx.notify(error);
+            }
             None => {}
         }
         match self.writing.poll() {
@@ -581,7 +359,7 @@ impl PaintState {
         match result {
             PaintResult::Planned(planned) => self.show(planned),
             PaintResult::Proposed(planned) => {
-                // A design that was changed meanwhile is planned as it is.
+                // Of a design that was changed meanwhile the proposal is no longer wanted.
                 if self.request(cx.session) == self.asked {
                     self.change(|design| {
                         design.coat = planned.coat;
@@ -603,13 +381,11 @@ impl PaintState {
                     None => text!("paint-path-removed", part = title),
                 };
                 let step = Step::Stored(part, former);
-                match self.way {
-                    Way::Back => self.undone.push(step),
-                    Way::Again => self.done.push(step),
-                    Way::First => {
-                        self.undone.clear();
-                        self.done.push(step);
+                match self.pending.take() {
+                    Some((way @ (UndoDirection::Back | UndoDirection::Again), _)) => {
+                        self.steps.to(way).push(step);
                     }
+                    Some((UndoDirection::First, _)) | None => self.steps.push(step),
                 }
                 cx.notify(Notice::done(what));
                 let saved = None;
@@ -617,25 +393,6 @@ impl PaintState {
             }
         }
     }
-}
-
-impl Design {
-    /// True if the same path is planned of both, before corrections by hand.
-    fn is_same_path(&self, other: &Self) -> bool {
-        (&self.part, &self.coat, &self.regions) == (&other.part, &other.coat, &other.regions)
-    }
-
-    /// True if the coat differs from what is kept under its name.
-    pub fn is_coat_changed(&self) -> bool {
-        self.coat != self.kept.recipe
-    }
-}
-
-/// True if two coats differ by this parameter alone.
-fn differs_by(a: &Coat, b: &Coat, parameter: &Parameter<Coat>) -> bool {
-    let mut same = *a;
-    parameter.copy(b, &mut same);
-    a != b && same == *b
 }
 
 #[cfg(test)]

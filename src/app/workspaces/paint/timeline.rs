@@ -1,18 +1,12 @@
 //! Below the view: the path over time, with the gun on in blocks, to be played and scrubbed.
 
-use egui::{
-    Align2, Button, EventFilter, Id, Key, Modifiers, Response, RichText, Sense, Ui,
-    accesskit::Action as Asked, pos2, vec2,
-};
+use egui::{Align2, Button, Id, RichText, Sense, Ui, pos2, vec2};
 
-use super::{
-    action::PaintAction,
-    state::{PaintState, Playback},
-    work::Planned,
-};
+use super::{action::PaintAction, playback::Playback, state::PaintState, work::Planned};
 use crate::app::{
     language::text,
     ui::{
+        scrubber::{Scrubber, ScrubberInput},
         theme::{ROUNDING, Theme, font, space},
         widgets::{Scale, focus_ring, labelled},
     },
@@ -20,6 +14,8 @@ use crate::app::{
 
 /// Height of the blocks, logical pixels.
 const BLOCKS: f32 = 14.0;
+/// Seconds that an arrow key moves.
+const STEP: f64 = 0.5;
 
 /// Draws heading and timeline.
 pub(super) fn ui(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut Vec<PaintAction>) {
@@ -36,7 +32,6 @@ pub(super) fn ui(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut V
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let sense = Sense::click_and_drag() | Sense::FOCUSABLE;
     let response = ui.interact(rect, Id::unique("paint timeline"), sense);
-    describe(ui, &response, paint);
     let duration = paint.duration();
     let seconds = Scale::new(
         [0.0, duration as f32],
@@ -63,7 +58,21 @@ pub(super) fn ui(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut V
         let share = (at.x - track.left()) / track.width();
         actions.push(PaintAction::Scrub(f64::from(share) * duration));
     }
-    keys(ui, &response, paint, actions);
+    let scrubber = Scrubber {
+        label: text!("paint-timeline"),
+        keys: text!("paint-timeline-keys"),
+        place: paint.time,
+        last: duration,
+    };
+    for input in scrubber.input(ui, &response) {
+        actions.push(match input {
+            ScrubberInput::First => PaintAction::Scrub(0.0),
+            ScrubberInput::Last => PaintAction::Scrub(duration),
+            ScrubberInput::Steps(steps) => PaintAction::Scrub(paint.time + STEP * f64::from(steps)),
+            ScrubberInput::Pages(strokes) => PaintAction::Step(strokes),
+            ScrubberInput::TogglePlay => PaintAction::TogglePlay,
+        });
+    }
     focus_ring(ui, rect, &response, theme);
     let (caption, _) = ui.allocate_exact_size(vec2(size.x, 16.0), Sense::hover());
     let write = |at, anchor, text| {
@@ -140,55 +149,4 @@ fn place_text(paint: &PaintState, planned: &Planned) -> String {
 fn minutes(seconds: f64) -> String {
     let whole = seconds.round() as u64;
     format!("{}:{:02}", whole / 60, whole % 60)
-}
-
-/// Names the timeline for a screen reader.
-fn describe(ui: &Ui, response: &Response, paint: &PaintState) {
-    ui.accesskit_node_builder(response.id, |node| {
-        node.set_role(egui::accesskit::Role::Slider);
-        node.set_label(text!("paint-timeline"));
-        node.set_description(text!("paint-timeline-keys"));
-        node.set_min_numeric_value(0.0);
-        node.set_max_numeric_value(paint.duration());
-        node.set_numeric_value(paint.time);
-        node.add_action(Asked::Increment);
-        node.add_action(Asked::Decrement);
-    });
-}
-
-/// Seconds that an arrow key moves.
-const STEP: f64 = 0.5;
-
-/// Keys of the timeline while it has the focus; what a screen reader asks for, always.
-fn keys(ui: &Ui, response: &Response, paint: &PaintState, actions: &mut Vec<PaintAction>) {
-    let id = response.id;
-    let mut steps = ui.input(|input| {
-        let times = |asked| input.num_accesskit_action_requests(id, asked) as f64;
-        times(Asked::Increment) - times(Asked::Decrement)
-    });
-    if response.has_focus() {
-        // The arrows are ours; Tab still leaves the timeline.
-        let arrows = EventFilter {
-            tab: false,
-            horizontal_arrows: true,
-            vertical_arrows: false,
-            escape: false,
-        };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, arrows));
-        let pressed =
-            |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as f64;
-        steps += pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
-        if pressed(Key::Home) > 0.0 {
-            actions.push(PaintAction::Scrub(0.0));
-        }
-        if pressed(Key::End) > 0.0 {
-            actions.push(PaintAction::Scrub(paint.duration()));
-        }
-        if pressed(Key::Space) > 0.0 {
-            actions.push(PaintAction::TogglePlay);
-        }
-    }
-    if steps != 0.0 {
-        actions.push(PaintAction::Scrub(paint.time + STEP * steps));
-    }
 }

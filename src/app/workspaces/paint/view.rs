@@ -44,7 +44,7 @@ pub(super) struct PaintView {
     has_focus: bool,
 }
 
-/// The gun as it is drawn.
+/// The lines that show the gun.
 #[derive(Clone)]
 struct Gun {
     lines: LineSet,

@@ -1,16 +1,17 @@
-use std::path::Path;
-
 use super::*;
 use crate::{
     app::{
         inspection::{camera::Camera, library_cache::LibraryCache},
         shell::context::TestShell,
+        ui::parameter_control::ParameterChange,
         workspaces::paint::RegionUse,
     },
+    kit::copy_library,
     library::LibraryFolder,
+    paint::{KeepOut, PathEdit},
 };
 
-/// The workspace without a window, in front: a job runs when the test says so.
+/// The workspace in front, without a window; its tasks run when the test says so.
 struct Bench {
     paint: PaintState,
     shell: TestShell,
@@ -22,7 +23,7 @@ impl Bench {
     fn new() -> Self {
         let data = tempfile::tempdir().expect("a folder");
         let parts = data.path().join("parts");
-        copy(Path::new("reference_parts"), &parts);
+        copy_library(&parts);
         let mut shell = TestShell::default();
         shell.services.library_cache = LibraryCache::new(Some(parts), Camera::default());
         shell.session.library = Some(Arc::clone(&shell.services.library_cache.get().shown));
@@ -66,19 +67,6 @@ impl Bench {
     fn stored(&self) -> Option<SprayPath> {
         let folder = LibraryFolder::open(&self.data.path().join("parts")).expect("opened");
         folder.spray_path("fender").expect("read")
-    }
-}
-
-fn copy(from: &Path, to: &Path) {
-    std::fs::create_dir(to).expect("made");
-    for entry in std::fs::read_dir(from).expect("listed") {
-        let entry = entry.expect("an entry");
-        let to = to.join(entry.file_name());
-        if entry.path().is_dir() {
-            copy(&entry.path(), &to);
-        } else {
-            std::fs::copy(entry.path(), to).expect("copied");
-        }
     }
 }
 

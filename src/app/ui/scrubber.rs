@@ -1,0 +1,83 @@
+//! A place along a line, moved by keys and by a screen reader: the timeline of Paint, the iterations of Align.
+
+use egui::{EventFilter, Key, Modifiers, Response, Ui, accesskit};
+
+/// What a scrubber is called, and where on its line it is.
+pub(in crate::app) struct Scrubber {
+    /// Its name for a screen reader.
+    pub label: String,
+    /// Its keys, in words.
+    pub keys: String,
+    /// Where it is, from 0.
+    pub place: f64,
+    /// The end of the line.
+    pub last: f64,
+}
+
+/// What a person asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::app) enum ScrubberInput {
+    /// To the beginning.
+    First,
+    /// To the end.
+    Last,
+    /// On by arrow keys, or back where it is negative.
+    Steps(i32),
+    /// On by Page Up and Page Down, or back.
+    Pages(i32),
+    /// Play or pause.
+    TogglePlay,
+}
+
+impl Scrubber {
+    /// Names it for a screen reader and gives what was asked for: by keys while it has the focus, by a screen reader always.
+    pub(in crate::app) fn input(&self, ui: &Ui, response: &Response) -> Vec<ScrubberInput> {
+        let id = response.id;
+        ui.accesskit_node_builder(id, |node| {
+            node.set_role(accesskit::Role::Slider);
+            node.set_label(self.label.clone());
+            node.set_description(self.keys.clone());
+            node.set_min_numeric_value(0.0);
+            node.set_max_numeric_value(self.last);
+            node.set_numeric_value(self.place);
+            node.add_action(accesskit::Action::Increment);
+            node.add_action(accesskit::Action::Decrement);
+        });
+        let mut steps = ui.input(|input| {
+            let times = |asked| input.num_accesskit_action_requests(id, asked) as i32;
+            times(accesskit::Action::Increment) - times(accesskit::Action::Decrement)
+        });
+        let mut asked = Vec::new();
+        if response.has_focus() {
+            // The arrows are ours; Tab still leaves.
+            let arrows = EventFilter {
+                tab: false,
+                horizontal_arrows: true,
+                vertical_arrows: false,
+                escape: false,
+            };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(id, arrows));
+            let pressed = |key| {
+                ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as i32
+            };
+            steps += pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
+            let pages = pressed(Key::PageUp) - pressed(Key::PageDown);
+            if pages != 0 {
+                asked.push(ScrubberInput::Pages(pages));
+            }
+            for (key, input) in [
+                (Key::Home, ScrubberInput::First),
+                (Key::End, ScrubberInput::Last),
+                (Key::Space, ScrubberInput::TogglePlay),
+            ] {
+                if pressed(key) > 0 {
+                    asked.push(input);
+                }
+            }
+        }
+        if steps != 0 {
+            asked.push(ScrubberInput::Steps(steps));
+        }
+        asked
+    }
+}
