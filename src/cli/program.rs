@@ -15,8 +15,8 @@ use crate::{
     library::PartName,
     robot::{
         RobotFrame, WrittenPose,
-        arm::{Arm, ArmPoint, CheckParams, PlacedArm, check_path},
-        program::{Program, ProgramFormat, ProgramPoint, ProgramSettings},
+        arm::{Arm, ArmError, PathCheck, PlacedArm},
+        program::{Program, ProgramFormat, ProgramSettings, check_reach, program_points},
         spray::CarriedPath,
     },
     units::Metres,
@@ -127,9 +127,15 @@ impl ProgramFile {
         mut doubts: Vec<String>,
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
-        let mut points = points_of(carried, frame);
-        let are_round: Vec<bool> = carried.points.iter().map(|point| point.is_round).collect();
-        doubts.extend(self.unreached(&mut points, &are_round)?);
+        let reach = self
+            .arm
+            .as_ref()
+            .map(|arm| Ok((arm, check_reach(arm, carried, frame, &self.settings)?)));
+        let reach: Result<_, ArmError> = reach.transpose();
+        let reach = reach.advised()?;
+        let doubt = |(arm, reach): &(&PlacedArm, PathCheck)| reach.doubt(&arm.arm.name);
+        doubts.extend(reach.as_ref().and_then(doubt));
+        let points = program_points(carried, frame, reach.as_ref().map(|(_, reach)| reach));
         if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
             console.note(&format_args!("no program was written: {doubt}"));
             let advice = if subject.scene.is_some() {
@@ -167,40 +173,4 @@ impl ProgramFile {
         }
         Ok(Outcome::Accepted)
     }
-
-    /// Turns each nozzle of a round jet about its axis as the arm reaches it, and says how many points it does not reach.
-    fn unreached(
-        &self,
-        points: &mut [ProgramPoint],
-        are_round: &[bool],
-    ) -> anyhow::Result<Option<String>> {
-        let Some(arm) = &self.arm else {
-            return Ok(None);
-        };
-        let wanted = points
-            .iter()
-            .zip(are_round)
-            .map(|(point, is_round)| ArmPoint {
-                robot_from_nozzle: point.robot_from_nozzle,
-                speed: point.speed.unwrap_or(self.settings.speed),
-                is_turn_free: *is_round,
-            });
-        let wanted: Vec<ArmPoint> = wanted.collect();
-        let found = check_path(arm, &wanted, &CheckParams::default()).advised()?;
-        for (point, checked) in points.iter_mut().zip(&found.points) {
-            let turn = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, checked.turn);
-            point.robot_from_nozzle *= turn;
-        }
-        let (num, all) = (found.num_reached(), points.len());
-        Ok((num < all).then(|| format!("{} reaches {num} of {all} points", arm.arm.name)))
-    }
-}
-
-fn points_of(carried: &CarriedPath, frame: &RobotFrame) -> Vec<ProgramPoint> {
-    let points = carried.points.iter().map(|point| ProgramPoint {
-        robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
-        is_gun_on: point.is_gun_on,
-        speed: point.speed,
-    });
-    points.collect()
 }

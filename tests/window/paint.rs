@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use egui::{Key, Modifiers, Vec2};
+use egui::{Key, Modifiers, Role, Vec2};
 use egui_kittest::kittest::Queryable as _;
 use partsight::{
     app::{
         WindowOptions,
-        shell::{action::Action, session::WorkspaceKind},
+        shell::{action::Action, robot::RobotAction, session::WorkspaceKind},
         workspaces::paint::{
             PaintAction, PaintFile, PaintState, PaintWorkspace, Playback, ShownPath,
         },
@@ -19,6 +19,7 @@ use partsight::{
 use super::{
     enrol,
     kit::copy_library,
+    robot,
     set_up::{SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle},
 };
 
@@ -210,4 +211,50 @@ fn a_coat_is_kept_under_a_name() {
     press(&mut harness, "Save");
     harness.get_by_label("Coat: booth_3");
     assert!(folder.path().join("coats/booth_3.toml").exists());
+}
+
+#[test]
+fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_own(folder.path());
+    harness.get_by_label_contains("Calibrate the cell first");
+    let cell = folder.path().join("cell.toml");
+    robot::save_calibration(&cell);
+    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
+    press(&mut harness, "Arm: No arm: reach is not checked");
+    press(&mut harness, "ABB IRB 4600-40/2.55");
+    harness.get_by_label_contains("cannot be checked without the nozzle's place");
+    let nozzle = |harness: &WindowHarness, text: Option<&str>| {
+        let field = harness.get_by_role_and_label(Role::TextInput, "Nozzle on the flange");
+        match text {
+            None => field.focus(),
+            Some(text) => field.type_text(text),
+        }
+    };
+    nozzle(&harness, None);
+    harness.run_steps(2);
+    nozzle(&harness, Some("kuka 0 0 250 0 45 0"));
+    settle(&mut harness);
+    let session = |harness: &WindowHarness| harness.state().state().session.program.clone();
+    assert_eq!(session(&harness).nozzle, "kuka 0 0 250 0 45 0");
+    // From where the calibration has it, it does not reach all.
+    harness.get_by_label_contains("ABB IRB 4600-40/2.55 misses");
+    press(&mut harness, "Show next");
+    let file = folder.path().join("paint.mod");
+    let export = |harness: &mut WindowHarness| {
+        let to = file.clone();
+        act_in(harness, |paint: &mut PaintWorkspace, cx| {
+            let chosen = PaintAction::Chosen(PaintFile::Program, to);
+            paint.state_mut().apply(chosen, cx);
+        });
+        settle(harness);
+    };
+    export(&mut harness);
+    assert!(!file.exists());
+    // Without an arm its reach is nobody's business here.
+    press(&mut harness, "Arm: ABB IRB 4600-40/2.55");
+    press(&mut harness, "No arm: reach is not checked");
+    export(&mut harness);
+    let program = std::fs::read_to_string(&file).expect("written");
+    assert!(program.contains("MODULE"), "{program}");
 }

@@ -10,6 +10,7 @@ use partsight::{
         WindowOptions,
         shell::{
             action::Action,
+            program_setup::ProgramSetup,
             robot::{RobotAction, RobotPage},
             session::{RememberedCell, ThemeChoice, WorkspaceKind},
             state::State,
@@ -17,6 +18,7 @@ use partsight::{
         workspaces::{
             enrol::{EnrolAction, EnrolFile, EnrolWorkspace},
             inspect::{InspectFile, ViewPart},
+            paint::{PaintAction, PaintWorkspace},
         },
     },
     geometry::rigid::{RigidTransform, from_euler_zyx},
@@ -423,6 +425,26 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
             .count(),
         6
     );
+    // The file's name says that it is a program.
+    let program = folder.path().join("paint.ls");
+    choose_in_inspect(&mut harness, InspectFile::SprayPath, program.clone());
+    let text = fs::read_to_string(&program).expect("written");
+    assert!(
+        text.starts_with("/PROG") && text.contains("SIMULATED"),
+        "{text}"
+    );
+    // An arm that does not reach it all keeps it from being written, the earlier one too.
+    act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
+        let setup = ProgramSetup {
+            arm: Some("kr6-r900".into()),
+            nozzle: "kuka 0 0 250 0 45 0".into(),
+            ..ProgramSetup::default()
+        };
+        paint.state_mut().apply(PaintAction::SetUp(setup), cx);
+    });
+    choose_in_inspect(&mut harness, InspectFile::SprayPath, program.clone());
+    assert!(!program.exists());
+    harness.get_by_label_contains("No program was written: KUKA KR 6 R900-2 misses");
 
     // Taken back as any change of the library.
     in_enrol(&mut harness, EnrolAction::Undo);

@@ -6,6 +6,7 @@ use std::{
 };
 
 use image::{DynamicImage, ImageFormat};
+use jiff::Timestamp;
 
 use super::{inspected::Inspected, source::Origin};
 use crate::{
@@ -15,6 +16,7 @@ use crate::{
         user_error::UserError,
     },
     files::{file_name, write_atomically},
+    geometry::rigid::RigidTransform,
     report::{
         InspectionLine, ReportError, ReportFolder,
         pose_report::{
@@ -22,7 +24,15 @@ use crate::{
         },
         stage_pictures,
     },
-    robot::{Convention, RobotFrame, spray::SprayExport},
+    robot::{
+        Convention, RobotFrame,
+        arm::PlacedArm,
+        program::{
+            Program, ProgramFormat, ProgramSettings, check_reach, is_stale, is_stale_file,
+            program_points, remove_previous_program,
+        },
+        spray::{CarriedPath, SprayExport},
+    },
 };
 
 /// Writes a picture of a 3-D view as a PNG; says what was written.
@@ -41,12 +51,14 @@ pub(in crate::app) fn picture(path: &Path, shot: &ViewShot) -> Result<String, Us
     ))
 }
 
-/// Writes a spray path for the robot, as CSV or JSON, as `partsight inspect --spray` does; says what was written.
+/// Writes a spray path for the robot, as CSV or JSON, as `partsight inspect --spray` does, or as a program for its
+/// controller, as `--program` does; says what was written.
 pub(in crate::app) fn spray_path(
     path: &Path,
     inspected: &Inspected,
     robot: &RobotFrame,
     convention: Convention,
+    target: Result<ProgramTarget, UserError>,
 ) -> Result<String, UserError> {
     let first = inspected.inspection.ranking.entries.first();
     let part = first.and_then(|first| inspected.library.parts.get(first.reference));
@@ -56,6 +68,35 @@ pub(in crate::app) fn spray_path(
             advice: text!("inspect-no-spray-path-advice"),
         });
     };
+    let is_simulated = inspected.origin.is_simulated() || part.simulated;
+    let pose = inspected
+        .inspection
+        .pose
+        .as_ref()
+        .and_then(|pose| pose.as_ref().ok());
+    if let (Ok(_), Some(pose)) = (ProgramFormat::of(path), pose) {
+        let subject = ProgramSubject {
+            part: part.name.as_str(),
+            scene: Some(&scene_name(&inspected.origin).display().to_string()),
+            camera_from_part: pose.camera_from_part(),
+            is_simulated,
+        };
+        // Of an earlier part there must be no program either.
+        let is_stale = match &inspected.origin {
+            Origin::File { path, .. } => is_stale_file(path),
+            Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => {
+                is_stale(inspected.at.into())
+            }
+        };
+        if is_stale {
+            remove_previous_program(path).map_err(|error| UserError::of(&error))?;
+            return Err(UserError {
+                what: text!("program-stale"),
+                advice: text!("program-stale-advice"),
+            });
+        }
+        return program(path, carried, robot, &target?, &subject);
+    }
     let export = SprayExport {
         path: carried,
         part: part.name.as_str(),
@@ -64,7 +105,7 @@ pub(in crate::app) fn spray_path(
         convention,
         params: &inspected.recipe.stand_off,
         is_stored: true,
-        is_simulated: inspected.origin.is_simulated() || part.simulated,
+        is_simulated,
         at: inspected.at,
     };
     export.save(path).map_err(|error| UserError::of(&error))?;
@@ -74,6 +115,77 @@ pub(in crate::app) fn spray_path(
         inside = carried.num_inside(),
         num = carried.points.len(),
         convention = convention.title()
+    ))
+}
+
+/// What runs a program.
+#[derive(Clone, Debug)]
+pub(in crate::app) struct ProgramTarget {
+    pub settings: ProgramSettings,
+    /// None: its reach is not checked.
+    pub arm: Option<PlacedArm>,
+}
+
+/// Whose program it is.
+pub(in crate::app) struct ProgramSubject<'a> {
+    pub part: &'a str,
+    /// The capture; none for the standard position.
+    pub scene: Option<&'a str>,
+    pub camera_from_part: RigidTransform,
+    pub is_simulated: bool,
+}
+
+/// Writes a carried path as a program for the robot's controller in the language that the file's name ends in; says what
+/// was written. An earlier program of that name is removed first, and nothing is written that the arm does not reach.
+pub(in crate::app) fn program(
+    path: &Path,
+    carried: &CarriedPath,
+    robot: &RobotFrame,
+    target: &ProgramTarget,
+    subject: &ProgramSubject<'_>,
+) -> Result<String, UserError> {
+    let format = ProgramFormat::of(path).map_err(|error| UserError::of(&error))?;
+    remove_previous_program(path).map_err(|error| UserError::of(&error))?;
+    let ProgramTarget { settings, arm } = target;
+    let reach = match arm {
+        Some(arm) => {
+            let reach = check_reach(arm, carried, robot, settings);
+            Some((arm, reach.map_err(|error| UserError::of(&error))?))
+        }
+        None => None,
+    };
+    if let Some((arm, reach)) = &reach
+        && reach.num_reached() < reach.points.len()
+    {
+        return Err(UserError {
+            what: text!(
+                "program-not-reached",
+                arm = &arm.arm.name,
+                missed = reach.points.len() - reach.num_reached(),
+                all = reach.points.len()
+            ),
+            advice: text!("program-not-reached-advice"),
+        });
+    }
+    let points = program_points(carried, robot, reach.as_ref().map(|(_, reach)| reach));
+    let program = Program {
+        points: &points,
+        settings,
+        part: subject.part,
+        scene: subject.scene,
+        robot_from_part: robot.robot_from_part(&subject.camera_from_part),
+        calibration: &robot.name,
+        is_simulated: subject.is_simulated,
+        doubts: &[],
+        at: Timestamp::now(),
+    };
+    let saved = program.save(path, format);
+    saved.map_err(|error| UserError::of(&error))?;
+    Ok(text!(
+        "program-written",
+        path = path.display().to_string(),
+        count = points.len(),
+        format = format.title()
     ))
 }
 

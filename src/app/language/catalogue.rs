@@ -12,7 +12,7 @@ pub(super) type Files = &'static [(&'static str, &'static str)];
 
 macro_rules! files {
     ($language:literal) => {
-        files!($language: "align" "coat" "compare" "enrol" "history" "inspect" "live" "operator" "paint" "results" "robot" "shell" "shots" "view")
+        files!($language: "align" "coat" "compare" "enrol" "history" "inspect" "live" "operator" "paint" "program" "results" "robot" "shell" "shots" "view")
     };
     ($language:literal: $($area:literal)+) => {
         &[$(($area, include_str!(concat!("../../../assets/language/", $language, "/", $area, ".ftl")))),+]

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::{
     notice::Notice,
+    program_setup::ProgramSetup,
     session::{RememberedCell, Source, WorkspaceKind},
 };
 use crate::{
@@ -40,6 +41,8 @@ pub enum Message {
     UseCalibration(RememberedCell, Option<Arc<RobotFrame>>),
     /// Tell the robot poses in these numbers.
     UseConvention(Convention),
+    /// Write robot programs for this arm and gun.
+    UseProgramSetup(ProgramSetup),
     /// Record the source that is followed, or no longer.
     ToggleRecording,
     /// The library was changed: use it, and inspect what was saved, else the scene in front unless another one is being

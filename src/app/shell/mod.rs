@@ -19,6 +19,7 @@ pub mod notice;
 pub(in crate::app) mod notices;
 pub(in crate::app) mod operator_bars;
 pub(in crate::app) mod path_entry;
+pub mod program_setup;
 pub(in crate::app) mod rail;
 pub mod robot;
 pub mod roles;

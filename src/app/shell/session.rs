@@ -8,6 +8,7 @@ use super::{
     current_trace::CurrentTrace,
     live::LiveState,
     message::ReinspectionPurpose,
+    program_setup::ProgramSetup,
     shift::{ShiftParts, ShiftStarts},
 };
 pub use crate::app::ui::theme::ThemeChoice;
@@ -54,6 +55,8 @@ pub struct Session {
     pub recipe: Arc<NamedRecipe>,
     /// In which numbers the robot is told a pose.
     pub convention: Convention,
+    /// The arm and the gun of robot programs.
+    pub program: ProgramSetup,
     /// Where the camera stands in the robot's base frame, if the cell is calibrated.
     pub robot: Option<Arc<RobotFrame>>,
     /// Which calibration of the robot's cell is used.

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     current_trace::CurrentTrace,
     live::LiveState,
+    program_setup::ProgramSetup,
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
     session::{RememberedCell, Session, Source, ThemeChoice, UserRole, WorkspaceKind},
     shift::ShiftStarts,
@@ -55,6 +56,8 @@ pub struct Settings {
     pub language: Option<Language>,
     /// In which numbers the robot is told a pose.
     pub convention: Convention,
+    /// The arm and the gun of robot programs.
+    pub program: ProgramSetup,
     /// The workspace in front.
     pub workspace: WorkspaceKind,
     /// The library chosen in the window; none: the one found as on the command line.
@@ -113,6 +116,7 @@ impl Default for Settings {
             units: UnitSystem::default(),
             language: None,
             convention: Convention::default(),
+            program: ProgramSetup::default(),
             workspace: WorkspaceKind::default(),
             library: None,
             recent: Vec::new(),
@@ -140,6 +144,7 @@ impl Settings {
             units: state.session.units,
             language: state.session.chosen_language,
             convention: state.session.convention,
+            program: state.session.program.clone(),
             workspace: state.session.workspace,
             library: state.session.chosen_library.clone(),
             recent: state.session.recent.clone(),
@@ -182,6 +187,7 @@ impl Settings {
             && self.units == state.session.units
             && self.language == state.session.chosen_language
             && self.convention == state.session.convention
+            && self.program == state.session.program
             && self.workspace == state.session.workspace
             && self.library == state.session.chosen_library
             && self.recent == state.session.recent
@@ -209,6 +215,7 @@ impl Settings {
                 _ => self.workspace,
             },
             convention: self.convention,
+            program: self.program,
             chosen_library: self.library,
             recent: self.recent,
             source: match self.source {

@@ -107,6 +107,7 @@ impl Window {
             Message::UseConvention(convention) => {
                 self.act(Action::UseConvention(convention), ctx);
             }
+            Message::UseProgramSetup(setup) => self.state.session.program = setup,
             Message::ToggleRecording => {
                 self.act(Action::Live(LiveAction::ToggleRecording), ctx);
             }

@@ -1,9 +1,6 @@
 //! `partsight inspect --program`: the part's spray path as a program for the robot's controller.
 
-use std::{
-    path::{Path, PathBuf},
-    time::{Duration, SystemTime},
-};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -17,13 +14,10 @@ use crate::{
     library::{LibraryLoad, LibraryPlace, PartName},
     robot::{
         RobotFrame,
-        program::{ProgramFormat, remove_previous_program},
+        program::{ProgramFormat, is_stale_file, remove_previous_program},
         spray::carry,
     },
 };
-
-/// After this long the part may hang elsewhere.
-const STALE: Duration = Duration::from_mins(10);
 
 /// Whether and how a program is written.
 #[derive(Debug, Args)]
@@ -111,7 +105,7 @@ impl CapturedProgram {
         if !inspection.verdict.is_accepted() {
             doubts.push("the part was not accepted".to_owned());
         }
-        if is_stale(Path::new(seen.scene)) {
+        if is_stale_file(Path::new(seen.scene)) {
             doubts.push("the capture is more than 10 minutes old".to_owned());
         }
         let subject = ProgramSubject {
@@ -122,14 +116,4 @@ impl CapturedProgram {
         };
         self.file.write(&carried, &subject, frame, doubts, console)
     }
-}
-
-/// True of a file that was not written lately.
-fn is_stale(scene: &Path) -> bool {
-    let changed = scene.metadata().and_then(|meta| meta.modified());
-    changed.is_ok_and(|at| {
-        SystemTime::now()
-            .duration_since(at)
-            .is_ok_and(|age| age > STALE)
-    })
 }

@@ -14,10 +14,8 @@ use crate::{
     library::PartName,
     robot::{
         WrittenPose,
-        arm::{
-            Arm, ArmPoint, CheckParams, PlacedArm, PointProblem, check_path, suggest_base,
-            suggest_rail,
-        },
+        arm::{Arm, CheckParams, PlacedArm, suggest_base, suggest_rail},
+        program::{ProgramSettings, arm_points, check_reach},
         spray::carry,
     },
     stages::{reference::ReferenceParams, stand_off::StandOffParams},
@@ -76,19 +74,18 @@ pub(super) fn run(
         &reference.cloud,
         &StandOffParams::default(),
     );
-    let points = carried.points.iter().map(|point| ArmPoint {
-        robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
-        speed: point.speed.unwrap_or(args.speed / 1000.0),
-        is_turn_free: point.is_round,
-    });
-    let points: Vec<ArmPoint> = points.collect();
+    let settings = ProgramSettings {
+        speed: args.speed / 1000.0,
+        ..ProgramSettings::default()
+    };
+    let points = arm_points(&carried, &frame, settings.speed);
     let placed = PlacedArm {
         arm,
         robot_from_base: args.base.as_ref().map_or(standard, |base| base.pose),
         flange_from_nozzle: args.nozzle.pose,
     };
     let params = CheckParams::default();
-    let found = check_path(&placed, &points, &params).advised()?;
+    let found = check_reach(&placed, &carried, &frame, &settings).advised()?;
     let (num, all) = (found.num_reached(), points.len());
     let (mut base, mut rail) = (None, None);
     if num < all {
@@ -98,7 +95,7 @@ pub(super) fn run(
     if args.json {
         let listed = found.points.iter().enumerate().map(|(i, point)| {
             let joints = point.joints.map(|joints| joints.map(f64::to_degrees));
-            let problem = point.problem.map(|problem| in_words(&problem));
+            let problem = point.problem.map(|problem| problem.describe());
             json!({"index": i + 1, "joints_deg": joints, "turn_deg": point.turn.to_degrees(), "problem": problem})
         });
         let line = json!({
@@ -118,7 +115,7 @@ pub(super) fn run(
         ));
         for (i, point) in found.points.iter().enumerate() {
             if let Some(problem) = &point.problem {
-                console.line(&format_args!("  point {}: {}", i + 1, in_words(problem)));
+                console.line(&format_args!("  point {}: {}", i + 1, problem.describe()));
             }
         }
         if let Some(place) = base {
@@ -140,21 +137,4 @@ pub(super) fn run(
     } else {
         Outcome::NotAccepted
     })
-}
-
-fn in_words(problem: &PointProblem) -> String {
-    match problem {
-        PointProblem::OutOfReach => "out of reach".into(),
-        PointProblem::JointLimit { joint, angle } => {
-            format!("joint {joint} would need {:.0} degrees", angle.to_degrees())
-        }
-        PointProblem::NearSingularity(which) => format!("near a singularity: {}", which.name()),
-        PointProblem::TooFast { joint, speed } => {
-            format!(
-                "joint {joint} would need {:.0} degrees/s",
-                speed.to_degrees()
-            )
-        }
-        PointProblem::ConfigurationChange => "the arm would have to fold over".into(),
-    }
 }

@@ -64,6 +64,26 @@ pub enum PointProblem {
     ConfigurationChange,
 }
 
+impl PointProblem {
+    /// In words, without the point.
+    pub fn describe(&self) -> String {
+        match self {
+            Self::OutOfReach => "out of reach".into(),
+            Self::JointLimit { joint, angle } => {
+                format!("joint {joint} would need {:.0} degrees", angle.to_degrees())
+            }
+            Self::NearSingularity(which) => format!("near a singularity: {}", which.name()),
+            Self::TooFast { joint, speed } => {
+                format!(
+                    "joint {joint} would need {:.0} degrees/s",
+                    speed.to_degrees()
+                )
+            }
+            Self::ConfigurationChange => "the arm would have to fold over".into(),
+        }
+    }
+}
+
 /// One point of a check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointCheck {
@@ -89,6 +109,12 @@ impl PathCheck {
             .iter()
             .filter(|point| point.problem.is_none())
             .count()
+    }
+
+    /// Why no program should be written for this arm, in words; none if it reaches every point.
+    pub fn doubt(&self, arm: &str) -> Option<String> {
+        let (num, all) = (self.num_reached(), self.points.len());
+        (num < all).then(|| format!("{arm} reaches {num} of {all} points"))
     }
 }
 

@@ -21,6 +21,7 @@ mod error;
 mod jbi;
 mod krl;
 mod ls;
+mod prepare;
 mod rapid;
 mod steps;
 mod text;
@@ -41,7 +42,10 @@ use crate::{
     units::Metres,
 };
 
-pub use self::error::ProgramError;
+pub use self::{
+    error::ProgramError,
+    prepare::{arm_points, check_reach, is_stale, is_stale_file, program_points},
+};
 
 /// A controller's language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +63,9 @@ pub enum ProgramFormat {
     /// Doosan Robot Language.
     Drl,
 }
+
+/// How the files of all formats end, without the point.
+pub const PROGRAM_ENDINGS: [&str; 6] = ["src", "ls", "mod", "script", "jbi", "drl"];
 
 /// One place of the nozzle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -165,12 +172,12 @@ impl ProgramFormat {
     /// How its files end, without the point.
     pub fn ending(self) -> &'static str {
         match self {
-            Self::Krl => "src",
-            Self::Ls => "ls",
-            Self::Rapid => "mod",
-            Self::UrScript => "script",
-            Self::Jbi => "jbi",
-            Self::Drl => "drl",
+            Self::Krl => PROGRAM_ENDINGS[0],
+            Self::Ls => PROGRAM_ENDINGS[1],
+            Self::Rapid => PROGRAM_ENDINGS[2],
+            Self::UrScript => PROGRAM_ENDINGS[3],
+            Self::Jbi => PROGRAM_ENDINGS[4],
+            Self::Drl => PROGRAM_ENDINGS[5],
         }
     }
 

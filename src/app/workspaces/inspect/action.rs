@@ -7,7 +7,10 @@ use crate::{
     app::{
         inspection::figures::StagePanel,
         language::text,
-        shell::file_dialog::{FileChoice, FileRequest},
+        shell::{
+            file_dialog::{FileChoice, FileRequest},
+            program_setup::program_files,
+        },
         shots::{ShotsAction, ShotsFile},
         ui::viewport::Colouring,
     },
@@ -73,7 +76,11 @@ impl InspectFile {
             },
             Self::SprayPath => FileRequest {
                 title: text!("inspect-export-path-title"),
-                filters: vec![(text!("inspect-csv"), &["csv"]), ("JSON".into(), &["json"])],
+                filters: vec![
+                    (text!("inspect-csv"), &["csv"]),
+                    ("JSON".into(), &["json"]),
+                    program_files(),
+                ],
                 choice: FileChoice::NewFile("spray-path.csv"),
             },
             Self::Shots(file) => file.request(),

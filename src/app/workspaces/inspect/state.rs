@@ -355,10 +355,11 @@ impl InspectState {
         if inspected.spray.is_none() {
             return;
         }
-        let convention = cx.session.convention;
+        let (convention, setup) = (cx.session.convention, cx.session.program.clone());
         self.writing.start(text!("inspect-writing-path"), move |_| {
+            let target = setup.target();
             Ok(report_files::spray_path(
-                &path, &inspected, &robot, convention,
+                &path, &inspected, &robot, convention, target,
             )?)
         });
     }

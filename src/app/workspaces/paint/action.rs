@@ -6,11 +6,15 @@ use super::region::PaintTool;
 use crate::{
     app::{
         language::text,
-        shell::file_dialog::{FileChoice, FileRequest},
+        shell::{
+            file_dialog::{FileChoice, FileRequest, all_files},
+            program_setup::{ProgramSetup, program_file_name, program_files},
+        },
         ui::parameter_control::ParameterChange,
     },
     library::PartName,
     paint::{KeepOut, PathEdit},
+    robot::Convention,
 };
 
 /// Something that happened in the workspace.
@@ -48,7 +52,11 @@ pub enum PaintAction {
     Store,
     /// Colour the part by the film, or by its shape alone.
     ToggleFilm,
-    /// Have a person choose where a file goes.
+    /// Write robot programs for this arm and gun.
+    SetUp(ProgramSetup),
+    /// To the next point that the arm does not reach.
+    ShowUnreached,
+    /// Have a person choose a file.
     Ask(PaintFile),
     /// A person chose it.
     Chosen(PaintFile, PathBuf),
@@ -77,11 +85,26 @@ pub enum ShownPath {
 pub enum PaintFile {
     /// Where the path is written to as a table.
     Table,
+    /// Where it is written to as a robot program.
+    Program,
+    /// The arm, as a TOML file.
+    Arm,
 }
 
 impl PaintFile {
-    pub(super) fn request(self) -> FileRequest {
+    /// What is asked; a program is called as the robot of `convention` has its files.
+    pub(super) fn request(self, convention: Convention) -> FileRequest {
         match self {
+            Self::Program => FileRequest {
+                title: text!("paint-program-title"),
+                filters: vec![program_files()],
+                choice: FileChoice::NewFile(program_file_name(convention)),
+            },
+            Self::Arm => FileRequest {
+                title: text!("paint-arm-title"),
+                filters: vec![("TOML".into(), &["toml"]), all_files()],
+                choice: FileChoice::File,
+            },
             Self::Table => FileRequest {
                 title: text!("paint-export-title"),
                 filters: vec![(text!("paint-csv-files"), &["csv"])],

@@ -6,6 +6,7 @@
 //! view      the part by its film, rows, the gun   region: what is drawn becomes a region
 //! timeline  the path over time                    course: when the gun is where
 //! state     what is shown, asked for and stored   work: plan, simulate, store
+//! robot     arm and gun of its programs           reach: which points the arm reaches, and the program
 //! design    what is painted how, and its undo     coats: chosen, changed, saved; playback: the place in time
 //! ```
 
@@ -14,7 +15,9 @@ mod coats;
 mod course;
 mod design;
 mod playback;
+mod reach;
 mod region;
+mod robot;
 mod side;
 mod state;
 mod timeline;
@@ -32,6 +35,7 @@ pub use self::{
     course::{GunCourse, GunState},
     design::Design,
     playback::Playback,
+    reach::Reach,
     region::{EditKind, PaintTool, RegionUse},
     state::PaintState,
     work::Planned,

@@ -7,6 +7,7 @@ use egui::{
 
 use super::{
     action::{PaintAction, PaintFile, ShownPath},
+    robot,
     state::PaintState,
     work::Planned,
 };
@@ -27,7 +28,7 @@ use crate::{
 };
 
 /// Letters of a part's title on its menu.
-const TITLE: usize = 26;
+pub(super) const TITLE: usize = 26;
 /// The share of the film within its tolerance from which a path is good, as `partsight path plan` has it.
 const GOOD: f64 = 0.9;
 
@@ -63,11 +64,14 @@ pub(super) fn ui(
                 ui.set_max_width(ui.available_width() - 8.0);
                 coat(ui, paint, theme, actions);
                 if let Some(planned) = &paint.planned {
-                    if paint.is_old(session) {
-                        ui.multiply_opacity(0.55);
-                    }
-                    check(ui, planned, theme);
+                    ui.scope(|ui| {
+                        if paint.is_old(session) {
+                            ui.multiply_opacity(0.55);
+                        }
+                        check(ui, planned, theme);
+                    });
                 }
+                robot::ui(ui, paint, session, theme, actions);
             });
     });
 }
@@ -367,17 +371,20 @@ fn buttons(
     let is_ready = paint.planned.is_some() && !paint.is_old(session);
     let half = (ui.available_width() - space::SMALL) / 2.0;
     ui.horizontal(|ui| {
-        let can = paint.planned.is_some() || paint.failed.is_some();
-        let propose = button(ui, &text!("paint-propose"), can, half, None);
-        if propose.on_hover_text(text!("paint-propose-hint")).clicked() {
-            actions.push(PaintAction::Propose);
-        }
         let export = button(ui, &text!("paint-export"), is_ready, half, None);
         if export.on_hover_text(text!("paint-export-hint")).clicked() {
             actions.push(PaintAction::Ask(PaintFile::Table));
         }
+        let can = is_ready && session.robot.is_some();
+        let program = button(ui, &text!("paint-export-program"), can, half, None);
+        let program = program
+            .on_hover_text(text!("paint-export-program-hint"))
+            .on_disabled_hover_text(text!("paint-not-calibrated"));
+        if program.clicked() {
+            actions.push(PaintAction::Ask(PaintFile::Program));
+        }
     });
-    let store = text!("paint-store");
+    let store = text!("paint-store-short");
     let fixed = session
         .library
         .as_ref()
@@ -387,10 +394,18 @@ fn buttons(
         .as_ref()
         .is_some_and(|planned| planned.is_stored);
     let can = is_ready && fixed.is_none() && !paint.is_storing() && !is_stored;
-    let width = ui.available_width();
-    let response = ui
-        .vertical_centered(|ui| button(ui, &store, can, width, Some(theme)))
-        .inner;
+    let can_propose = paint.planned.is_some() || paint.failed.is_some();
+    let response = ui.horizontal(|ui| {
+        let propose = button(ui, &text!("paint-propose"), can_propose, half, None);
+        if propose.on_hover_text(text!("paint-propose-hint")).clicked() {
+            actions.push(PaintAction::Propose);
+        }
+        button(ui, &store, can, half, Some(theme))
+    });
+    let response = response.inner;
+    // There is no room for all of it.
+    let whole = text!("paint-store");
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, &whole));
     let reason = match (fixed, is_stored) {
         (Some(fixed), _) => format!("{}\n{}", fixed.what, fixed.advice),
         (None, true) => text!("paint-is-stored"),

@@ -6,6 +6,7 @@ use super::{
     action::{PaintAction, PaintFile, ShownPath},
     design::{Design, Step, UndoDirection, UndoStack},
     playback::Playback,
+    reach::{Reach, ReachRequest},
     region::PaintTool,
     work::{self, PaintResult, Planned, Request},
 };
@@ -18,6 +19,7 @@ use crate::{
             file_dialog::FileDialog,
             message::{Event, Message},
             notice::Notice,
+            program_setup::ProgramSetup,
             session::{Session, WorkspaceKind},
         },
         task::{Running, Task, TaskEvent, TaskRunner},
@@ -58,7 +60,11 @@ pub struct PaintState {
     storing: Task<PaintResult>,
     /// What is being stored, and which way.
     pending: Option<(UndoDirection, Step)>,
-    writing: Task<PathBuf>,
+    pub(super) reach: Option<Result<Arc<Reach>, UserError>>,
+    pub(super) reach_asked: Option<ReachRequest>,
+    pub(super) reach_task: Task<Arc<Reach>>,
+    /// It says what was written.
+    pub(super) writing: Task<String>,
     dialog: FileDialog<PaintFile>,
 }
 
@@ -89,6 +95,9 @@ impl PaintState {
             task: Task::new("paint", runner),
             storing: Task::new("paint-store", runner),
             pending: None,
+            reach: None,
+            reach_asked: None,
+            reach_task: Task::new("paint-reach", runner),
             writing: Task::new("paint-write", runner),
             dialog: FileDialog::default(),
         }
@@ -96,7 +105,8 @@ impl PaintState {
 
     /// The run that plans or stores, if any.
     pub fn running(&self) -> Option<&Running> {
-        self.task.running().or_else(|| self.storing.running())
+        let own = self.task.running().or_else(|| self.storing.running());
+        own.or_else(|| self.reach_task.running())
     }
 
     /// True while a path is being stored.
@@ -128,6 +138,7 @@ impl PaintState {
     /// Stops planning; what was shown stays.
     pub fn cancel(&mut self) {
         self.task.cancel();
+        self.reach_task.cancel();
     }
 
     /// True while what is shown is not what was asked for last.
@@ -139,7 +150,9 @@ impl PaintState {
     /// True if nothing is at work, nor waits for the next frame to begin.
     pub(super) fn is_idle(&self, session: &Session) -> bool {
         let is_front = session.workspace == WorkspaceKind::Paint;
-        let is_waiting = is_front && self.request(session) != self.asked;
+        let is_waiting = is_front
+            && (self.request(session) != self.asked
+                || self.reach_request(session) != self.reach_asked);
         !is_waiting && self.running().is_none() && self.writing().is_none()
     }
 
@@ -216,9 +229,19 @@ impl PaintState {
             PaintAction::ToggleFilm => self.is_film_shown = !self.is_film_shown,
             PaintAction::Ask(file) => {
                 let lock = &cx.services.dialogs;
-                self.dialog.open(file, &file.request(), lock, cx.egui);
+                let request = file.request(cx.session.convention);
+                self.dialog.open(file, &request, lock, cx.egui);
             }
             PaintAction::Chosen(PaintFile::Table, file) => self.write_table(file),
+            PaintAction::Chosen(PaintFile::Program, file) => self.export_program(file, cx),
+            PaintAction::Chosen(PaintFile::Arm, file) => {
+                cx.send(Message::UseProgramSetup(ProgramSetup {
+                    arm: Some(file.display().to_string()),
+                    ..cx.session.program.clone()
+                }));
+            }
+            PaintAction::SetUp(setup) => cx.send(Message::UseProgramSetup(setup)),
+            PaintAction::ShowUnreached => self.show_unreached(cx.session),
             PaintAction::Scrub(time) => {
                 self.playback = Playback::Paused;
                 self.go_to(time);
@@ -264,7 +287,7 @@ impl PaintState {
         };
         let title = text!("paint-writing", file = file_name(&file));
         self.writing
-            .start(title, move |_| Ok(work::write(file, &planned.path)?));
+            .start(title, move |_| Ok(work::write(&file, &planned.path)?));
     }
 
     /// What is asked for now, if there is a part.
@@ -321,12 +344,11 @@ impl PaintState {
             None => {}
         }
         match self.writing.poll() {
-            Some(TaskEvent::Done(path)) => {
-                let path = path.display().to_string();
-                cx.notify(Notice::done(text!("paint-wrote", path = path)));
+            Some(TaskEvent::Done(what) | TaskEvent::Partial(what)) => {
+                cx.notify(Notice::done(what));
             }
             Some(TaskEvent::Failed(error)) => cx.notify(error),
-            Some(TaskEvent::Partial(_)) | None => {}
+            None => {}
         }
         match self.dialog.poll() {
             Some((file, Ok(path))) => self.apply(PaintAction::Chosen(file, path), cx),
@@ -340,6 +362,7 @@ impl PaintState {
         if is_front && self.request(cx.session) != self.asked {
             self.plan(false, cx);
         }
+        self.update_reach(cx);
     }
 
     /// Handles an event of the shell.

@@ -322,9 +322,13 @@ impl PaintView {
             .clone()
             .map(|marks| marks.coloured(Colouring::Segment));
         let gun = self.gun(planned, paint.time, session);
+        let mut lines = vec![planned.lines.clone(), gun.lines];
+        if let Some(Ok(reach)) = paint.reach(session) {
+            lines.push(reach.lines.clone());
+        }
         ViewScene {
             points: vec![planned.points.clone(), on, off],
-            lines: vec![planned.lines.clone(), gun.lines],
+            lines,
             labels: vec![gun.label],
         }
     }

@@ -1,13 +1,13 @@
 //! What the workspace's tasks do: plan a path, simulate its film, store it.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{path::Path, sync::Arc};
 
 use glam::Vec3;
 
 use super::{action::ShownPath, course::GunCourse};
 use crate::{
     app::{
-        inspection::library_cache::{LibraryCache, LibraryView},
+        inspection::library_cache::{LibraryCache, LibraryView, LoadedLibrary},
         language::text,
         task::{TaskContext, TaskError},
         ui::viewport::{Line, LineSet, PointSet, Role},
@@ -16,6 +16,7 @@ use crate::{
     files::write_atomically,
     library::{PartName, SprayCheck, SprayPath},
     paint::{Coat, Film, KeepOut, PaintSurface, PathEdit, edited, plan, propose, simulate},
+    stages::reference::Reference,
 };
 
 /// What a path is planned of.
@@ -73,6 +74,19 @@ pub(super) enum PaintResult {
     },
 }
 
+/// A part of the library, and its place there.
+pub(super) fn enrolled<'a>(
+    loaded: &'a LoadedLibrary,
+    part: &PartName,
+) -> Result<(usize, &'a Reference), UserError> {
+    let place = loaded.shown.place_of(part.as_str());
+    let found = place.and_then(|place| Some((place, loaded.library.references.get(place)?)));
+    found.ok_or_else(|| UserError {
+        what: text!("paint-no-such-part", part = part.as_str()),
+        advice: text!("paint-no-such-part-advice"),
+    })
+}
+
 /// Plans or reads a path, and simulates its film.
 pub(super) fn planned(
     request: &Request,
@@ -81,15 +95,7 @@ pub(super) fn planned(
     context: &TaskContext<PaintResult>,
 ) -> Result<PaintResult, TaskError> {
     let loaded = library_cache.get();
-    let place = loaded.shown.place_of(request.part.as_str());
-    let reference = place.and_then(|place| Some((place, loaded.library.references.get(place)?)));
-    let Some((place, reference)) = reference else {
-        return Err(UserError {
-            what: text!("paint-no-such-part", part = request.part.as_str()),
-            advice: text!("paint-no-such-part-advice"),
-        }
-        .into());
-    };
+    let (place, reference) = enrolled(&loaded, &request.part)?;
     let (coat, regions) = (&request.coat, &request.regions);
     let coverage = loaded.shown.parts[place].coverage;
     let surface = PaintSurface::of(reference, coverage).map_err(|error| UserError::of(&error))?;
@@ -229,10 +235,10 @@ pub(super) fn store(
     })
 }
 
-/// Writes a path as a table, whole or not at all.
-pub(super) fn write(file: PathBuf, path: &SprayPath) -> Result<PathBuf, UserError> {
+/// Writes a path as a table, whole or not at all; says what was written.
+pub(super) fn write(file: &Path, path: &SprayPath) -> Result<String, UserError> {
     let text = path.to_text();
-    write_atomically(&file, |to| to.write_all(text.as_bytes()))
+    write_atomically(file, |to| to.write_all(text.as_bytes()))
         .map_err(|error| UserError::of(&error))?;
-    Ok(file)
+    Ok(text!("paint-wrote", path = file.display().to_string()))
 }

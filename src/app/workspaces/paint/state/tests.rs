@@ -1,3 +1,5 @@
+use std::f64::consts::FRAC_PI_2;
+
 use super::*;
 use crate::{
     app::{
@@ -6,9 +8,11 @@ use crate::{
         ui::parameter_control::ParameterChange,
         workspaces::paint::RegionUse,
     },
+    geometry::rigid::from_euler_zyx,
     kit::copy_library,
     library::LibraryFolder,
     paint::{KeepOut, PathEdit},
+    robot::RobotFrame,
 };
 
 /// The workspace in front, without a window; its tasks run when the test says so.
@@ -43,7 +47,11 @@ impl Bench {
     /// What the window does between frames, with all work done.
     fn settle(&mut self) {
         self.paint.update(&mut self.shell.context());
-        while self.paint.task.run_waiting() || self.paint.storing.run_waiting() {
+        while self.paint.task.run_waiting()
+            || self.paint.storing.run_waiting()
+            || self.paint.reach_task.run_waiting()
+            || self.paint.writing.run_waiting()
+        {
             self.paint.update(&mut self.shell.context());
             let library = self.shell.services.library_cache.get();
             self.shell.session.library = Some(Arc::clone(&library.shown));
@@ -62,6 +70,26 @@ impl Bench {
 
     fn set(&mut self, key: &'static str, value: f64) {
         self.run(PaintAction::Change(key, ParameterChange::Set(value)));
+    }
+
+    /// The cell is calibrated: the camera looks along x of the robot's base from above it, this high.
+    fn calibrate(&mut self, height: f64) {
+        let robot_from_camera = from_euler_zyx([-FRAC_PI_2, 0.0, -FRAC_PI_2, 0.0, 0.0, height]);
+        self.shell.session.robot = Some(Arc::new(RobotFrame {
+            robot_from_camera,
+            name: "cell".into(),
+        }));
+        self.shell.session.program = ProgramSetup {
+            arm: Some("irb4600".into()),
+            nozzle: "kuka 0 0 250 0 -45 0".into(),
+            ..ProgramSetup::default()
+        };
+        self.settle();
+    }
+
+    fn reached(&self) -> Arc<Reach> {
+        let reach = self.paint.reach(&self.shell.session).expect("checked");
+        Arc::clone(reach.as_ref().expect("an arm"))
     }
 
     fn stored(&self) -> Option<SprayPath> {
@@ -269,4 +297,72 @@ fn escape_gives_the_drag_back_to_the_view() {
     let Bench { paint, shell, .. } = &mut bench;
     paint.on_event(&Event::Escape, &shell.context());
     assert_eq!(bench.paint.tool, PaintTool::Look);
+}
+
+#[test]
+fn what_the_arm_does_not_reach_is_named_shown_and_never_exported() {
+    let mut bench = Bench::new();
+    // Neither an arm nor a calibration: nothing to say.
+    assert!(bench.paint.reach(&bench.shell.session).is_none());
+    bench.calibrate(1.2);
+    let reach = bench.reached();
+    let all = bench.planned().path.points().len();
+    assert_eq!(reach.check.points.len(), all);
+    assert_eq!(reach.check.num_reached(), all, "{:?}", reach.reasons());
+    let file = bench.data.path().join("paint.src");
+    bench.run(PaintAction::Chosen(PaintFile::Program, file.clone()));
+    let text = std::fs::read_to_string(&file).expect("written");
+    assert!(
+        text.contains("fender") && text.contains("SIMULATED"),
+        "{text}"
+    );
+    // The part hangs too high.
+    bench.calibrate(2.0);
+    let reach = bench.reached();
+    let missed = all - reach.check.num_reached();
+    assert!(missed > 0);
+    let reasons = reach.reasons();
+    assert_eq!(reasons.iter().map(|(_, num)| num).sum::<usize>(), missed);
+    bench.run(PaintAction::Scrub(0.0));
+    bench.run(PaintAction::ShowUnreached);
+    let (course, time) = (&bench.planned().course, bench.paint.time);
+    let shown = course
+        .seconds
+        .iter()
+        .position(|at| (at - time).abs() < 1e-9);
+    let shown = shown.expect("a point of the path");
+    assert!(reach.check.points[shown].problem.is_some());
+    // No earlier program may be run for it.
+    bench.run(PaintAction::Chosen(PaintFile::Program, file.clone()));
+    assert!(!file.exists());
+    let notices = bench.shell.notices();
+    assert!(
+        notices
+            .last()
+            .is_some_and(|n| n.contains("No program was written"))
+    );
+}
+
+#[test]
+fn an_arm_without_its_nozzle_says_what_is_missing() {
+    let mut bench = Bench::new();
+    bench.calibrate(1.2);
+    bench.shell.session.program.nozzle = "kuka 0 0".into();
+    bench.settle();
+    for nozzle in ["kuka 0 0", "", "thing 1 2 3 4 5 6"] {
+        bench.shell.session.program.nozzle = nozzle.into();
+        bench.settle();
+        let session = &bench.shell.session;
+        let reach = bench.paint.reach(session).expect("an answer");
+        let error = reach.as_ref().expect_err("no nozzle");
+        assert!(
+            !error.what.is_empty() && !error.advice.is_empty(),
+            "{nozzle}"
+        );
+    }
+    bench.shell.session.program.arm = Some("no_such.toml".into());
+    bench.shell.session.program.nozzle = "kuka 0 0 250 0 -45 0".into();
+    bench.settle();
+    let reach = bench.paint.reach(&bench.shell.session);
+    assert!(reach.is_some_and(Result::is_err));
 }

@@ -1,0 +1,9 @@
+## Robot programs
+program-files = Roboterprogramme
+program-no-nozzle = Ohne die Lage der Düse am Flansch lässt sich die Reichweite nicht prüfen
+program-no-nozzle-advice = In Lackieren unter dem Arm eintragen oder keinen Arm wählen
+program-stale = Kein Programm geschrieben: Die Aufnahme ist älter als 10 Minuten
+program-stale-advice = Das Teil neu aufnehmen
+program-not-reached = Kein Programm geschrieben: { $arm } erreicht { $missed } von { $all } Punkten nicht
+program-not-reached-advice = Das Teil oder den Fuß des Arms versetzen oder die Bahn ändern
+program-written = { $path } geschrieben: { $count } Punkte als { $format }

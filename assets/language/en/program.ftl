@@ -1,0 +1,9 @@
+## Robot programs
+program-files = Robot programs
+program-no-nozzle = The arm's reach cannot be checked without the nozzle's place on the flange
+program-no-nozzle-advice = Write it in Paint, below the arm, or choose no arm
+program-stale = No program was written: the capture is more than 10 minutes old
+program-stale-advice = Capture the part again
+program-not-reached = No program was written: { $arm } misses { $missed } of { $all } points
+program-not-reached-advice = Move the part or the arm's base, or change the path
+program-written = Wrote { $path }: { $count } points as { $format }

@@ -1,0 +1,9 @@
+## Robot programs
+program-files = Programas de robot
+program-no-nozzle = Sin el lugar de la boquilla en la brida no se puede comprobar el alcance
+program-no-nozzle-advice = Escríbalo en Pintar, debajo del brazo, o no elija brazo
+program-stale = No se escribió ningún programa: la captura tiene más de 10 minutos
+program-stale-advice = Capture la pieza de nuevo
+program-not-reached = No se escribió ningún programa: { $arm } no alcanza { $missed } de { $all } puntos
+program-not-reached-advice = Mueva la pieza o la base del brazo, o cambie la trayectoria
+program-written = Escrito { $path }: { $count } puntos en { $format }

@@ -1,0 +1,9 @@
+## Robot programs
+program-files = 机器人程序
+program-no-nozzle = 没有喷嘴在法兰上的位置，无法检查可达范围
+program-no-nozzle-advice = 请在“喷涂”中机械臂下方填写，或不选机械臂
+program-stale = 未写出程序：采集已超过 10 分钟
+program-stale-advice = 请重新采集零件
+program-not-reached = 未写出程序：{ $arm } 有 { $missed } 个点不可达，共 { $all } 个
+program-not-reached-advice = 请移动零件或机械臂底座，或修改轨迹
+program-written = 已写出 { $path }：{ $count } 个点，{ $format }

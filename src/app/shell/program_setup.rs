@@ -1,0 +1,123 @@
+//! The arm, the nozzle and the gun that robot programs are written for.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::file_dialog::FileFilter;
+use crate::{
+    app::{inspection::report_files::ProgramTarget, language::text, user_error::UserError},
+    geometry::rigid::RigidTransform,
+    robot::{
+        Convention,
+        arm::{Arm, PlacedArm},
+        parse_written_pose,
+        program::{PROGRAM_ENDINGS, ProgramFormat, ProgramSettings},
+    },
+    units::Metres,
+};
+
+/// What a person set up for robot programs; remembered with the settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ProgramSetup {
+    /// The arm, by its name or as a TOML file; none: reach is not checked.
+    pub arm: Option<String>,
+    /// Where the nozzle is on the flange, as a person wrote it: `kuka X Y Z A B C`, or the 16 numbers of a matrix.
+    pub nozzle: String,
+    /// The tool on the controller; empty: the controller's first.
+    pub tool: String,
+    /// Number of the digital output that opens the gun.
+    pub gun_output: u16,
+    /// Speed where the path sets none, mm/s.
+    pub speed_mm_s: f64,
+    /// How far before the first and behind the last point the program begins and ends, 10..1000 mm.
+    pub approach_mm: f64,
+    /// Radius within which the robot may cut corners, 0..100 mm.
+    pub blend_mm: f64,
+}
+
+impl Default for ProgramSetup {
+    fn default() -> Self {
+        let settings = ProgramSettings::default();
+        Self {
+            arm: None,
+            nozzle: String::new(),
+            tool: String::new(),
+            gun_output: settings.gun_output,
+            speed_mm_s: 1000.0 * settings.speed,
+            approach_mm: settings.approach.mm(),
+            blend_mm: settings.blend.mm(),
+        }
+    }
+}
+
+impl ProgramSetup {
+    /// What the arm is called; that of a file by the file.
+    pub fn arm_title(&self) -> Option<String> {
+        let arm = self.arm.as_deref()?;
+        let file = Path::new(arm).file_name();
+        Some(match Arm::named(arm) {
+            Ok(arm) => arm.name,
+            Err(_) => file.map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+        })
+    }
+
+    /// Where the nozzle is on the flange; none where nothing was written.
+    fn flange_from_nozzle(&self) -> Result<Option<RigidTransform>, UserError> {
+        if self.nozzle.trim().is_empty() {
+            return Ok(None);
+        }
+        let written = parse_written_pose(&self.nozzle);
+        let written = written.map_err(|error| UserError::of(&error))?;
+        Ok(Some(written.pose))
+    }
+
+    /// Tool and gun of a program, and the arm whose reach is checked: its base is where the calibration has the robot's.
+    pub(in crate::app) fn target(&self) -> Result<ProgramTarget, UserError> {
+        let tool = self.tool.trim();
+        let flange_from_nozzle = self.flange_from_nozzle()?;
+        let arm = match (&self.arm, flange_from_nozzle) {
+            (None, _) => None,
+            (Some(_), None) => {
+                return Err(UserError {
+                    what: text!("program-no-nozzle"),
+                    advice: text!("program-no-nozzle-advice"),
+                });
+            }
+            (Some(name), Some(flange_from_nozzle)) => Some(PlacedArm {
+                arm: Arm::named(name).map_err(|error| UserError::of(&error))?,
+                robot_from_base: RigidTransform::identity(),
+                flange_from_nozzle,
+            }),
+        };
+        let settings = ProgramSettings {
+            tool: (!tool.is_empty()).then(|| tool.to_owned()),
+            flange_from_nozzle,
+            gun_output: self.gun_output,
+            speed: self.speed_mm_s / 1000.0,
+            approach: Metres::from_mm(self.approach_mm),
+            blend: Metres::from_mm(self.blend_mm),
+        };
+        Ok(ProgramTarget { settings, arm })
+    }
+}
+
+/// A filter for robot programs, for a file dialog.
+pub(in crate::app) fn program_files() -> FileFilter {
+    (text!("program-files"), &PROGRAM_ENDINGS)
+}
+
+/// What a program is called unless a person writes another name: in the language of the robot whose numbers are in use.
+pub(in crate::app) fn program_file_name(convention: Convention) -> &'static str {
+    let all = ProgramFormat::ALL.into_iter();
+    let mut all = all.filter(|format| format.convention() == convention);
+    match all.next().unwrap_or(ProgramFormat::Krl) {
+        ProgramFormat::Krl => "paint.src",
+        ProgramFormat::Ls => "paint.ls",
+        ProgramFormat::Rapid => "paint.mod",
+        ProgramFormat::UrScript => "paint.script",
+        ProgramFormat::Jbi => "paint.jbi",
+        ProgramFormat::Drl => "paint.drl",
+    }
+}

@@ -1,0 +1,261 @@
+//! Which points of the path the robot's arm reaches, and the program for its controller.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use glam::Vec3;
+
+use super::{
+    state::PaintState,
+    work::{Planned, aim, enrolled},
+};
+use crate::{
+    app::{
+        inspection::{
+            library_cache::LibraryCache,
+            report_files::{self, ProgramSubject, ProgramTarget},
+            source::file_name,
+        },
+        language::text,
+        shell::{
+            context::ShellContext,
+            program_setup::ProgramSetup,
+            session::{Session, WorkspaceKind},
+        },
+        task::{TaskContext, TaskError, TaskEvent},
+        ui::viewport::{Line, LineSet, Role},
+        user_error::UserError,
+    },
+    geometry::rigid::RigidTransform,
+    robot::{
+        RobotFrame,
+        arm::{CheckParams, PathCheck, PlaceSuggestion, PointProblem, suggest_base, suggest_rail},
+        program::{arm_points, check_reach},
+        spray::{CarriedPath, carry},
+    },
+    stages::stand_off::StandOffParams,
+};
+
+/// What reach is checked of.
+#[derive(Clone, Debug)]
+pub(super) struct ReachRequest {
+    planned: Arc<Planned>,
+    setup: ProgramSetup,
+    robot: Arc<RobotFrame>,
+}
+
+impl PartialEq for ReachRequest {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.planned, &other.planned)
+            && (&self.setup, &self.robot) == (&other.setup, &other.robot)
+    }
+}
+
+/// What an arm reaches of a path in the part's standard position.
+#[derive(Clone, Debug)]
+pub struct Reach {
+    /// What the arm is called.
+    pub arm: String,
+    /// Every point of the path.
+    pub check: PathCheck,
+    /// Where its base would reach more points.
+    pub base: Option<PlaceSuggestion>,
+    /// Where on its rail it would.
+    pub rail: Option<PlaceSuggestion>,
+    /// The path where it is not reached.
+    pub(super) lines: LineSet,
+}
+
+impl Reach {
+    /// Why points are not reached, the most frequent reason first, and of how many points.
+    pub fn reasons(&self) -> Vec<(String, usize)> {
+        let mut reasons: Vec<(String, usize)> = Vec::new();
+        for problem in self.check.points.iter().filter_map(|point| point.problem) {
+            let reason = reason(&problem);
+            match reasons.iter_mut().find(|(known, _)| *known == reason) {
+                Some((_, count)) => *count += 1,
+                None => reasons.push((reason, 1)),
+            }
+        }
+        reasons.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        reasons
+    }
+}
+
+fn reason(problem: &PointProblem) -> String {
+    match problem {
+        PointProblem::OutOfReach => text!("paint-out-of-reach"),
+        PointProblem::JointLimit { joint, .. } => text!("paint-joint-limit", joint = *joint),
+        PointProblem::NearSingularity(_) => text!("paint-near-singularity"),
+        PointProblem::TooFast { joint, .. } => text!("paint-joint-too-fast", joint = *joint),
+        PointProblem::ConfigurationChange => text!("paint-arm-folds-over"),
+    }
+}
+
+impl PaintState {
+    /// What the arm reaches of the path that is shown, or why that is not known; none while it is being found out, or
+    /// without an arm and a calibrated cell.
+    pub fn reach(&self, session: &Session) -> Option<&Result<Arc<Reach>, UserError>> {
+        let is_asked = self.reach_request(session) == self.reach_asked;
+        self.reach.as_ref().filter(|_| is_asked)
+    }
+
+    /// What reach is to be checked of now.
+    pub(super) fn reach_request(&self, session: &Session) -> Option<ReachRequest> {
+        session.program.arm.as_ref()?;
+        Some(ReachRequest {
+            planned: Arc::clone(self.planned.as_ref()?),
+            setup: session.program.clone(),
+            robot: Arc::clone(session.robot.as_ref()?),
+        })
+    }
+
+    /// Takes in what was found, and checks what is not checked yet.
+    pub(super) fn update_reach(&mut self, cx: &ShellContext<'_>) {
+        while let Some(event) = self.reach_task.poll() {
+            self.reach = Some(match event {
+                TaskEvent::Partial(reach) | TaskEvent::Done(reach) => Ok(reach),
+                TaskEvent::Failed(error) => Err(error),
+            });
+        }
+        let wanted = self.reach_request(cx.session);
+        if cx.session.workspace != WorkspaceKind::Paint || wanted == self.reach_asked {
+            return;
+        }
+        self.reach_asked.clone_from(&wanted);
+        self.reach = None;
+        self.reach_task.cancel();
+        if let Some(request) = wanted {
+            let library_cache = cx.services.library_cache.clone();
+            self.reach_task
+                .start(text!("paint-checking-reach"), move |context| {
+                    found(&request, &library_cache, context)
+                });
+        }
+    }
+
+    /// Moves to the next point that is not reached, around the end.
+    pub(super) fn show_unreached(&mut self, session: &Session) {
+        let (Some(Ok(reach)), Some(planned)) = (self.reach(session), &self.planned) else {
+            return;
+        };
+        let points = reach.check.points.iter().enumerate();
+        let times = points.filter(|(_, point)| point.problem.is_some());
+        let times: Vec<f64> = times.map(|(i, _)| planned.course.seconds[i]).collect();
+        let next = times.iter().find(|time| **time > self.time + 1e-6);
+        if let Some(time) = next.or_else(|| times.first()).copied() {
+            self.go_to(time);
+        }
+    }
+
+    /// Writes the program of the path that is shown.
+    pub(super) fn export_program(&mut self, file: PathBuf, cx: &ShellContext<'_>) {
+        let (Some(planned), Some(robot)) = (self.planned.clone(), cx.session.robot.clone()) else {
+            return;
+        };
+        let setup = cx.session.program.clone();
+        let library_cache = cx.services.library_cache.clone();
+        let name = file_name(&file);
+        self.writing
+            .start(text!("paint-writing", file = name), move |_| {
+                Ok(write_program(
+                    &file,
+                    &planned,
+                    &setup,
+                    &robot,
+                    &library_cache,
+                )?)
+            });
+    }
+}
+
+/// The path in the part's standard position.
+fn carried(
+    planned: &Planned,
+    library_cache: &LibraryCache,
+) -> Result<(CarriedPath, bool), UserError> {
+    let loaded = library_cache.get();
+    let (place, reference) = enrolled(&loaded, &planned.part)?;
+    let carried = carry(
+        &planned.path,
+        &RigidTransform::identity(),
+        &reference.cloud,
+        &StandOffParams::default(),
+    );
+    Ok((carried, loaded.shown.parts[place].simulated))
+}
+
+/// Which points are reached, and then from where more would be.
+fn found(
+    request: &ReachRequest,
+    library_cache: &LibraryCache,
+    context: &TaskContext<Arc<Reach>>,
+) -> Result<Arc<Reach>, TaskError> {
+    let planned = &request.planned;
+    let ProgramTarget { settings, arm } = request.setup.target()?;
+    let Some(arm) = arm else {
+        return Err(TaskError::Cancelled);
+    };
+    let (carried, _) = carried(planned, library_cache)?;
+    context.check()?;
+    let points = arm_points(&carried, &request.robot, settings.speed);
+    let params = CheckParams::default();
+    let failed = |error| UserError::of(&error);
+    let check = check_reach(&arm, &carried, &request.robot, &settings).map_err(failed)?;
+    let num = check.num_reached();
+    let mut reach = Reach {
+        arm: arm.arm.name.clone(),
+        lines: unreached(planned, &check),
+        check,
+        base: None,
+        rail: None,
+    };
+    if num < points.len() {
+        // Places take longer than the check.
+        context.partial(Arc::new(reach.clone()));
+        context.check()?;
+        reach.rail = suggest_rail(&arm, &points, &params, num).map_err(failed)?;
+        context.check()?;
+        reach.base = suggest_base(&arm, &points, &params, num).map_err(failed)?;
+    }
+    Ok(Arc::new(reach))
+}
+
+/// Half the length of the line over a point that is not reached, metres.
+const HALF: f32 = 0.01;
+
+/// A line from each point that is not reached to the next, and a short one where that is reached.
+fn unreached(planned: &Planned, check: &PathCheck) -> LineSet {
+    let is_bad = |i: usize| check.points.get(i).is_some_and(|p| p.problem.is_some());
+    let at = |i: usize| aim(&planned.path, i, &planned.coat);
+    let bad = (0..check.points.len()).filter(|i| is_bad(*i));
+    let lines = bad.map(|i| {
+        let stretch = if is_bad(i + 1) {
+            vec![at(i), at(i + 1)]
+        } else {
+            vec![at(i) - Vec3::Y * HALF, at(i) + Vec3::Y * HALF]
+        };
+        Line::new(stretch, Role::AxisX).with_width(4.0)
+    });
+    LineSet::new(lines.collect::<Vec<_>>())
+}
+
+/// Writes the program of a path in the part's standard position; says what was written.
+pub(super) fn write_program(
+    file: &Path,
+    planned: &Planned,
+    setup: &ProgramSetup,
+    robot: &RobotFrame,
+    library_cache: &LibraryCache,
+) -> Result<String, UserError> {
+    let (carried, is_simulated) = carried(planned, library_cache)?;
+    let subject = ProgramSubject {
+        part: planned.part.as_str(),
+        scene: None,
+        camera_from_part: RigidTransform::identity(),
+        is_simulated,
+    };
+    report_files::program(file, &carried, robot, &setup.target()?, &subject)
+}

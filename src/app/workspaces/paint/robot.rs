@@ -1,0 +1,155 @@
+//! The section on the robot: arm, nozzle and gun of its programs, and which points of the path it reaches.
+
+use egui::{Button, DragValue, Label, RichText, TextEdit, Ui, WidgetInfo, vec2};
+
+use super::{
+    action::{PaintAction, PaintFile},
+    reach::Reach,
+    side::TITLE,
+    state::PaintState,
+};
+use crate::{
+    app::{
+        language::text,
+        shell::{program_setup::ProgramSetup, session::Session},
+        ui::{
+            parameter_control::fold,
+            theme::{Theme, font, space},
+            widgets::{grouped, heading, labelled, shortened},
+        },
+    },
+    robot::arm::{ARM_NAMES, Arm},
+};
+
+/// Reasons that are listed.
+const MAX_REASONS: usize = 3;
+
+/// Draws the section.
+pub(super) fn ui(
+    ui: &mut Ui,
+    paint: &PaintState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<PaintAction>,
+) {
+    heading(ui, theme, &text!("paint-robot"));
+    let mut setup = session.program.clone();
+    arm_ui(ui, &mut setup, actions);
+    let label = text!("paint-nozzle");
+    field(ui, theme, &label, &mut setup.nozzle, "kuka 0 0 250 0 45 0")
+        .on_hover_text(text!("paint-nozzle-hint"));
+    fold(ui, text!("paint-more-robot"), theme.weak_text)
+        .id_salt("robot")
+        .show_unindented(ui, |ui| {
+            let label = text!("paint-tool");
+            field(ui, theme, &label, &mut setup.tool, "1").on_hover_text(text!("paint-tool-hint"));
+            let mut number = |text: String, value: &mut f64, range, unit: &str| {
+                ui.horizontal(|ui| {
+                    let drag = DragValue::new(value).range(range).max_decimals(1);
+                    let response = ui.add(drag.suffix(format!(" {unit}")));
+                    let name = ui.label(RichText::new(text).color(theme.text));
+                    response.labelled_by(name.id);
+                });
+            };
+            let mut output = f64::from(setup.gun_output);
+            number(text!("paint-gun-output"), &mut output, 0.0..=9999.0, "");
+            setup.gun_output = output.round() as u16;
+            let speed = &mut setup.speed_mm_s;
+            number(text!("paint-program-speed"), speed, 1.0..=2000.0, "mm/s");
+            let approach = &mut setup.approach_mm;
+            number(text!("paint-approach"), approach, 10.0..=1000.0, "mm");
+            number(text!("paint-blend"), &mut setup.blend_mm, 0.0..=100.0, "mm");
+        });
+    if setup != session.program {
+        actions.push(PaintAction::SetUp(setup));
+    }
+    if session.robot.is_none() {
+        note(ui, &text!("paint-not-calibrated"), theme.weak_text);
+        return;
+    }
+    match paint.reach(session) {
+        None => {}
+        Some(Ok(reach)) => reach_ui(ui, reach, theme, actions),
+        Some(Err(error)) => {
+            note(ui, &error.what, theme.rejected);
+            note(ui, &error.advice, theme.text);
+        }
+    }
+}
+
+fn note(ui: &mut Ui, words: &str, colour: egui::Color32) {
+    ui.add(Label::new(RichText::new(words).color(colour)).wrap());
+}
+
+fn arm_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>) {
+    let title = setup.arm_title().unwrap_or_else(|| text!("paint-no-arm"));
+    let menu = ui.menu_button(format!("{} ▼", shortened(&title, TITLE)), |ui| {
+        if ui
+            .selectable_label(setup.arm.is_none(), text!("paint-no-arm"))
+            .clicked()
+        {
+            setup.arm = None;
+            ui.close();
+        }
+        for name in ARM_NAMES {
+            let is_chosen = setup.arm.as_deref() == Some(name);
+            let title = Arm::named(name).map_or_else(|_| name.to_owned(), |arm| arm.name);
+            if ui.selectable_label(is_chosen, title).clicked() {
+                setup.arm = Some(name.to_owned());
+                ui.close();
+            }
+        }
+        ui.separator();
+        if ui.button(text!("paint-arm-file")).clicked() {
+            actions.push(PaintAction::Ask(PaintFile::Arm));
+            ui.close();
+        }
+    });
+    let label = text!("paint-arm", arm = title);
+    let response = menu.response;
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
+    response.on_hover_text(text!("paint-arm-hint"));
+}
+
+/// A line of text below its name.
+fn field(ui: &mut Ui, theme: &Theme, label: &str, text: &mut String, hint: &str) -> egui::Response {
+    let name = ui.label(RichText::new(label).color(theme.text));
+    let edit = TextEdit::singleline(text)
+        .hint_text(hint)
+        .align(egui::Align2::LEFT_CENTER)
+        .desired_width(f32::INFINITY)
+        .min_size(vec2(0.0, space::TARGET));
+    ui.add(edit).labelled_by(name.id)
+}
+
+fn reach_ui(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAction>) {
+    let (num, all) = (reach.check.num_reached(), reach.check.points.len());
+    let arm = reach.arm.as_str();
+    if num == all {
+        let words = text!("paint-reaches-all", arm = arm, all = grouped(all));
+        note(ui, &words, theme.accepted);
+        return;
+    }
+    let (missed, all) = (grouped(all - num), grouped(all));
+    let words = text!("paint-reaches-some", arm = arm, missed = missed, all = all);
+    let words = RichText::new(words).font(font::body_strong());
+    ui.add(Label::new(words.color(theme.rejected)).wrap());
+    for (reason, count) in reach.reasons().into_iter().take(MAX_REASONS) {
+        note(ui, &format!("{} · {reason}", grouped(count)), theme.text);
+    }
+    let next = text!("paint-show-unreached");
+    if labelled(ui, Button::new(&next), &next).clicked() {
+        actions.push(PaintAction::ShowUnreached);
+    }
+    if let Some(place) = &reach.rail {
+        let at = format!("{:.0}", 1000.0 * place.shift[0]);
+        let words = text!("paint-rail-at", at = at, count = grouped(place.num_reached));
+        note(ui, &words, theme.weak_text);
+    }
+    if let Some(place) = &reach.base {
+        let by = place.shift.map(|metres| format!("{:+.0}", 1000.0 * metres));
+        let count = grouped(place.num_reached);
+        let words = text!("paint-base-moved", by = by.join(" "), count = count);
+        note(ui, &words, theme.weak_text);
+    }
+}
