@@ -61,7 +61,7 @@ pub struct WindowOptions {
     pub library: Option<PathBuf>,
     /// The captured scene, or the folder of a scan, that is opened first; without it Capture takes one from the source.
     pub scene: Option<PathBuf>,
-    /// Where the settings are kept; without it nothing is remembered.
+    /// Where the settings are kept, and beside them the draft of Enrol; without it nothing is remembered.
     pub settings: Option<PathBuf>,
     /// The folder of kept cases; without it the user's own.
     pub cases: Option<PathBuf>,
@@ -130,6 +130,8 @@ impl Window {
             });
         // Coats of paint are kept beside the recipes.
         let coats = recipes.as_ref().map(|path| path.with_file_name("coats"));
+        let draft = settings.as_ref();
+        let draft = draft.map(|path| path.with_file_name("draft.json"));
         let mut window = Self {
             memory: Memory::new(settings, remembered.clone(), &runner),
             state: remembered.into_state(&runner, &library_cache),
@@ -141,7 +143,7 @@ impl Window {
             robot: RobotCell::new(&runner),
             workspaces: vec![
                 Box::new(InspectWorkspace::new(&gpu, &runner)),
-                Box::new(EnrolWorkspace::new(gpu.clone(), &runner)),
+                Box::new(EnrolWorkspace::new(gpu.clone(), draft, &runner)),
                 Box::new(CompareWorkspace::new(cases, recipes.clone(), &runner)),
                 Box::new(AlignWorkspace::new(&gpu, &runner)),
                 Box::new(PaintWorkspace::new(&gpu, coats, &runner)),

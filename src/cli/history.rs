@@ -141,6 +141,7 @@ impl FilterArgs {
             is_simulated: self.simulated,
             with_below: self.reinspections,
             text: self.text.clone().unwrap_or_default(),
+            shown: Vec::new(),
         }
     }
 }

@@ -23,6 +23,9 @@ pub struct Filter {
     /// Each of these words is in the name of part, scene or source, in the remark or in the true label; case does not
     /// matter.
     pub text: String,
+    /// What is shown instead of stored text: the first of each two for the second, in lower case. A word of what is
+    /// shown also finds what is stored.
+    pub shown: Vec<[String; 2]>,
 }
 
 impl Filter {
@@ -35,12 +38,21 @@ impl Filter {
         self.text.split_whitespace().map(str::to_lowercase)
     }
 
+    /// The texts by any of which a word is found.
+    fn found_by(&self, word: String) -> Vec<String> {
+        let shown = self.shown.iter();
+        let shown = shown.filter(|[shown, _]| shown.contains(&word));
+        let mut texts: Vec<String> = shown.map(|[_, stored]| stored.clone()).collect();
+        texts.push(word);
+        texts
+    }
+
     /// The condition in SQL, `1` where there is none, and its values.
     pub(super) fn condition(&self) -> (String, Vec<Value>) {
-        let mut parts: Vec<&str> = Vec::new();
+        let mut parts: Vec<String> = Vec::new();
         let mut values = Vec::new();
-        let mut add = |part, value: Value| {
-            parts.push(part);
+        let mut add = |part: &str, value: Value| {
+            parts.push(part.to_owned());
             values.push(value);
         };
         if let Some(since) = self.since {
@@ -59,13 +71,16 @@ impl Filter {
             add("simulated = ?", is_simulated.into());
         }
         for word in self.words() {
-            add("instr(search, ?)", word.into());
+            let texts = self.found_by(word);
+            let any = vec!["instr(search, ?)"; texts.len()].join(" OR ");
+            parts.push(format!("({any})"));
+            values.extend(texts.into_iter().map(Value::from));
         }
         if !self.with_below {
-            parts.push("parent IS NULL");
+            parts.push("parent IS NULL".into());
         }
         if parts.is_empty() {
-            parts.push("1");
+            parts.push("1".into());
         }
         (parts.join(" AND "), values)
     }
@@ -79,6 +94,9 @@ impl Filter {
             && (self.part.is_none() || self.part == row.part)
             && self.verdict.is_none_or(|verdict| row.verdict == verdict)
             && self.is_simulated.is_none_or(|is| row.is_simulated == is)
-            && self.words().all(|word| search.contains(&word))
+            && self.words().all(|word| {
+                let mut texts = self.found_by(word).into_iter();
+                texts.any(|text| search.contains(&text))
+            })
     }
 }

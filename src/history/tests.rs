@@ -145,8 +145,10 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
                 "50%",
                 "_door frame",
                 "nothing",
-            ][random.random_range(0..8)]
+                "Tür frame",
+            ][random.random_range(0..9)]
             .into(),
+            shown: vec![["tür".into(), "door".into()]],
         };
         let plain: Vec<i64> = rows
             .iter()
@@ -157,6 +159,33 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
         assert_eq!(numbers(&history, &filter), plain, "{filter:?}");
     }
     assert!(num_found > 1000, "{num_found}");
+}
+
+#[test]
+fn a_word_of_what_is_shown_finds_what_is_stored() {
+    let (_folder, mut history) = new_history();
+    for seconds in [1, 2] {
+        let mut entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+        entry.record.summary.scene = ["Simulated frame 7", "Bild.pcd"][seconds as usize - 1].into();
+        entry.scene = None;
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    let asked = |text: &str, shown: &[[&str; 2]]| Filter {
+        text: text.into(),
+        shown: shown.iter().map(|both| both.map(str::to_owned)).collect(),
+        ..Filter::default()
+    };
+    let shown = [["simuliertes bild ", "simulated frame "]];
+    for (text, expected) in [
+        ("BILD", &[2, 1][..]),
+        ("simuliertes bild 7", &[1]),
+        ("simulated frame", &[1]),
+        ("bild 8", &[]),
+        ("simuliertes bilder", &[]),
+    ] {
+        assert_eq!(numbers(&history, &asked(text, &shown)), expected, "{text}");
+    }
+    assert_eq!(numbers(&history, &asked("bild", &[])), [2]);
 }
 
 #[test]

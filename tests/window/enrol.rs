@@ -10,6 +10,7 @@ use partsight::{
         inspection::source::CellChoice,
         shell::{action::Action, session::WorkspaceKind, state::State},
         ui::viewport::DrawnShape,
+        workspaces::enrol::{EnrolAction, EnrolWorkspace, draft::Field},
     },
     library::{LibraryFolder, PartName},
     pipeline::Verdict,
@@ -17,8 +18,8 @@ use partsight::{
 };
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, history_of, open_with, plain_options,
-    press, settle, wait_until,
+    SMALL, USUAL, WindowHarness, act, act_in, drop_file, enrol_of, history_of, open_with,
+    plain_options, press, settle, wait_until,
 };
 
 fn open_at(library: &Path, size: Vec2) -> WindowHarness {
@@ -832,6 +833,93 @@ fn a_window_with_an_unsaved_draft_asks_before_it_closes() {
     press(&mut harness, "Save");
     act(&mut harness, Action::Quit);
     assert!(harness.query_by_label("Close without saving?").is_none());
+}
+
+/// Lets the time pass after which a changed draft is written, and waits for that.
+fn pass_time(harness: &mut WindowHarness) {
+    harness.run_steps(20);
+    settle(harness);
+}
+
+#[test]
+fn a_draft_outlives_a_program_that_is_killed_until_it_is_discarded_or_saved() {
+    let (library, folder) = (library(), tempfile::tempdir().expect("a folder"));
+    let file = folder.path().join("draft.json");
+    let options = || WindowOptions {
+        library: Some(library.path().to_owned()),
+        settings: Some(folder.path().join("settings.toml")),
+        ..plain_options()
+    };
+    let mut harness = open_with(USUAL, options());
+    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
+    capture(&mut harness, PartKind::Grille, Side::Right);
+    pass_time(&mut harness);
+    assert!(!file.exists(), "nobody has worked on it");
+    press(&mut harness, "Background 1, dropped");
+    write(&mut harness, "Title", "Grille");
+    pass_time(&mut harness);
+    assert!(file.exists());
+    let points = kept(&harness);
+    // Without the goodbye of a window that is closed.
+    drop(harness);
+
+    let mut harness = open_with(USUAL, options());
+    assert_eq!(kept(&harness), points);
+    let draft = enrol_of(&harness).draft.as_ref().expect("a draft");
+    assert_eq!(draft.form.name, "grille");
+    let apply = |harness: &mut WindowHarness, action| {
+        act_in(harness, |enrol: &mut EnrolWorkspace, cx| {
+            enrol.state_mut().apply(action, cx);
+        });
+        pass_time(harness);
+    };
+    apply(&mut harness, EnrolAction::Discard);
+    assert!(!file.exists());
+    apply(&mut harness, EnrolAction::Undo);
+    assert!(file.exists());
+    // With the wall it is no part.
+    apply(&mut harness, EnrolAction::Reset);
+    assert!(file.exists(), "it still has a title");
+    apply(&mut harness, EnrolAction::Save);
+    assert_eq!(names(library.path()), ["grille"]);
+    assert!(!file.exists());
+    drop(harness);
+    let harness = open_with(USUAL, options());
+    assert!(enrol_of(&harness).draft.is_none());
+}
+
+#[test]
+fn a_draft_is_written_when_the_window_closes_and_a_bad_one_is_set_aside() {
+    let (library, folder) = (library(), tempfile::tempdir().expect("a folder"));
+    let file = folder.path().join("draft.json");
+    let options = || WindowOptions {
+        library: Some(library.path().to_owned()),
+        settings: Some(folder.path().join("settings.toml")),
+        ..plain_options()
+    };
+    let mut harness = open_with(USUAL, options());
+    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
+    capture(&mut harness, PartKind::Grille, Side::Right);
+    act_in(&mut harness, |enrol: &mut EnrolWorkspace, cx| {
+        let title = Field::Title("Grille".into());
+        enrol.state_mut().apply(EnrolAction::Write(title), cx);
+    });
+    eframe::App::on_exit(harness.state_mut());
+    drop(harness);
+    let text = fs::read_to_string(&file).expect("written");
+    assert!(text.contains("Grille"), "{text}");
+
+    fs::write(&file, &text[..text.len() / 2]).expect("written");
+    let harness = open_with(USUAL, options());
+    assert!(enrol_of(&harness).draft.is_none());
+    let said = notices(&harness);
+    let is_said = |what: &String| what.starts_with("The draft in ");
+    assert!(said.iter().any(is_said), "{said:?}");
+    let aside = folder.path().join("draft.broken-1.json");
+    assert_eq!(
+        fs::read_to_string(aside).expect("kept"),
+        text[..text.len() / 2]
+    );
 }
 
 #[test]

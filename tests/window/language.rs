@@ -14,11 +14,14 @@ use partsight::{
             action::Action, live::LiveAction, robot::RobotAction, roles::RoleAction,
             session::WorkspaceKind,
         },
+        workspaces::history::{HistoryAction, HistoryWorkspace, ListFilter},
     },
     history::{Retention, StoredVerdict},
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, open_with, plain_options, press, settle};
+use super::set_up::{
+    SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle,
+};
 use crate::kit::{history_entry, low_score};
 
 fn open_in(language: Language, size: Vec2) -> WindowHarness {
@@ -97,6 +100,30 @@ fn a_refusal_of_the_history_is_read_in_the_language_of_the_window() {
     press(&mut harness, "Sprache: Deutsch");
     press(&mut harness, "Español");
     harness.get_by_label_contains("2 × Puntuación ");
+}
+
+#[test]
+fn where_a_scene_came_from_is_read_and_found_in_the_language_of_the_window() {
+    let mut harness = open_in(Language::German, USUAL);
+    act(&mut harness, Action::GoTo(WorkspaceKind::History));
+    // In the list, which is painted, and in the details.
+    let drawn = texts(&harness);
+    let titles = drawn
+        .iter()
+        .filter(|drawn| drawn.text == "Simuliertes Bild 1");
+    assert_eq!(titles.count(), 2, "{drawn:?}");
+    assert!(drawn.iter().all(|drawn| !drawn.text.contains("imulated")));
+    harness.get_by_label("Simulierte Zelle");
+    for (text, count) in [("bild 1", 1), ("bild 2", 0), ("simulated", 1)] {
+        let filter = ListFilter {
+            text: text.into(),
+            ..ListFilter::default()
+        };
+        act_in(&mut harness, |history: &mut HistoryWorkspace, cx| {
+            history.apply(HistoryAction::Filter(filter), cx);
+        });
+        harness.get_by_label(&format!("{count} von 1 Teilen"));
+    }
 }
 
 /// A text as it is drawn, in logical pixels.

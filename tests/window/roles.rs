@@ -1,6 +1,6 @@
 //! Whose window it is: the operator's or the engineer's.
 
-use egui::{Event, Key};
+use egui::{Event, Key, Role};
 use egui_kittest::kittest::Queryable as _;
 use partsight::app::{
     WindowOptions,
@@ -80,6 +80,34 @@ fn without_a_pin_a_yes_is_enough() {
     press(&mut harness, "Engineer's view");
     press(&mut harness, "Switch");
     assert_eq!(role(&harness), UserRole::Engineer);
+}
+
+#[test]
+fn the_rail_leads_the_operator_where_they_may_go_and_keys_still_ask() {
+    let mut harness = open();
+    let tabs = |harness: &WindowHarness| {
+        let kinds = WorkspaceKind::ALL.into_iter();
+        let listed = kinds.filter(|kind| {
+            let title = kind.title();
+            harness.query_by_role_and_label(Role::Tab, &title).is_some()
+        });
+        listed.collect::<Vec<_>>()
+    };
+    assert_eq!(tabs(&harness), WorkspaceKind::ALL);
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    press(&mut harness, "History");
+    let operators = [WorkspaceKind::Inspect, WorkspaceKind::History];
+    assert_eq!(tabs(&harness), operators);
+    harness.key_press(Key::Num2);
+    harness.run_steps(4);
+    press(&mut harness, "Not now");
+    let front = harness.state().state().session.workspace;
+    assert_eq!(front, WorkspaceKind::History);
+    // At the foot of the rail.
+    press(&mut harness, "Operator's view");
+    press(&mut harness, "Switch");
+    assert_eq!(role(&harness), UserRole::Engineer);
+    assert_eq!(tabs(&harness), WorkspaceKind::ALL);
 }
 
 #[test]

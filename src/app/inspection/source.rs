@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     app::{
-        language::{results::object, text},
+        language::{history::stored_scene, results::object, text},
         ui::widgets::sentence,
     },
     capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec},
@@ -151,23 +151,7 @@ pub enum Origin {
 impl Origin {
     /// What a person calls it, in the language of the window.
     pub(in crate::app) fn shown_title(&self) -> String {
-        match self {
-            Self::Simulated { number, .. } => text!("shell-simulated-frame", number = *number),
-            Self::File {
-                path,
-                is_simulated: true,
-            } => text!("shell-of-simulator", name = file_name(path)),
-            Self::Frame {
-                name,
-                is_simulated: true,
-            } if !name.contains("simulated") => text!("shell-of-simulator", name = sentence(name)),
-            Self::Scan {
-                name,
-                is_simulated: true,
-                ..
-            } => text!("shell-of-simulator", name = name),
-            Self::File { .. } | Self::Frame { .. } | Self::Scan { .. } => self.title(),
-        }
+        stored_scene(&self.title(), self.is_simulated())
     }
 
     /// The same as history, cases and reports keep it: in English.
@@ -392,6 +376,7 @@ impl From<capture::Captured> for Captured {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::language::Language;
 
     #[test]
     fn the_first_frame_is_a_front_door_and_all_eight_parts_come_in_turn() {
@@ -402,6 +387,54 @@ mod tests {
         assert_eq!(kind(1), PartKind::FrontDoor);
         let seen: std::collections::BTreeSet<_> = (1..=8).map(kind).collect();
         assert_eq!(seen.len(), 8);
+    }
+
+    #[test]
+    fn where_a_scene_came_from_is_shown_in_the_language_of_the_window_and_kept_in_english() {
+        let frame = |name: &str, is_simulated| Origin::Frame {
+            name: name.into(),
+            is_simulated,
+        };
+        let origins = [
+            (
+                Origin::Simulated {
+                    choice: CellChoice::InTurn,
+                    number: 7,
+                },
+                ["Simulated frame 7", "Simuliertes Bild 7"],
+            ),
+            (
+                frame("simulated frame 12", true),
+                ["Simulated frame 12", "Simuliertes Bild 12"],
+            ),
+            (
+                frame("kinect frame 12", true),
+                ["Kinect frame 12, simulated", "Kinect frame 12, simuliert"],
+            ),
+            (frame("kinect frame 12", false), ["Kinect frame 12"; 2]),
+            (
+                Origin::File {
+                    path: "a/door.pcd".into(),
+                    is_simulated: true,
+                },
+                ["door.pcd, simulated", "door.pcd, simuliert"],
+            ),
+            (
+                Origin::Scan {
+                    name: "door · 3 shots".into(),
+                    is_simulated: true,
+                    files: ScanFiles::default(),
+                },
+                ["door · 3 shots, simulated", "door · 3 Aufnahmen, simuliert"],
+            ),
+        ];
+        for (origin, [kept, shown]) in origins {
+            assert_eq!(origin.shown_title(), kept);
+            Language::German.make_current();
+            let titles = [origin.title(), origin.shown_title()];
+            Language::English.make_current();
+            assert_eq!(titles, [kept, shown]);
+        }
     }
 
     #[test]

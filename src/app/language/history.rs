@@ -8,6 +8,14 @@ use crate::{
 
 /// How the title of a mirror image begins.
 const MIRRORED: &str = "Mirror image of ";
+/// How the title of a frame of the simulated cell begins; its number follows.
+const FRAME: &str = "Simulated frame ";
+/// How the title of what no camera has read ends.
+const SIMULATED: &str = ", simulated";
+/// How the title of a scan ends; the number of its shots comes before it.
+const SHOTS: &str = " shots";
+/// Where the frames of the simulated cell come from.
+const CELL: &str = "simulated cell";
 
 /// The title of an inspection.
 pub(in crate::app) fn stored_title(past: &Summary) -> String {
@@ -35,6 +43,48 @@ fn stored_part(past: &Summary) -> Option<&str> {
             .or_else(|| title.strip_prefix(MIRRORED)),
         StoredVerdict::NoPart => None,
     }
+}
+
+/// The title of a scene, or of where it came from. What files and cameras are called stays as it is.
+pub(in crate::app) fn stored_scene(title: &str, is_simulated: bool) -> String {
+    if !is_simulated {
+        return stored_scan(title);
+    }
+    if title == CELL {
+        return text!("shell-simulated-cell");
+    }
+    if let Some(number) = title.strip_prefix(FRAME)
+        && let Ok(number) = number.parse::<u64>()
+    {
+        return text!("shell-simulated-frame", number = number);
+    }
+    match title.strip_suffix(SIMULATED) {
+        Some(name) => text!("shell-of-simulator", name = stored_scan(name)),
+        None => stored_scan(title),
+    }
+}
+
+/// The title of a scan, which says how many shots it rests on; any other title as it is.
+fn stored_scan(title: &str) -> String {
+    let counted = title.strip_suffix(SHOTS);
+    if let Some((name, num)) = counted.and_then(|title| title.rsplit_once(" · "))
+        && let Ok(num) = num.parse::<u64>()
+    {
+        return format!("{name} · {}", text!("shots-all-used", num = num));
+    }
+    title.to_owned()
+}
+
+/// What [`stored_scene`] shows instead of what is stored: the first of each two for the second, in lower case.
+pub(in crate::app) fn shown_for_stored() -> Vec<[String; 2]> {
+    let both = [
+        (text!("shell-simulated-frame", number = ""), FRAME),
+        (text!("shell-of-simulator", name = ""), SIMULATED),
+        (text!("shots-all-used", num = ""), SHOTS),
+        (text!("shell-simulated-cell"), CELL),
+    ];
+    both.map(|(shown, stored)| [shown.to_lowercase(), stored.to_lowercase()])
+        .into()
 }
 
 /// Why an inspection was not accepted, and what to do; in English where no more is kept.
@@ -126,6 +176,54 @@ mod tests {
         ] {
             assert!(written.contains(title), "{title}");
         }
+    }
+
+    #[test]
+    fn titles_of_scenes_are_read_as_they_are_written() {
+        let source = include_str!("../inspection/source.rs");
+        let fuse = include_str!("../inspection/fuse.rs");
+        for (written, title) in [
+            (source, format!("\"{FRAME}{{number}}\"")),
+            (source, format!("\"{{name}}{SIMULATED}\"")),
+            (source, format!("\"{CELL}\"")),
+            (fuse, format!("\"{{title}} · {{}}{SHOTS}\"")),
+        ] {
+            assert!(written.contains(&title), "{title}");
+        }
+    }
+
+    #[test]
+    fn a_stored_scene_speaks_the_language_of_the_window_and_files_keep_their_names() {
+        let titles = [
+            ("Simulated frame 7", true, "Simuliertes Bild 7"),
+            ("simulated cell", true, "Simulierte Zelle"),
+            ("door.pcd, simulated", true, "door.pcd, simuliert"),
+            ("shots · 3 shots", false, "shots · 3 Aufnahmen"),
+            (
+                "shots · 3 shots, simulated",
+                true,
+                "shots · 3 Aufnahmen, simuliert",
+            ),
+            // What files and cameras are called, and what a command has written.
+            ("Simulated frame 7", false, "Simulated frame 7"),
+            (
+                "Simulated frame of a door",
+                true,
+                "Simulated frame of a door",
+            ),
+            ("door, simulated", false, "door, simulated"),
+            ("three shots", false, "three shots"),
+            ("Kinect frame 12", false, "Kinect frame 12"),
+            ("/data/door.pcd", true, "/data/door.pcd"),
+        ];
+        for (title, is_simulated, _) in titles {
+            let shown = stored_scene(title, is_simulated);
+            assert!(shown.eq_ignore_ascii_case(title), "{shown}");
+        }
+        Language::German.make_current();
+        let shown = titles.map(|(title, is_simulated, _)| stored_scene(title, is_simulated));
+        Language::English.make_current();
+        assert_eq!(shown, titles.map(|(.., expected)| expected));
     }
 
     #[test]

@@ -1,10 +1,10 @@
-//! The rail on the left: the workspaces.
+//! The rail on the left: the workspaces, of which the operator sees their own.
 
 use egui::{Color32, Frame, Painter, Panel, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 
 use super::{
     action::Action,
-    roles::{UserRole, chip, is_operators, lock},
+    roles::{UserRole, chip, is_operators},
     session::WorkspaceKind,
     state::State,
     top_bar::focus_ring,
@@ -19,7 +19,10 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
         .resizable(false)
         .frame(frame)
         .show(ui, |ui| {
-            for workspace in WorkspaceKind::ALL {
+            // The others are reached by their keys, which ask for the engineer's view.
+            let is_engineer = state.session.role == UserRole::Engineer;
+            let listed = |workspace: &WorkspaceKind| is_engineer || is_operators(*workspace);
+            for workspace in WorkspaceKind::ALL.into_iter().filter(listed) {
                 let is_front = state.session.workspace == workspace;
                 let size = vec2(ui.available_width(), space::RAIL);
                 let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -44,11 +47,6 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
                 });
                 if response.clicked() {
                     actions.push(Action::GoTo(workspace));
-                }
-                if state.session.role == UserRole::Operator && !is_operators(workspace) {
-                    let corner = icon + vec2(20.0, -10.0);
-                    let stroke = Stroke::new(1.2, theme.weak_text);
-                    lock(ui.painter(), corner, UserRole::Operator, stroke);
                 }
             }
             chip(ui, state, theme, actions);

@@ -322,10 +322,11 @@ fn read(path: &Path) -> Result<Settings, BadSettings> {
     Ok(settings)
 }
 
-/// Moves the file to a free name beside it.
-fn set_aside(path: &Path) -> io::Result<PathBuf> {
+/// Moves a file to a free name beside it.
+pub(in crate::app) fn set_aside(path: &Path) -> io::Result<PathBuf> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
     for number in 1..1000 {
-        let aside = path.with_extension(format!("broken-{number}.toml"));
+        let aside = path.with_extension(format!("broken-{number}.{ending}"));
         if !aside.exists() {
             disk::rename(path, &aside)?;
             return Ok(aside);

@@ -1,9 +1,11 @@
 //! Small things that several panels draw.
 
+use std::sync::Arc;
+
 use egui::{
-    Align, Button, Color32, ColorImage, Context, Event, Frame, Id, Key, Layout, Margin, Modal,
-    ModalResponse, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, TextStyle, TextureHandle,
-    TextureOptions, Ui, Vec2, pos2, vec2,
+    Align, Button, Color32, ColorImage, Context, Event, FontId, Frame, Galley, Id, Key, Label,
+    Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response, RichText, Stroke,
+    StrokeKind, TextStyle, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use image::RgbImage;
 
@@ -161,6 +163,59 @@ pub(in crate::app) fn button_width(ui: &Ui, text: &str) -> f32 {
         .painter()
         .layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
     text.size().x + 2.0 * ui.spacing().button_padding.x
+}
+
+/// Opening brackets and quotation marks of Chinese, which may not end a row.
+const OPENING: [char; 8] = ['“', '‘', '（', '《', '〈', '「', '『', '【'];
+
+/// A text in as many rows as it needs, none of which ends with an opening bracket or quotation mark.
+///
+/// epaint 0.37 breaks a row before any Chinese character, even behind such a mark, whatever joiner stands between
+/// them: it only knows what may not begin a row.
+pub(in crate::app) fn wrapped(ui: &mut Ui, text: &str, font: &FontId, colour: Color32) -> Response {
+    let rows = wrapped_rows(ui.painter(), text, font, colour, ui.available_width());
+    let label = ui.add(Label::new(rows));
+    // The breaks are no part of it.
+    label.widget_info(|| WidgetInfo::labeled(egui::Role::Label, ui.is_enabled(), text));
+    label
+}
+
+/// The rows of such a text.
+pub(in crate::app) fn wrapped_rows(
+    painter: &Painter,
+    text: &str,
+    font: &FontId,
+    colour: Color32,
+    width: f32,
+) -> Arc<Galley> {
+    let mut broken = text.to_owned();
+    loop {
+        let rows = painter.layout(broken.clone(), font.clone(), colour, width);
+        match marks_at_end(&rows) {
+            Some(place) => broken.insert(place, '\n'),
+            None => return rows,
+        }
+    }
+}
+
+/// The byte at which marks begin that end a row although the text goes on. A row of nothing else is left as it is.
+fn marks_at_end(rows: &Galley) -> Option<usize> {
+    let letters: Vec<(usize, char)> = rows.text().char_indices().collect();
+    let mut begin = 0;
+    for row in &rows.rows {
+        // Every letter has a glyph.
+        let end = begin + row.glyphs.len();
+        let in_row = letters.get(begin..end)?;
+        let is_mark = |(_, letter): &&(usize, char)| OPENING.contains(letter);
+        let num_marks = in_row.iter().rev().take_while(is_mark).count();
+        let is_broken = !row.ends_with_newline && end < letters.len();
+        if is_broken && 0 < num_marks && num_marks < in_row.len() {
+            let (place, _) = in_row.get(in_row.len() - num_marks)?;
+            return Some(*place);
+        }
+        begin = end + usize::from(row.ends_with_newline);
+    }
+    None
 }
 
 /// The text, its middle left out where it is too long.

@@ -81,7 +81,7 @@ fn menu(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
 }
 
 /// A padlock: closed for the operator, open for the engineer.
-pub(in crate::app) fn lock(painter: &Painter, centre: Pos2, role: UserRole, stroke: Stroke) {
+fn lock(painter: &Painter, centre: Pos2, role: UserRole, stroke: Stroke) {
     let at = |x: f32, y: f32| pos2(centre.x + x, centre.y + y);
     let body = Rect::from_min_max(at(-7.0, -1.0), at(7.0, 9.0));
     painter.rect_stroke(body, 1.5, stroke, StrokeKind::Middle);

@@ -12,11 +12,7 @@ mod pin;
 
 use self::permits::needs_engineer;
 pub use self::pin::Pin;
-pub(in crate::app) use self::{
-    chip::{chip, lock},
-    dialog::dialog,
-    permits::is_operators,
-};
+pub(in crate::app) use self::{chip::chip, dialog::dialog, permits::is_operators};
 pub use super::session::UserRole;
 use super::{
     action::{Action, Effect, apply as apply_any, notify},

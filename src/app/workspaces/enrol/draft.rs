@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     selection::{Corrections, Selection},
     subject::EnrolInput,
@@ -45,7 +47,7 @@ impl Draft {
 }
 
 /// What a person writes about a part.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Form {
     /// Its name for people.
     pub title: String,
@@ -60,7 +62,8 @@ pub struct Form {
 }
 
 /// Who wrote a name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum NamedBy {
     /// It follows the title.
     #[default]

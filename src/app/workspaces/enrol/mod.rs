@@ -3,7 +3,7 @@
 //! ```text
 //! subject    what a part is enrolled from        segments, picture_plane, scanned
 //! selection  what of it is kept, as corrected     outline, picture, tools, view
-//! draft      the part as it would be stored       taking, fields, form
+//! draft      the part as it would be stored       taking, fields, form, kept
 //! change     a change of the library              undo, catalogue, card
 //! ```
 
@@ -14,6 +14,7 @@ pub mod change;
 pub mod draft;
 mod fields;
 mod form;
+mod kept;
 pub mod outline;
 mod picture;
 pub mod picture_plane;
@@ -29,7 +30,7 @@ pub mod undo;
 mod view;
 pub mod work;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use egui::{
     Align, Button, Frame, Key, Layout, Margin, Modifiers, Panel, Rect, RichText, Ui, UiBuilder,
@@ -41,8 +42,8 @@ pub use self::{
     state::EnrolState,
 };
 use self::{
-    catalogue::Catalogue, draft::Draft, picture::PicturePane, thumbnails::Thumbnails,
-    view::DraftView,
+    catalogue::Catalogue, draft::Draft, kept::DraftFile, picture::PicturePane,
+    thumbnails::Thumbnails, view::DraftView,
 };
 use crate::app::{
     inspection::inspected::SceneOrScan,
@@ -110,6 +111,7 @@ const STRIP: f32 = 150.0;
 /// The workspace.
 pub struct EnrolWorkspace {
     state: EnrolState,
+    file: DraftFile,
     panes: Panes,
 }
 
@@ -123,10 +125,16 @@ struct Panes {
 }
 
 impl EnrolWorkspace {
-    /// Without a draft.
-    pub fn new(gpu: Result<ViewportGpu, ViewError>, runner: &TaskRunner) -> Self {
+    /// Without a draft, until that of an earlier start is back from the file in which drafts are kept; without a file
+    /// none is kept.
+    pub fn new(
+        gpu: Result<ViewportGpu, ViewError>,
+        draft: Option<PathBuf>,
+        runner: &TaskRunner,
+    ) -> Self {
         Self {
             state: EnrolState::new(runner),
+            file: DraftFile::new(draft, runner),
             panes: Panes {
                 view: DraftView::new(gpu),
                 picture: PicturePane::default(),
@@ -163,7 +171,19 @@ impl Workspace for EnrolWorkspace {
     }
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {
+        match self.file.load() {
+            Some(Ok(kept)) => self.state.bring_back(kept, cx),
+            Some(Err(error)) => cx.notify(error),
+            None => {}
+        }
         self.state.update(cx);
+        if let Some(error) = self.file.keep(&self.state, cx.egui) {
+            cx.notify(error);
+        }
+    }
+
+    fn close(&mut self) {
+        self.file.finish(&self.state);
     }
 
     fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
@@ -205,7 +225,8 @@ impl Workspace for EnrolWorkspace {
     }
 
     fn is_idle(&self, _session: &Session) -> bool {
-        self.running().is_none() && !self.state.is_changing_library()
+        let is_at_work = self.running().is_some() || self.state.is_changing_library();
+        !is_at_work && self.file.is_idle()
     }
 }
 

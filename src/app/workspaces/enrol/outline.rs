@@ -7,12 +7,14 @@
 use std::sync::Arc;
 
 use glam::{Mat4, Vec2, Vec3};
+use serde::{Deserialize, Serialize};
 
 use super::subject::EnrolInput;
 use crate::app::ui::viewport::seen_at;
 
 /// A box or a lasso that a person drew.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(into = "StoredOutline", try_from = "StoredOutline")]
 pub struct DrawnOutline {
     /// In shares of width and height of what it was drawn over, from the top left; the last is joined to the first.
     pub corners: Arc<[Vec2]>,
@@ -30,6 +32,53 @@ pub enum DrawnOver {
         /// As the camera of the view stood.
         clip_from_world: Mat4,
     },
+}
+
+/// The same in a file.
+#[derive(Serialize, Deserialize)]
+struct StoredOutline {
+    corners: Vec<[f32; 2]>,
+    /// Column after column; `None` of one that was drawn over the picture.
+    clip_from_world: Option<[f32; 16]>,
+}
+
+impl From<DrawnOutline> for StoredOutline {
+    fn from(outline: DrawnOutline) -> Self {
+        Self {
+            corners: outline.corners.iter().map(|at| [at.x, at.y]).collect(),
+            clip_from_world: match outline.over {
+                DrawnOver::Picture => None,
+                DrawnOver::View { clip_from_world } => Some(clip_from_world.to_cols_array()),
+            },
+        }
+    }
+}
+
+impl TryFrom<StoredOutline> for DrawnOutline {
+    type Error = &'static str;
+
+    fn try_from(stored: StoredOutline) -> Result<Self, Self::Error> {
+        let StoredOutline {
+            corners,
+            clip_from_world,
+        } = stored;
+        let mut numbers = corners
+            .iter()
+            .flatten()
+            .chain(clip_from_world.iter().flatten());
+        if !numbers.all(|number| number.is_finite()) {
+            return Err("a corner is no place");
+        }
+        Ok(Self {
+            corners: corners.into_iter().map(Vec2::from).collect(),
+            over: match clip_from_world {
+                None => DrawnOver::Picture,
+                Some(columns) => DrawnOver::View {
+                    clip_from_world: Mat4::from_cols_array(&columns),
+                },
+            },
+        })
+    }
 }
 
 impl DrawnOutline {

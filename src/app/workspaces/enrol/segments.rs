@@ -1,5 +1,7 @@
 //! The points of what is enrolled, cut into segments that are taken or dropped whole.
 
+use serde::{Deserialize, Serialize};
+
 use crate::{
     app::language::text,
     geometry::cloud::is_finite,
@@ -43,7 +45,8 @@ pub enum SegmentKind {
 }
 
 /// What becomes of points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum PointAction {
     /// They are of the part.
     Kept,

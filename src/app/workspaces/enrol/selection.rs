@@ -1,6 +1,7 @@
 //! What a person corrected, and which points are left of it.
 
 use image::{Rgb, RgbImage};
+use serde::{Deserialize, Serialize};
 
 use super::{
     outline::DrawnOutline,
@@ -12,12 +13,13 @@ use crate::{
         language::text,
         ui::viewport::{PointSet, Role, ViewColours},
     },
+    files::crc32,
     geometry::cloud::is_finite,
     stages::segment::PointLabel,
 };
 
 /// All corrections, in their order.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Corrections {
     /// What they start from.
     pub taking: InitialSelection,
@@ -36,7 +38,8 @@ impl Corrections {
 }
 
 /// One correction.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Edit {
     /// Keep or drop a segment, by its place in the list.
     Segment(usize, PointAction),
@@ -45,7 +48,8 @@ pub enum Edit {
 }
 
 /// What a box or a lasso does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum OutlineMode {
     /// Drops what lies outside.
     #[default]
@@ -114,6 +118,11 @@ impl Selection {
             picture,
             segment_at,
         }
+    }
+
+    /// The checksum of which points are kept.
+    pub(super) fn checksum(&self) -> u32 {
+        crc32(bytemuck::cast_slice(&self.indices))
     }
 }
 

@@ -6,6 +6,7 @@ use super::{
     action::{DraftPanes, EnrolAction, EnrolFile},
     change::{Changed, LibraryChange},
     draft::{Draft, Form, OpenedPart},
+    kept::KeptDraft,
     selection::{Corrections, Edit, OutlineMode},
     undo::{DraftEffect, LastChangedPart, LibraryStep, UndoDirection, UndoStack, UndoStep},
     work::{self, DraftEvent},
@@ -34,6 +35,10 @@ use crate::{
 pub struct EnrolState {
     /// The part that is about to be enrolled.
     pub draft: Option<Draft>,
+    /// The draft of an earlier start of the window, until it is back.
+    pub(super) coming: Option<KeptDraft>,
+    /// The checksum that its selection had, until it is known again.
+    pub(super) expected: Option<u32>,
     /// How many drafts there were.
     pub num_drafts: u64,
     /// The enrolled part that the draft, or the next one, replaces.
@@ -76,6 +81,8 @@ pub struct EnrolState {
 pub(super) enum DraftJob {
     /// It gets another draft.
     Take,
+    /// It gets the draft of an earlier start of the window again.
+    TakeAgain,
     /// It looks at the draft that is there.
     Look,
 }
@@ -85,6 +92,8 @@ impl EnrolState {
     pub fn new(runner: &TaskRunner) -> Self {
         Self {
             draft: None,
+            coming: None,
+            expected: None,
             num_drafts: 0,
             replacing: None,
             latest: None,
@@ -142,16 +151,21 @@ impl EnrolState {
 
     /// True while the draft is not the one that was asked for last.
     pub fn is_taking_another(&self) -> bool {
-        self.running().is_some() && self.job == DraftJob::Take
+        self.running().is_some() && self.job != DraftJob::Look
     }
 
     /// The draft, if a person has put work into it.
-    pub fn unsaved(&self) -> Option<String> {
+    pub(super) fn worked_on(&self) -> Option<&Draft> {
         let draft = self.draft.as_ref()?;
         let Form { title, notes, .. } = &draft.form;
         let is_worked_on =
             !(title.is_empty() && notes.is_empty() && draft.corrections.edits.is_empty());
-        is_worked_on.then(|| match title.trim() {
+        is_worked_on.then_some(draft)
+    }
+
+    /// The same in words.
+    pub fn unsaved(&self) -> Option<String> {
+        Some(match self.worked_on()?.form.title.trim() {
             "" => text!("enrol-unsaved"),
             title => text!("enrol-unsaved-titled", part = title),
         })
@@ -267,7 +281,12 @@ impl EnrolState {
         while let Some(event) = self.draft_task.poll() {
             match event {
                 TaskEvent::Partial(event) | TaskEvent::Done(event) => self.receive(event, cx),
-                TaskEvent::Failed(error) => cx.notify(error),
+                TaskEvent::Failed(error) => {
+                    cx.notify(error);
+                    if self.job == DraftJob::TakeAgain {
+                        self.words_alone(cx);
+                    }
+                }
             }
         }
         match self.change_task.poll() {
@@ -305,6 +324,13 @@ impl EnrolState {
         match event {
             DraftEvent::Taken(subject, selection) => self.taken(subject, selection, cx),
             DraftEvent::Selected(selection) => {
+                let expected = self.expected.take();
+                if expected.is_some_and(|expected| expected != selection.checksum()) {
+                    cx.notify(Notice::look(
+                        text!("enrol-draft-differs"),
+                        text!("enrol-draft-differs-advice"),
+                    ));
+                }
                 let is_outline_new = std::mem::take(&mut self.is_outline_new);
                 if let Some(draft) = &mut self.draft {
                     if is_outline_new && draft.selection.indices == selection.indices {
@@ -356,6 +382,7 @@ impl EnrolState {
         let before = draft.corrections.clone();
         change(&mut draft.corrections);
         if draft.corrections != before {
+            self.expected = None;
             let step = UndoStep::Corrections(draft.number, before);
             self.did(step, cx);
             self.look(cx);

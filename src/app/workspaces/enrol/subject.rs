@@ -3,6 +3,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     picture_plane::PicturePlane,
     scanned::ScannedMatter,
@@ -24,7 +26,8 @@ use crate::{
 };
 
 /// Which of the points are the part before anything is corrected.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum InitialSelection {
     /// The part that stands before the background.
     Segmented,

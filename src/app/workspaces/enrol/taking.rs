@@ -4,7 +4,8 @@ use std::{path::Path, sync::Arc};
 
 use super::{
     action::{EnrolAction, EnrolFile},
-    draft::{Draft, Form},
+    draft::Draft,
+    kept::KeptDraft,
     selection::{Corrections, Selection},
     state::{DraftJob, EnrolState, form_of},
     subject::EnrolInput,
@@ -118,14 +119,14 @@ impl EnrolState {
             cx.notify(warning.clone());
         }
         let former = self.draft.take();
+        let coming = self.coming.take();
+        let is_again = self.job == DraftJob::TakeAgain;
         let library = cx.session.library.as_deref();
-        let replaced = self.replacing.as_ref();
+        let replaced = self.replacing.as_ref().filter(|_| !is_again);
         let replaced = replaced.and_then(|name| form_of(name, library));
-        let form = match (replaced, &former) {
-            (Some(form), _) => form,
-            (None, Some(former)) => former.form.clone(),
-            (None, None) => Form::default(),
-        };
+        let written = former.as_ref().map(|former| &former.form);
+        let written = written.or_else(|| coming.as_ref().map(|coming| &coming.form));
+        let form = replaced.or_else(|| written.cloned()).unwrap_or_default();
         if let Some(former) = former {
             self.did(UndoStep::Draft(Some(Box::new(former))), cx);
         }
@@ -147,5 +148,57 @@ impl EnrolState {
             checked: None,
             form,
         });
+        if let Some(coming) = coming.filter(|_| is_again) {
+            self.correct_again(coming, cx);
+        }
+    }
+
+    /// Brings back the draft of an earlier start of the window, as far as its scene can be had again.
+    pub(super) fn bring_back(&mut self, kept: KeptDraft, cx: &mut ShellContext<'_>) {
+        let (recipe, library_cache) = (
+            Arc::clone(&cx.session.recipe),
+            cx.services.library_cache.clone(),
+        );
+        let (source, usual) = (kept.origin.source(), kept.usual);
+        self.coming = Some(kept);
+        let title = text!("enrol-bringing-back");
+        match source {
+            Some(SceneOrScan::Scene(source)) => {
+                self.start(title, DraftJob::TakeAgain, None, move |context| {
+                    work::take_again(source, usual, &recipe, &library_cache, context)
+                });
+            }
+            Some(SceneOrScan::Scan(order)) => {
+                let request = cx.session.scan_request(order);
+                let asked = Some(Asked::first());
+                self.start(title, DraftJob::TakeAgain, asked, move |context| {
+                    work::take_scan(&request, &library_cache, context)
+                });
+            }
+            None => self.words_alone(cx),
+        }
+    }
+
+    /// The scene of that draft is gone: what was written about the part waits for the next draft.
+    pub(super) fn words_alone(&mut self, cx: &mut ShellContext<'_>) {
+        self.job = DraftJob::Look;
+        cx.notify(Notice::look(
+            text!("enrol-draft-no-scene"),
+            text!("enrol-draft-no-scene-advice"),
+        ));
+    }
+
+    /// Corrects the draft as it was corrected before.
+    fn correct_again(&mut self, kept: KeptDraft, cx: &mut ShellContext<'_>) {
+        let Some(draft) = &mut self.draft else {
+            return;
+        };
+        let subject = &draft.subject;
+        if subject.can_be_corrected() && subject.allows(kept.corrections.taking) {
+            draft.corrections = kept.corrections;
+        }
+        self.expected = kept.checksum;
+        cx.notify(Notice::done(text!("enrol-draft-back")));
+        self.look(cx);
     }
 }

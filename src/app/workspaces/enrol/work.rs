@@ -69,6 +69,26 @@ pub(super) fn take_scene(
     take(subject, &params, library_cache, context)
 }
 
+/// The same of a scene that was taken before, read as it was then.
+pub(super) fn take_again(
+    source: SceneSource,
+    usual: InitialSelection,
+    recipe: &Recipe,
+    library_cache: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    let source = match (source, usual) {
+        // Inspect reads a file as a scene, Enrol one without rows and columns as a part.
+        (file @ SceneSource::File(_), InitialSelection::Segmented) => {
+            let captured = file.take(library_cache.camera(), &|| context.is_cancelled());
+            let captured = captured.map_err(|error| UserError::of(&error))?;
+            SceneSource::AtHand(captured.scene, captured.origin)
+        }
+        (source, _) => source,
+    };
+    take_scene(&source, recipe, library_cache, context)
+}
+
 /// Puts the shots of a scan together, and sees what of it is the part.
 pub(super) fn take_scan(
     request: &ScanRequest,

@@ -12,7 +12,7 @@ use crate::{
     app::{
         inspection::unit_system::UnitSystem,
         language::{
-            history::{stored_refusal, stored_title},
+            history::{stored_refusal, stored_scene, stored_title},
             keys,
             results::stored_verdict,
             text,
@@ -218,12 +218,14 @@ fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
         at,
         score,
         frame_bytes,
+        is_simulated,
         ..
     } = summary;
+    let shown = |title: &str| stored_scene(title, *is_simulated);
     let mut row = |name: String, value: &str| row(ui, theme, &name, &shortened(value, 32));
-    row(text!("history-figure-scene"), scene);
+    row(text!("history-figure-scene"), &shown(scene));
     if source != scene {
-        row(text!("history-figure-source"), source);
+        row(text!("history-figure-source"), &shown(source));
     }
     row(text!("history-figure-time"), &when(*at));
     let Traceability {

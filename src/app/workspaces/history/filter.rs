@@ -3,7 +3,7 @@
 use jiff::{Span, Timestamp, Zoned, civil};
 
 use crate::{
-    app::language::text,
+    app::language::{history::shown_for_stored, text},
     history::{Filter, StoredVerdict},
 };
 
@@ -18,7 +18,8 @@ pub struct ListFilter {
     pub part: Option<String>,
     /// Only this verdict.
     pub verdict: Option<StoredVerdict>,
-    /// Words of the names of part, scene and source, of the remark and of the true label.
+    /// Words of the names of part, scene and source, as they are kept or as the window shows them, of the remark and of
+    /// the true label.
     pub text: String,
 }
 
@@ -81,6 +82,12 @@ impl ListFilter {
                 typed(1).and_then(|day| begin(day.tomorrow().ok()?)),
             ),
         };
+        // Without words it stays the filter that lets everything through.
+        let shown = if self.text.trim().is_empty() {
+            Vec::new()
+        } else {
+            shown_for_stored()
+        };
         Filter {
             since,
             until,
@@ -89,6 +96,7 @@ impl ListFilter {
             is_simulated: None,
             with_below: false,
             text: self.text.clone(),
+            shown,
         }
     }
 }
@@ -96,6 +104,7 @@ impl ListFilter {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::language::Language;
 
     #[test]
     fn days_begin_and_end_as_the_clocks_here_go() {
@@ -127,5 +136,29 @@ mod tests {
         );
         assert_eq!(filter(DateRange::Typed, "", "2026-11-0"), ["", ""]);
         assert!(day_of("2026-11-0").is_err());
+    }
+
+    #[test]
+    fn words_are_looked_for_as_the_window_shows_them_too() {
+        let filter = |text: &str| {
+            let filter = ListFilter {
+                text: text.into(),
+                ..ListFilter::default()
+            };
+            filter.at(&Zoned::now())
+        };
+        // Of nothing, it lets everything through as quickly as before.
+        assert_eq!(filter("  ").shown, Vec::<[String; 2]>::new());
+        Language::German.make_current();
+        let shown = filter("bild").shown;
+        Language::English.make_current();
+        for expected in [
+            ["simuliertes bild ", "simulated frame "],
+            [", simuliert", ", simulated"],
+            [" aufnahmen", " shots"],
+            ["simulierte zelle", "simulated cell"],
+        ] {
+            assert!(shown.iter().any(|both| *both == expected), "{shown:?}");
+        }
     }
 }

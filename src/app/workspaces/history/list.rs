@@ -10,7 +10,11 @@ use jiff::{Timestamp, tz::TimeZone};
 use super::{HistoryAction, HistoryState, bar};
 use crate::{
     app::{
-        language::{history::stored_title, results::stored_verdict, text},
+        language::{
+            history::{stored_scene, stored_title},
+            results::stored_verdict,
+            text,
+        },
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
@@ -158,7 +162,8 @@ const COLUMNS: [Column; 5] = [
         width: Width::Share(0.42),
         // What a person said of it is what others look for first, then its serial number.
         text: |past, _| {
-            let texts = [&past.remark, &past.trace.serial, &past.scene];
+            let scene = stored_scene(&past.scene, past.is_simulated);
+            let texts = [&past.remark, &past.trace.serial, &scene];
             let texts: Vec<&str> = texts.into_iter().map(String::as_str).collect();
             let known = texts.into_iter().filter(|text| !text.is_empty());
             known.collect::<Vec<_>>().join(" · ")

@@ -13,7 +13,7 @@ use crate::{
             scan_choice::{ScanOrder, ScanRequest},
             source::{HistoryFrame, Origin, SceneSource},
         },
-        language::text,
+        language::{history::stored_scene, text},
         shell::{
             context::ShellContext,
             message::{Message, ReinspectionPurpose},
@@ -54,7 +54,7 @@ impl HistoryState {
             self.then = Some((number, purpose));
             return self.look(cx);
         };
-        let scene = &past.record.summary.scene;
+        let scene = scene_of(&past.record);
         let Some(source) = self.source_of(&past.record) else {
             let why = self.why_no_scene(&past.record);
             let [what, advice] = why.unwrap_or_default();
@@ -62,17 +62,17 @@ impl HistoryState {
         };
         let (title, recipe) = match purpose {
             RemakeFor::Compare => (
-                text!("history-inspecting-again", scene = scene),
+                text!("history-inspecting-again", scene = &scene),
                 Some(Arc::clone(&cx.session.recipe)),
             ),
             RemakeFor::Open => (
-                text!("history-opening", scene = scene),
+                text!("history-opening", scene = &scene),
                 past.record.detail.named_recipe().map(Arc::new),
             ),
         };
         let Some(recipe) = recipe else {
             return cx.notify(Notice::look(
-                text!("history-other-version", scene = scene),
+                text!("history-other-version", scene = &scene),
                 text!("history-other-version-advice"),
             ));
         };
@@ -99,7 +99,7 @@ impl HistoryState {
         let is_there = self.source_of(record).is_some();
         (!is_there).then(|| {
             [
-                text!("history-frame-gone", scene = &record.summary.scene),
+                text!("history-frame-gone", scene = scene_of(record)),
                 text!("history-frame-gone-advice"),
             ]
         })
@@ -143,6 +143,11 @@ impl HistoryState {
     }
 }
 
+/// The title of its scene, in the language of the window.
+fn scene_of(record: &Record) -> String {
+    stored_scene(&record.summary.scene, record.summary.is_simulated)
+}
+
 /// As the window wrote it; a command writes none.
 fn origin_of(record: &Record) -> Origin {
     let written = record.detail.origin.as_deref();
@@ -174,9 +179,12 @@ fn other_result(record: &Record, differences: &Differences) -> Notice {
     let changed = changed
         .reduce(|first, second| text!("history-changed-both", first = first, second = second))
         .unwrap_or_else(|| text!("history-changed-frame"));
-    let scene = &record.summary.scene;
     Notice::look(
-        text!("history-other-result", scene = scene, changed = changed),
+        text!(
+            "history-other-result",
+            scene = scene_of(record),
+            changed = changed
+        ),
         text!("history-other-result-advice"),
     )
 }

@@ -14,7 +14,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, mark, sentence},
+            widgets::{Mark, mark, sentence, wrapped},
         },
     },
     history::StoredVerdict,
@@ -164,13 +164,8 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline, theme: &Theme) {
     }
     if let Some((reason, advice)) = &headline.complaint {
         ui.add_space(space::SMALL);
-        let reason = RichText::new(sentence(reason)).font(font::far_reason());
-        ui.label(reason.color(theme.text));
-        ui.label(
-            RichText::new(advice)
-                .font(font::body_strong())
-                .color(theme.warning),
-        );
+        wrapped(ui, &sentence(reason), &font::far_reason(), theme.text);
+        wrapped(ui, advice, &font::body_strong(), theme.warning);
     }
     ui.add_space(space::SMALL);
 }

@@ -16,7 +16,7 @@ use crate::{
         shell::{current_trace, live::SourceState, session::Session},
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, mark, sentence},
+            widgets::{Mark, mark, sentence, wrapped},
         },
     },
     history::StoredVerdict,
@@ -318,8 +318,7 @@ fn banner_ui(ui: &mut Ui, banner: &Banner, theme: &Theme) {
                         ui.label(RichText::new(word).font(font::banner_word()).color(colour));
                         ui.add_space(space::MEDIUM);
                     }
-                    let reason = RichText::new(&banner.reason).font(reason_font);
-                    ui.add(Label::new(reason.color(theme.text)).wrap());
+                    wrapped(ui, &banner.reason, &reason_font, theme.text);
                 });
             });
         });
@@ -349,7 +348,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
     } else {
         font::next_step()
     };
-    ui.label(RichText::new(&banner.next).font(next).color(theme.text));
+    wrapped(ui, &banner.next, &next, theme.text);
     ui.add_space(space::MEDIUM);
     current_trace::fields(ui, &session.trace, theme);
     ui.add_space(space::MEDIUM);
@@ -409,4 +408,90 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
                 .hline(rect.x_range(), rect.bottom(), theme.edge_stroke());
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Galley, RawInput};
+
+    use super::*;
+    use crate::app::ui::widgets::wrapped_rows;
+
+    const CHINESE: [&str; 2] = [
+        include_str!("../../../../assets/language/zh/operator.ftl"),
+        include_str!("../../../../assets/language/zh/results.ftl"),
+    ];
+
+    /// The texts of these messages, every variable replaced by this.
+    fn texts(files: &[&str], variable: &str) -> Vec<String> {
+        let lines = files.iter().flat_map(|file| file.lines());
+        let texts = lines.filter_map(|line| line.split_once(" = "));
+        let filled = texts.map(|(_, text)| {
+            let mut pieces = text.split("{ $");
+            let mut filled = pieces.next().unwrap_or_default().to_owned();
+            for piece in pieces {
+                filled.push_str(variable);
+                filled.push_str(piece.split_once('}').map_or("", |(_, rest)| rest));
+            }
+            filled
+        });
+        filled.collect()
+    }
+
+    /// Rows that end with an opening mark, or begin with a closing one.
+    fn num_bad_rows(galley: &Galley) -> usize {
+        let rows: Vec<String> = galley.rows.iter().map(|row| row.text()).collect();
+        let pairs = rows.windows(2);
+        let bad = pairs.filter(|pair| {
+            pair[0].ends_with(|letter: char| "“‘（《".contains(letter))
+                || pair[1].starts_with(|letter: char| "”’）》，。；：、".contains(letter))
+        });
+        bad.count()
+    }
+
+    #[test]
+    fn chinese_breaks_neither_behind_an_opening_mark_nor_before_a_closing_one() {
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let mut num_bad = 0;
+        let output = ctx.run_ui(RawInput::default(), |ui| {
+            let texts = ["左前车门", "Front door, left"].map(|variable| texts(&CHINESE, variable));
+            assert!(texts[0].len() > 60, "{} messages", texts[0].len());
+            let fonts = [font::next_step(), font::far_reason()];
+            let widths = COLUMN.map(|width| width - 2.0 * 24.0);
+            let others = (0..20_u8).map(|step| 200.0 + 10.0 * f32::from(step));
+            for width in widths.into_iter().chain(others) {
+                let texts = texts.iter().flatten();
+                let pairs = texts.flat_map(|text| fonts.iter().map(move |font| (text, font)));
+                for (text, font) in pairs {
+                    let painter = ui.painter();
+                    let colour = Color32::WHITE;
+                    let plain = painter.layout(text.clone(), font.clone(), colour, width);
+                    num_bad += num_bad_rows(&plain);
+                    let rows = wrapped_rows(painter, text, font, colour, width);
+                    assert_eq!(num_bad_rows(&rows), 0, "{width}: {:?}", rows.text());
+                    assert_eq!(rows.text().replace('\n', ""), *text);
+                    assert!(rows.size().x < width + 1.0, "{text}");
+                }
+            }
+        });
+        output.drop_without_applying_deltas();
+        assert!(num_bad > 10, "egui breaks {num_bad} rows so by itself");
+    }
+
+    #[test]
+    fn other_languages_break_as_egui_breaks_them() {
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let output = ctx.run_ui(RawInput::default(), |ui| {
+            // In German “ closes.
+            let german = include_str!("../../../../assets/language/de/operator.ftl");
+            for text in texts(&[german], "Front door, left") {
+                let (font, width) = (font::next_step(), COLUMN[1] - 2.0 * 24.0);
+                let rows = wrapped_rows(ui.painter(), &text, &font, Color32::WHITE, width);
+                assert_eq!(rows.text(), text);
+            }
+        });
+        output.drop_without_applying_deltas();
+    }
 }

@@ -17,12 +17,13 @@ use crate::{
             camera::Camera,
             inspected::SceneOrScan,
             library_cache::LibraryCache,
-            source::{Origin, SceneSource},
+            source::{CellChoice, Origin, SceneSource},
         },
         shell::{context::TestShell, notice::NoticeKind},
         ui::viewport::ViewCamera,
     },
     geometry::cloud::PointCloud,
+    simulate::{PartKind, Side},
     stages::scene::SceneCloud,
 };
 
@@ -107,6 +108,13 @@ impl Bench {
             .take(scene, "Taking".into(), &self.shell.context());
         self.work();
         self.act(EnrolAction::TakeAs(InitialSelection::Whole));
+    }
+
+    /// Brings back a draft of an earlier start.
+    fn bring_back(&mut self, kept: KeptDraft) {
+        self.enrol.bring_back(kept, &mut self.shell.context());
+        self.deliver();
+        self.work();
     }
 
     fn named(&mut self, title: &str) {
@@ -371,6 +379,79 @@ fn a_result_that_comes_when_the_draft_is_gone_changes_nothing() {
     bench.begin(EnrolAction::Discard);
     bench.enrol.update(&mut bench.shell.context());
     assert!(bench.enrol.draft.is_none() && bench.enrol.running().is_none());
+}
+
+/// A corrected draft of a simulated frame as it would be written, and which points it keeps.
+fn corrected() -> (KeptDraft, Vec<u32>) {
+    let mut bench = Bench::new();
+    let choice = CellChoice::Part(PartKind::Grille, Side::Left);
+    let source = SceneSource::Cell { choice, number: 3 };
+    let (scene, title) = (SceneOrScan::Scene(source), "Taking".to_owned());
+    bench.enrol.take(scene, title, &bench.shell.context());
+    bench.work();
+    for edit in [corner(OutlineMode::Drop), lasso(OutlineMode::Drop, 0.4)] {
+        bench.act(EnrolAction::Correct(edit));
+    }
+    bench.named("Plate");
+    bench.act(EnrolAction::Write(Field::Notes("bent".into())));
+    let draft = bench.enrol.worked_on().expect("a draft");
+    let kept = KeptDraft {
+        checksum: Some(draft.selection.checksum()),
+        ..KeptDraft::of(draft)
+    };
+    (kept, bench.kept())
+}
+
+#[test]
+fn a_draft_of_an_earlier_start_comes_back_as_it_was() {
+    let (kept, points) = corrected();
+    let mut bench = Bench::new();
+    bench.bring_back(kept.clone());
+    assert_eq!(bench.kept(), points);
+    let draft = bench.enrol.draft.as_ref().expect("a draft");
+    assert_eq!(
+        (&draft.form, &draft.corrections),
+        (&kept.form, &kept.corrections)
+    );
+    let kinds: Vec<_> = bench.notices.iter().map(|notice| notice.kind).collect();
+    assert_eq!(kinds, [NoticeKind::Done], "{:?}", bench.notices);
+    // Another recipe, or another file of the same name.
+    let mut bench = Bench::new();
+    bench.bring_back(KeptDraft {
+        checksum: Some(7),
+        ..kept
+    });
+    let last = bench.notices.last().expect("a notice");
+    assert!(last.what.contains("other points"), "{last:?}");
+}
+
+#[test]
+fn of_a_draft_whose_scene_is_gone_the_words_come_back_with_the_next() {
+    let (kept, _) = corrected();
+    let camera = Origin::Frame {
+        name: "Kinect frame 12".into(),
+        is_simulated: false,
+    };
+    let gone = Origin::File {
+        path: "no such folder/door.pcd".into(),
+        is_simulated: false,
+    };
+    // Of a file that cannot be read its own error comes first.
+    for (origin, num_notices) in [(camera, 1), (gone, 2)] {
+        let mut bench = Bench::new();
+        bench.bring_back(KeptDraft {
+            origin,
+            ..kept.clone()
+        });
+        assert!(bench.enrol.draft.is_none() && bench.enrol.coming.is_some());
+        assert_eq!(bench.notices.len(), num_notices, "{:?}", bench.notices);
+        let last = bench.notices.last().expect("a notice");
+        assert!(last.advice.contains("Take the part again"), "{last:?}");
+        bench.take(80);
+        let draft = bench.enrol.draft.as_ref().expect("a draft");
+        assert_eq!(draft.form, kept.form);
+        assert!(draft.corrections.edits.is_empty() && bench.enrol.coming.is_none());
+    }
 }
 
 #[test]

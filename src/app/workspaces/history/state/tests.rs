@@ -8,6 +8,7 @@ use crate::{
             library_cache::LibraryCache,
             source::{CellChoice, SceneSource},
         },
+        language::Language,
         shell::{
             context::TestShell,
             message::{Event, Message, ReinspectionPurpose},
@@ -16,6 +17,7 @@ use crate::{
         workspaces::history::Direction,
     },
     history::{HistoryEvent, HungId, StoredVerdict},
+    kit::history_entry,
     pipeline::{PoseChoice, Recipe, Unwatched},
 };
 
@@ -182,6 +184,18 @@ fn rows_out_of_sight_are_asked_for_once() {
     assert!(!see(&mut bench, 0..3));
     assert!(see(&mut bench, 2000..2020));
     assert_eq!(bench.history.wanted().rows, 1900..2120);
+}
+
+#[test]
+fn a_frame_that_is_gone_is_called_as_the_list_calls_it() {
+    let mut record = history_entry(1, StoredVerdict::Accepted, "fender").record;
+    record.summary.scene = "Simulated frame 7".into();
+    let bench = Bench::new();
+    Language::German.make_current();
+    let why = bench.history.why_no_scene(&record);
+    Language::English.make_current();
+    let [what, _] = why.expect("nobody has the frame");
+    assert!(what.contains("Simuliertes Bild 7"), "{what}");
 }
 
 #[test]
