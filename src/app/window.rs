@@ -49,7 +49,7 @@ use crate::{
     files::file_of,
     history::{HistoryBuffer, Writer},
     pipeline::{RecipeFolder, open_recipe},
-    robot::frame_poses::FRAME_POSES,
+    robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES},
 };
 
 mod hosting;
@@ -71,6 +71,8 @@ pub struct WindowOptions {
     pub history: Option<PathBuf>,
     /// Where the user's own calibration of the robot's cell is; without it none is looked for.
     pub cell: Option<PathBuf>,
+    /// The folder of the cell's baseline and checks; without it none are kept.
+    pub cell_checks: Option<PathBuf>,
     /// What opens cameras.
     pub camera: Camera,
     /// The language to speak where none was chosen in the window; without it English.
@@ -109,6 +111,7 @@ impl Window {
             recipes,
             history,
             cell,
+            cell_checks,
             camera,
             language,
         } = options;
@@ -140,7 +143,7 @@ impl Window {
                 library_cache,
                 dialogs: DialogLock::default(),
             },
-            robot: RobotCell::new(&runner),
+            robot: RobotCell::new(cell_checks.map(CellCheckFolder::at), &runner),
             workspaces: vec![
                 Box::new(InspectWorkspace::new(&gpu, &runner)),
                 Box::new(EnrolWorkspace::new(gpu.clone(), draft, &runner)),

@@ -1,6 +1,9 @@
 //! `partsight cell`: whether camera and cell still stand where they stood.
 
-use std::{ops::ControlFlow, path::PathBuf};
+use std::{
+    ops::{ControlFlow, RangeInclusive},
+    path::PathBuf,
+};
 
 use clap::{Args, Subcommand};
 use jiff::{Timestamp, tz::TimeZone};
@@ -19,7 +22,8 @@ use crate::{
     files::write_atomically,
     report::SCHEMA,
     robot::cell_check::{
-        CellBaseline, CellCheck, CellCheckFolder, CellFinding, CellLimits, CellView, MAX_FRAMES,
+        CellBaseline, CellCheck, CellCheckFolder, CellFinding, CellLimits, CellViews, MAX_FRAMES,
+        USUAL_FRAMES, write_csv,
     },
     stages::scene::{SceneCloud, scene_from_image},
     units::{Metres, Radians},
@@ -65,7 +69,7 @@ struct Views {
     #[arg(long, value_name = "SOURCE", value_parser = parse_source, conflicts_with = "files")]
     source: Option<SourceSpec>,
     /// Frames to take from the source
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(1..=MAX_FRAMES as i64))]
+    #[arg(long, value_name = "N", default_value_t = USUAL_FRAMES as u8, value_parser = clap::value_parser!(u8).range(1..=MAX_FRAMES as i64))]
     frames: u8,
     #[command(flatten)]
     recipe: RecipeSource,
@@ -75,11 +79,27 @@ struct Views {
 struct BaselineArgs {
     #[command(flatten)]
     views: Views,
-    /// How far the part's middle, the wall and the floor may move, in millimetres (0.5 to 100)
-    #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = within::<500, 100_000>)]
+    #[arg(
+        long,
+        value_name = "MM",
+        default_value_t = CellLimits::default().shift.mm(),
+        value_parser = |text: &str| within(text, &CellLimits::SHIFT_MM),
+        help = format!(
+            "How far the part's middle, the wall and the floor may move, in millimetres ({})",
+            from_to(&CellLimits::SHIFT_MM)
+        )
+    )]
     max_shift: f64,
-    /// How far the part may turn, in degrees (0.05 to 10)
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.5, value_parser = within::<50, 10_000>)]
+    #[arg(
+        long,
+        value_name = "DEGREES",
+        default_value_t = CellLimits::default().turn.degrees(),
+        value_parser = |text: &str| within(text, &CellLimits::TURN_DEGREES),
+        help = format!(
+            "How far the part may turn, in degrees ({})",
+            from_to(&CellLimits::TURN_DEGREES)
+        )
+    )]
     max_turn: f64,
 }
 
@@ -105,13 +125,16 @@ struct ListArgs {
     json: bool,
 }
 
-/// For clap: a number between two limits, which are given in thousandths.
-fn within<const LEAST: i64, const MOST: i64>(text: &str) -> Result<f64, String> {
-    let [least, most] = [LEAST, MOST].map(|thousandths| thousandths as f64 / 1000.0);
+/// For clap: a number within a range.
+fn within(text: &str, range: &RangeInclusive<f64>) -> Result<f64, String> {
     let number = text.parse::<f64>().ok();
     number
-        .filter(|number| (least..=most).contains(number))
-        .ok_or_else(|| format!("expected a number from {least} to {most}"))
+        .filter(|number| range.contains(number))
+        .ok_or_else(|| format!("expected a number from {}", from_to(range)))
+}
+
+fn from_to(range: &RangeInclusive<f64>) -> String {
+    format!("{} to {}", range.start(), range.end())
 }
 
 pub(super) fn run(args: &CellArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -131,7 +154,11 @@ fn baseline(
     folder: &CellCheckFolder,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
-    let (views, is_simulated) = views(&args.views, console)?;
+    let CellViews {
+        views,
+        is_simulated,
+        ..
+    } = views(&args.views, console)?;
     let limits = CellLimits {
         shift: Metres::from_mm(args.max_shift),
         turn: Radians::from_degrees(args.max_turn),
@@ -163,9 +190,9 @@ fn check(
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let baseline = folder.baseline().advised()?;
-    let (views, is_simulated) = views(&args.views, console)?;
+    let taken = views(&args.views, console)?;
     let check = baseline
-        .check(&views, is_simulated, Timestamp::now())
+        .check(&taken.views, taken.is_simulated, Timestamp::now())
         .advised()?;
     if args.json {
         console.line(&json_line(&check)?);
@@ -283,16 +310,13 @@ fn list(
     Ok(Outcome::Accepted)
 }
 
-/// What the frames show, and whether one was simulated.
-fn views(args: &Views, console: &mut Console) -> anyhow::Result<(Vec<CellView>, bool)> {
-    let params = args.recipe.recipe()?.segment.clone();
-    let mut views = Vec::new();
-    let mut is_simulated = false;
+/// What the frames show.
+fn views(args: &Views, console: &mut Console) -> anyhow::Result<CellViews> {
+    let mut taken = CellViews::new(&args.recipe.recipe()?.segment);
     let mut look = |scene: &SceneCloud, name: &str| {
-        is_simulated |= scene.cloud.is_simulated;
-        let view = CellView::of(scene, &params);
-        views.push(view.map_err(|none| advised_error(format!("{name}: {none}"), none.advice()))?);
-        anyhow::Ok(views.len())
+        let added = taken.add(scene);
+        added.map_err(|none| advised_error(format!("{name}: {none}"), none.advice()))?;
+        anyhow::Ok(taken.views.len())
     };
     if let Some(source) = &args.source {
         let wanted = usize::from(args.frames);
@@ -337,30 +361,5 @@ fn views(args: &Views, console: &mut Console) -> anyhow::Result<(Vec<CellView>, 
         }
         look(&scene, &path.display().to_string())?;
     }
-    Ok((views, is_simulated))
-}
-
-fn write_csv(writer: &mut dyn std::io::Write, checks: &[CellCheck]) -> std::io::Result<()> {
-    writeln!(
-        writer,
-        "at,finding,frames,simulated,shift_x_m,shift_y_m,shift_z_m,turn_rad,background_shift_m,rms_m,noise_ratio,baseline"
-    )?;
-    for check in checks {
-        let [x, y, z] = check.shift_m;
-        let background = check.background_shift_m.map(|shift| shift.to_string());
-        writeln!(
-            writer,
-            "{},{},{},{},{x},{y},{z},{},{},{},{},{}",
-            check.at,
-            check.finding.name(),
-            check.num_frames,
-            check.is_simulated,
-            check.turn_rad,
-            background.unwrap_or_default(),
-            check.rms_m,
-            check.noise_ratio,
-            check.baseline
-        )?;
-    }
-    Ok(())
+    Ok(taken)
 }

@@ -208,6 +208,9 @@ fn window(
             .ok()
             .map(|folder| folder.path().to_owned()),
         cell: crate::robot::calibration::default_path().ok(),
+        cell_checks: crate::robot::cell_check::CellCheckFolder::of_user()
+            .ok()
+            .map(|folder| folder.path().to_owned()),
         scene,
         ..app::WindowOptions::default()
     };

@@ -11,6 +11,7 @@ use jiff::{SignedDuration, Timestamp};
 use nalgebra::{Point3, Vector3};
 use partsight::{
     Advice as _,
+    files::save_cloud,
     geometry::{
         cloud::PointCloud,
         depth_frame::{DepthFrame, Intrinsics},
@@ -70,6 +71,17 @@ pub(crate) fn facing_part(kind: PartKind, side: Side, seed: u64) -> SceneCloud {
     let mut setup = CellSetup::with_part(kind, side, 0, seed);
     setup.pose = PartPose::Drawn(PoseRange::facing());
     scene_of(&setup)
+}
+
+/// Writes what a camera that has moved back by so many metres sees of a fender that stands still; each seed gives another
+/// noise.
+pub(crate) fn save_fender_view(path: &Path, noise: u64, back: f64) {
+    let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 4);
+    let standing = frame(&setup).truth.camera_from_part;
+    setup.pose = PartPose::Fixed(RigidTransform::translation(0.0, 0.0, back) * standing);
+    setup.wall = Metres(setup.wall.0 + back);
+    setup.noise = SensorNoise::kinect(noise);
+    save_cloud(path, &scene_of(&setup).cloud).expect("written");
 }
 
 /// A left part before the camera that moves away from where its seed puts it.

@@ -11,7 +11,10 @@ use partsight::{
         WindowOptions,
         language::Language,
         shell::{
-            action::Action, live::LiveAction, robot::RobotAction, roles::RoleAction,
+            action::Action,
+            live::LiveAction,
+            robot::{CheckAction, RobotAction, RobotPage},
+            roles::RoleAction,
             session::WorkspaceKind,
         },
         workspaces::history::{HistoryAction, HistoryWorkspace, ListFilter},
@@ -327,6 +330,18 @@ fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
     }
 }
 
+/// Those that are nowhere near one of English, in words.
+fn only_here(mut found: Vec<Misfit>, usual: &[Misfit]) -> Vec<String> {
+    found.retain(|misfit| {
+        let is_it = |known: &Misfit| {
+            known.what == misfit.what && known.rect.expand(24.0).intersects(misfit.rect)
+        };
+        !usual.iter().any(is_it)
+    });
+    let in_words = |Misfit { what, text, rect }| format!("{text:?} {what} at {rect:?}");
+    found.into_iter().map(in_words).collect()
+}
+
 #[test]
 fn in_every_language_everything_fits_where_it_does_in_english() {
     let languages = [Language::German, Language::Spanish, Language::Chinese];
@@ -334,20 +349,43 @@ fn in_every_language_everything_fits_where_it_does_in_english() {
     for scenery in SCENERIES {
         let usual = misfits(&shown(Language::English, SMALL, scenery));
         for language in languages {
-            for misfit in misfits(&shown(language, SMALL, scenery)) {
-                let is_known = usual.iter().any(|known| {
-                    known.what == misfit.what && known.rect.expand(24.0).intersects(misfit.rect)
-                });
-                if !is_known {
-                    let Misfit { what, text, rect } = misfit;
-                    wrong.push(format!(
-                        "{language}, {scenery:?}: {text:?} {what} at {rect:?}"
-                    ));
-                }
-            }
+            let found = misfits(&shown(language, SMALL, scenery));
+            let found = only_here(found, &usual).into_iter();
+            wrong.extend(found.map(|misfit| format!("{language}, {scenery:?}: {misfit}")));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn in_every_language_the_check_of_the_cell_fits_where_it_does_in_english() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let checked = |language: Language| {
+        let options = WindowOptions {
+            language: Some(language),
+            cell_checks: Some(folder.path().to_owned()),
+            ..plain_options()
+        };
+        let mut harness = open_with(SMALL, options);
+        act(&mut harness, Action::Robot(RobotAction::Toggle));
+        let mut dialog = harness.state().robot().dialog().expect("open").clone();
+        dialog.page = RobotPage::Check;
+        let turned = RobotAction::Edit(Box::new(dialog));
+        act(&mut harness, Action::Robot(turned));
+        if !harness.state().robot().checks().content().has_baseline {
+            let take = RobotAction::Check(CheckAction::TakeBaseline);
+            act(&mut harness, Action::Robot(take));
+        }
+        let check = RobotAction::Check(CheckAction::Check);
+        act(&mut harness, Action::Robot(check));
+        assert!(harness.state().robot().checks().latest().is_some());
+        misfits(&harness)
+    };
+    let usual = checked(Language::English);
+    for language in [Language::German, Language::Spanish, Language::Chinese] {
+        let wrong = only_here(checked(language), &usual);
+        assert!(wrong.is_empty(), "{language}: {}", wrong.join("\n"));
+    }
 }
 
 #[test]

@@ -68,3 +68,64 @@ robot-read-as = gelesen als
 robot-conventions-are = Roboter { $robot }, Kamera { $camera }
 robot-eye-to-hand = Eye-to-hand: Die Kamera steht in der Zelle
 robot-eye-in-hand = Eye-in-hand: Die Kamera sitzt am Flansch
+
+## Check of the cell
+
+robot-check = Zellenkontrolle
+robot-check-says = Ein Teil, das jeden Tag am selben Platz hängt, zeigt, ob Kamera und Zelle noch stehen wie zuvor. Jedes starre Ding mit Kanten in allen Richtungen eignet sich; etwas von Wand oder Boden im Bild lassen
+robot-check-no-folder = Es gibt keinen Ordner für Ausgangszustand und Kontrollen
+robot-check-no-folder-advice = partsight cell mit --folder DIR verwenden
+robot-no-baseline = Es gibt keinen Ausgangszustand zum Vergleich
+robot-no-baseline-advice = Einen aufnehmen, solange die Zelle in Ordnung ist
+robot-baseline = Ausgangszustand
+robot-taken-at =
+    { $time }, { $count ->
+        [one] 1 Bild
+       *[other] { $count } Bilder
+    }
+robot-allowed = erlaubt
+robot-allowed-are = { $shift } und { $turn }
+robot-no-wall = Weder Wand noch Boden sind im Bild des Ausgangszustands: Eine Kontrolle kann nicht unterscheiden, ob sich die Kamera oder das Teil bewegt hat
+robot-no-wall-advice = Etwas davon im Bild lassen und einen neuen Ausgangszustand aufnehmen
+robot-frames-from = Bilder von
+robot-new-baseline-allows = Ein neuer Ausgangszustand erlaubt
+robot-allowed-shift = Erlaubte Verschiebung, mm
+robot-allowed-turn = Erlaubte Drehung, Grad
+robot-take-baseline = Ausgangszustand aufnehmen
+robot-take-new-baseline = Neuen Ausgangszustand aufnehmen…
+robot-check-now = Jetzt kontrollieren
+robot-replace-says = Den Ausgangszustand ersetzen? Kontrollen werden dann mit dem neuen verglichen, der alte bleibt nicht erhalten
+robot-keep-baseline = Behalten
+robot-replace-baseline = Ersetzen
+robot-reading-checks = Ausgangszustand und Kontrollen werden gelesen
+robot-taking-baseline = Ausgangszustand wird aufgenommen
+robot-checking = Zelle wird kontrolliert
+robot-writing-checks = Kontrollen werden geschrieben
+robot-check-of-scan = Ein Scan ist von mehreren Orten gesehen und keine Kontrolle der Zelle
+robot-check-of-scan-advice = Eine Kamera als Quelle wählen oder eine einzelne Aufnahme öffnen
+robot-last-check = Letzte Kontrolle
+robot-checked = kontrolliert
+robot-of-allowed = { $value }, erlaubt { $limit }
+robot-part-shifted = Teil verschoben um
+robot-along-axes = entlang x, y und z der Kamera
+robot-part-turned = Teil gedreht um
+robot-wall-shifted = Wand und Boden verschoben um
+robot-wall-not-found = nicht wiedergefunden
+robot-readings = Messwerte
+robot-readings-are = { $rms } rms zum Ausgangszustand, das { $ratio }-Fache seines Rauschens
+robot-checks-shown = Letzte { $shown } von { $count } Kontrollen
+robot-shift-over-time = Verschiebung seit dem Ausgangszustand entlang x, y und z der Kamera
+robot-check-time = Zeit
+robot-check-shift = Verschiebung
+robot-check-turn = Drehung
+robot-check-finding = Befund
+robot-export-checks = CSV exportieren…
+robot-export-checks-title = Kontrollen der Zelle exportieren
+robot-csv-files = Kommagetrennte Werte
+robot-checks-written =
+    { $count ->
+        [one] Eine Kontrolle
+       *[other] { $count } Kontrollen
+    } nach { $path } geschrieben
+robot-moved = Letzte Kontrolle der Zelle, { $time }: { $finding }
+robot-moved-advice = Vor dem Lackieren einen Einrichter nachsehen lassen: Roboter…, Zellenkontrolle

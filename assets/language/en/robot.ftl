@@ -68,3 +68,64 @@ robot-read-as = read as
 robot-conventions-are = robot { $robot }, camera { $camera }
 robot-eye-to-hand = eye to hand: the camera stands in the cell
 robot-eye-in-hand = eye in hand: the camera is on the robot's flange
+
+## Check of the cell
+
+robot-check = Check of the cell
+robot-check-says = One part, hung in the same place every day, shows whether camera and cell still stand where they stood. Any rigid thing with edges in all directions serves; leave some of wall or floor in the picture
+robot-check-no-folder = There is no folder for the baseline and the checks
+robot-check-no-folder-advice = Use partsight cell with --folder DIR
+robot-no-baseline = There is no baseline to compare with
+robot-no-baseline-advice = Take one while the cell is right
+robot-baseline = baseline
+robot-taken-at =
+    { $time }, { $count ->
+        [one] 1 frame
+       *[other] { $count } frames
+    }
+robot-allowed = allowed
+robot-allowed-are = { $shift } and { $turn }
+robot-no-wall = Neither wall nor floor is in the picture of the baseline: a check cannot tell whether the camera moved or the part
+robot-no-wall-advice = Leave some of them in the picture, and take a new baseline
+robot-frames-from = frames from
+robot-new-baseline-allows = A new baseline allows
+robot-allowed-shift = Allowed shift, mm
+robot-allowed-turn = Allowed turn, degrees
+robot-take-baseline = Take baseline
+robot-take-new-baseline = Take a new baseline…
+robot-check-now = Check now
+robot-replace-says = Replace the baseline? Checks are compared with the new one from then on, and the old one is not kept
+robot-keep-baseline = Keep it
+robot-replace-baseline = Replace it
+robot-reading-checks = Reading baseline and checks
+robot-taking-baseline = Taking the baseline
+robot-checking = Checking the cell
+robot-writing-checks = Writing the checks
+robot-check-of-scan = A scan is seen from several places and is no check of the cell
+robot-check-of-scan-advice = Choose a camera as the source, or open a single capture
+robot-last-check = Last check
+robot-checked = checked
+robot-of-allowed = { $value }, allowed { $limit }
+robot-part-shifted = part moved by
+robot-along-axes = along x, y and z of the camera
+robot-part-turned = part turned by
+robot-wall-shifted = wall and floor moved by
+robot-wall-not-found = neither was found again
+robot-readings = readings
+robot-readings-are = { $rms } rms against the baseline, { $ratio } times its noise
+robot-checks-shown = Last { $shown } of { $count } checks
+robot-shift-over-time = Shift since the baseline, along x, y and z of the camera
+robot-check-time = time
+robot-check-shift = shift
+robot-check-turn = turn
+robot-check-finding = finding
+robot-export-checks = Export CSV…
+robot-export-checks-title = Export the checks of the cell
+robot-csv-files = Comma-separated values
+robot-checks-written =
+    { $count ->
+        [one] One check
+       *[other] { $count } checks
+    } written to { $path }
+robot-moved = Last check of the cell, { $time }: { $finding }
+robot-moved-advice = Have an engineer look before parts are painted: Robot…, Check of the cell

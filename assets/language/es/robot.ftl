@@ -68,3 +68,64 @@ robot-read-as = leído como
 robot-conventions-are = robot { $robot }, cámara { $camera }
 robot-eye-to-hand = eye-to-hand: la cámara está fija en la celda
 robot-eye-in-hand = eye-in-hand: la cámara está en la brida
+
+## Check of the cell
+
+robot-check = Comprobación
+robot-check-says = Una pieza colgada cada día en el mismo sitio muestra si la cámara y la celda siguen donde estaban. Sirve cualquier cosa rígida con bordes en todas las direcciones; dejar algo de pared o suelo en la imagen
+robot-check-no-folder = No hay carpeta para el estado inicial y las comprobaciones
+robot-check-no-folder-advice = Usar partsight cell con --folder DIR
+robot-no-baseline = No hay estado inicial con el que comparar
+robot-no-baseline-advice = Tomarlo mientras la celda está bien
+robot-baseline = estado inicial
+robot-taken-at =
+    { $time }, { $count ->
+        [one] 1 imagen
+       *[other] { $count } imágenes
+    }
+robot-allowed = permitido
+robot-allowed-are = { $shift } y { $turn }
+robot-no-wall = Ni la pared ni el suelo están en la imagen del estado inicial: una comprobación no puede distinguir si se movió la cámara o la pieza
+robot-no-wall-advice = Dejar algo de ellos en la imagen y tomar un nuevo estado inicial
+robot-frames-from = imágenes de
+robot-new-baseline-allows = Un nuevo estado inicial permite
+robot-allowed-shift = Desplazamiento permitido, mm
+robot-allowed-turn = Rotación permitida, grados
+robot-take-baseline = Tomar el estado inicial
+robot-take-new-baseline = Tomar un nuevo estado inicial…
+robot-check-now = Comprobar ahora
+robot-replace-says = ¿Reemplazar el estado inicial? Desde entonces se compara con el nuevo, y el anterior no se conserva
+robot-keep-baseline = Conservarlo
+robot-replace-baseline = Reemplazarlo
+robot-reading-checks = Leyendo el estado inicial y las comprobaciones
+robot-taking-baseline = Tomando el estado inicial
+robot-checking = Comprobando la celda
+robot-writing-checks = Escribiendo las comprobaciones
+robot-check-of-scan = Un escaneo se ve desde varios lugares y no es una comprobación de la celda
+robot-check-of-scan-advice = Elegir una cámara como fuente o abrir una sola captura
+robot-last-check = Última comprobación
+robot-checked = comprobado
+robot-of-allowed = { $value }, permitido { $limit }
+robot-part-shifted = la pieza se movió
+robot-along-axes = en x, y, z de la cámara
+robot-part-turned = la pieza giró
+robot-wall-shifted = pared y suelo se movieron
+robot-wall-not-found = no se encontraron de nuevo
+robot-readings = lecturas
+robot-readings-are = { $rms } rms respecto al estado inicial, { $ratio } veces su ruido
+robot-checks-shown = Últimas { $shown } de { $count } comprobaciones
+robot-shift-over-time = Desplazamiento desde el estado inicial en x, y, z de la cámara
+robot-check-time = hora
+robot-check-shift = desplazamiento
+robot-check-turn = rotación
+robot-check-finding = resultado
+robot-export-checks = Exportar CSV…
+robot-export-checks-title = Exportar las comprobaciones de la celda
+robot-csv-files = Valores separados por comas
+robot-checks-written =
+    { $count ->
+        [one] Una comprobación escrita
+       *[other] { $count } comprobaciones escritas
+    } en { $path }
+robot-moved = Última comprobación de la celda, { $time }: { $finding }
+robot-moved-advice = Pedir a un técnico que lo revise antes de pintar: Robot…, Comprobación

@@ -124,6 +124,33 @@ impl Camera {
         found
     }
 
+    /// The next frames of a source, so many or those that it still has; each is waited for until nobody wants it. `came`
+    /// is told how many are there.
+    pub fn frames(
+        &self,
+        spec: &SourceSpec,
+        num: usize,
+        is_cancelled: &dyn Fn() -> bool,
+        came: &dyn Fn(usize),
+    ) -> Result<Vec<Captured>, CameraError> {
+        let feed = self.feed(spec)?;
+        let mut frames = Vec::with_capacity(num);
+        let mut failed = None;
+        while frames.len() < num && failed.is_none() {
+            match wait(&feed, spec, is_cancelled) {
+                Ok(frame) => {
+                    frames.push(frame);
+                    came(frames.len());
+                }
+                Err(CameraError::AtItsEnd { .. }) if !frames.is_empty() => break,
+                Err(error) => failed = Some(error),
+            }
+        }
+        drop(feed);
+        self.rest();
+        failed.map_or(Ok(frames), Err)
+    }
+
     /// Tells a scene of this source what earlier ones showed of the field of view, and remembers what this one shows.
     pub fn share_view(&self, spec: &SourceSpec, scene: &mut Arc<SceneCloud>) {
         let mut views = lock(&self.views);
@@ -190,8 +217,9 @@ impl fmt::Debug for Camera {
 mod tests {
     use super::*;
     use crate::{
+        files::save_cloud,
         geometry::depth_frame::{DepthFrame, Intrinsics},
-        stages::scene::scene_from_frame,
+        stages::scene::{scene_from_frame, scene_from_image},
     };
 
     fn is_open(camera: &Camera) -> bool {
@@ -210,6 +238,32 @@ mod tests {
         drop(followed);
         camera.rest();
         assert!(!is_open(&camera));
+    }
+
+    #[test]
+    fn several_frames_come_one_after_the_other_and_fewer_where_a_recording_ends() {
+        let camera = Camera::default();
+        let spec: SourceSpec = "simulated,fps=1000:empty".parse().expect("a source");
+        let came = std::cell::RefCell::new(Vec::new());
+        let told = |num| came.borrow_mut().push(num);
+        let frames = camera.frames(&spec, 3, &|| false, &told).expect("frames");
+        let numbers: Vec<u64> = frames.iter().map(|frame| frame.number).collect();
+        assert!(numbers.is_sorted_by(|a, b| a < b), "{numbers:?}");
+        assert_eq!(*came.borrow(), [1, 2, 3]);
+        assert!(!is_open(&camera));
+
+        let folder = tempfile::tempdir().expect("a folder");
+        for (name, frame) in ["a.pcd", "b.pcd"].into_iter().zip(frames) {
+            let scene = scene_from_image(frame.image);
+            save_cloud(&folder.path().join(name), &scene.cloud).expect("written");
+        }
+        let text = format!("recording,pace=step:{}", folder.path().display());
+        let spec: SourceSpec = text.parse().expect("a source");
+        let frames = camera.frames(&spec, 3, &|| false, &|_| ());
+        assert_eq!(frames.expect("those there").len(), 2);
+        // Then it begins again.
+        let frames = camera.frames(&spec, 1, &|| false, &|_| ());
+        assert_eq!(frames.expect("the first").len(), 1);
     }
 
     #[test]

@@ -6,7 +6,6 @@ use jiff::Timestamp;
 use nalgebra::Point3;
 
 use super::{
-    camera::CameraError,
     deviation::{deviations, deviations_at},
     figures::StageFigures,
     fuse::{FuseError, FusedShots, Steps, Then, fuse},
@@ -14,13 +13,12 @@ use super::{
     scan_choice::{ScanOrder, ScanRequest},
     scan_figure::marked,
     scene_figure::{SceneFigure, SceneFigureInput},
-    source::{Captured, Origin, SceneError, SceneSource},
+    source::{Captured, Origin, SceneSource},
 };
 use crate::{
     app::{
         task::TaskError,
         ui::viewport::{PointSet, Role},
-        user_error::UserError,
     },
     capture::CaptureWarning,
     geometry::{cloud::PointCloud, rigid::RigidTransform},
@@ -165,10 +163,7 @@ pub fn inspect(
         scene,
         origin,
         warnings,
-    } = taken.map_err(|error| match error {
-        SceneError::Camera(CameraError::Cancelled) => TaskError::Cancelled,
-        error => UserError::of(&error).into(),
-    })?;
+    } = taken?;
     let fitted = shelved.fitting(&request.recipe, watch);
     let fitted = fitted.ok_or(TaskError::Cancelled)?;
     let found = FinishedInspection {

@@ -10,7 +10,9 @@ use super::{
 use crate::{
     app::{
         language::{history::stored_scene, results::object, text},
+        task::TaskError,
         ui::widgets::sentence,
+        user_error::UserError,
     },
     capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec},
     error::Advice,
@@ -279,6 +281,15 @@ impl Advice for SceneError {
             Self::MeshIsNoScene { .. } => {
                 "Open it in the Enrol workspace (2) to enrol it as a reference".into()
             }
+        }
+    }
+}
+
+impl From<SceneError> for TaskError {
+    fn from(error: SceneError) -> Self {
+        match error {
+            SceneError::Camera(CameraError::Cancelled) => Self::Cancelled,
+            error => UserError::of(&error).into(),
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::{
     error::Advice as _,
     history::{KeepFrames, StoredVerdict},
     pipeline::{RecipeLabel, Rejection, Unrecognisable},
+    robot::cell_check::{CellFinding, CellViewError},
     scan::Excluded,
     simulate::ObjectKind,
     stages::{
@@ -406,6 +407,63 @@ pub(in crate::app) fn stand_off_error(error: &StandOffError) -> String {
     }
 }
 
+/// What a check of the cell comes to.
+pub(in crate::app) fn cell_finding(finding: CellFinding) -> String {
+    match finding {
+        CellFinding::InPlace => text!("results-cell-in-place"),
+        CellFinding::PartMoved => text!("results-cell-part-moved"),
+        CellFinding::CameraMoved => text!("results-cell-camera-moved"),
+        CellFinding::PartOrCameraMoved => text!("results-cell-part-or-camera-moved"),
+        CellFinding::Noisier => text!("results-cell-noisier"),
+    }
+}
+
+/// What to do about it.
+pub(in crate::app) fn cell_finding_advice(finding: CellFinding) -> String {
+    match finding {
+        CellFinding::InPlace => text!("results-cell-in-place-advice"),
+        CellFinding::PartMoved => text!("results-cell-part-moved-advice"),
+        CellFinding::CameraMoved => text!("results-cell-camera-moved-advice"),
+        CellFinding::PartOrCameraMoved => text!("results-cell-part-or-camera-moved-advice"),
+        CellFinding::Noisier => text!("results-cell-noisier-advice"),
+    }
+}
+
+/// Why frames are no baseline of the cell, or cannot be compared with it.
+pub(in crate::app) fn cell_view_error(error: &CellViewError) -> String {
+    match error {
+        CellViewError::NoFrame => text!("results-cell-no-frame"),
+        CellViewError::Moving { frame, moved } => text!(
+            "results-cell-moving",
+            frame = *frame,
+            shift = moved.shift.to_string(),
+            turn = moved.rotation.to_string()
+        ),
+        CellViewError::OtherPart { frame, overlap } => text!(
+            "results-cell-other-part",
+            frame = *frame,
+            overlap = fixed!(overlap * 100.0, 0)
+        ),
+        CellViewError::Pose { frame, error } => {
+            text!(
+                "results-cell-pose",
+                frame = *frame,
+                error = pose_error(error)
+            )
+        }
+    }
+}
+
+/// What to do about it.
+pub(in crate::app) fn cell_view_error_advice(error: &CellViewError) -> String {
+    match error {
+        CellViewError::NoFrame => text!("results-cell-no-frame-advice"),
+        CellViewError::Moving { .. } => text!("results-cell-moving-advice"),
+        CellViewError::OtherPart { .. } => text!("results-cell-other-part-advice"),
+        CellViewError::Pose { error, .. } => pose_error_advice(error),
+    }
+}
+
 /// Why a shot was left out, in a few words.
 pub(in crate::app) fn excluded_in_short(why: &Excluded) -> String {
     match why {
@@ -478,7 +536,11 @@ pub(in crate::app) fn object(kind: ObjectKind) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kit::{FREEDOMS, pose_errors, rejections, unrecognisables};
+    use crate::{
+        geometry::rigid::PoseDelta,
+        kit::{FREEDOMS, pose_errors, rejections, unrecognisables},
+        units::{Metres, Radians},
+    };
 
     #[test]
     fn in_english_the_window_says_what_the_library_says() {
@@ -493,6 +555,36 @@ mod tests {
         for error in pose_errors() {
             assert_eq!(pose_error(&error), error.to_string());
             assert_eq!(pose_error_advice(&error), error.advice());
+        }
+        for finding in [
+            CellFinding::InPlace,
+            CellFinding::PartMoved,
+            CellFinding::CameraMoved,
+            CellFinding::PartOrCameraMoved,
+            CellFinding::Noisier,
+        ] {
+            assert_eq!(cell_finding(finding), finding.describe());
+            assert_eq!(cell_finding_advice(finding), finding.advice());
+        }
+        let mut cell_errors = vec![
+            CellViewError::NoFrame,
+            CellViewError::Moving {
+                frame: 3,
+                moved: PoseDelta {
+                    shift: Metres(0.0154),
+                    rotation: Radians(0.02),
+                },
+            },
+            CellViewError::OtherPart {
+                frame: 1,
+                overlap: 0.618,
+            },
+        ];
+        let of_pose = |error| CellViewError::Pose { frame: 2, error };
+        cell_errors.extend(pose_errors().into_iter().map(of_pose));
+        for error in cell_errors {
+            assert_eq!(cell_view_error(&error), error.to_string());
+            assert_eq!(cell_view_error_advice(&error), error.advice());
         }
         let mut warnings = vec![
             PoseWarning::LittleOverlap {

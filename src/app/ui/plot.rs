@@ -2,7 +2,8 @@
 //! scrolls the panel around it.
 
 use egui::{
-    Align2, Color32, FontId, Painter, Pos2, Rangef, Rect, Shape, Stroke, Ui, UiBuilder, Vec2, pos2,
+    Align2, Color32, FontId, Painter, Pos2, Rangef, Rect, Sense, Shape, Stroke, Ui, UiBuilder,
+    Vec2, WidgetInfo, pos2,
     text::{LayoutJob, TextFormat},
     vec2,
 };
@@ -10,14 +11,17 @@ use egui_plot::{
     AxisHints, GridInput, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoints,
     PlotTransform, PlotUi,
 };
+use jiff::Zoned;
 
-use super::theme::{Theme, font};
+use super::theme::{ROUNDING, Theme, font, space};
 use crate::app::language::text;
 
 /// Beyond either end of its range an axis shows this share of it: a line at the end is seen whole.
 const MARGIN: f64 = 0.03;
 /// More powers of ten than this are marked every second one only.
 const MANY_POWERS: usize = 8;
+/// Height of a plot over time, logical pixels.
+const OVER_TIME: f32 = 150.0;
 
 /// The range of an axis and the values marked along it.
 #[derive(Clone, Debug)]
@@ -241,6 +245,75 @@ impl RayCurves<'_> {
             }
             plot.line(curve(scene, colour));
         });
+    }
+}
+
+/// Curves over moments in their order, with dates along them. Each value is written by a function, and the height shows at
+/// least the span behind it.
+pub(in crate::app) fn over_time(
+    ui: &mut Ui,
+    at: &[Zoned],
+    title: &str,
+    curves: &[(&str, &[f32], Color32)],
+    (written, least_span): (&dyn Fn(f64) -> String, f64),
+    theme: &Theme,
+) {
+    let size = vec2(ui.available_width(), OVER_TIME);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, title));
+    ui.painter().rect_filled(rect, ROUNDING, theme.panel);
+    ui.add_space(space::SMALL);
+    let last = at.len().saturating_sub(1).max(1);
+    let room = (size.x / 110.0).max(1.0) as usize;
+    let step = at.len().div_ceil(room).max(1);
+    let dates = at.iter().enumerate().step_by(step);
+    let dates = dates.map(|(place, at)| (place as f64, at.strftime("%m-%d %H:%M").to_string()));
+    let known = curves.iter().flat_map(|(_, values, _)| *values);
+    let [low, high] = range_of(known.filter(|value| value.is_finite()));
+    // Noise must not look as large as a drift.
+    let spare = 0.5 * (least_span - (high - low)).max(0.1 * (high - low));
+    let [low, high] = [low - spare, high + spare];
+    let axes = Axes {
+        title: vec![(title.to_owned(), theme.text)],
+        across: Axis::new([0.0, last as f64], dates.collect()),
+        up: Axis::new(
+            [low, high],
+            [low, high].map(|value| (value, written(value))).to_vec(),
+        ),
+        font: font::small(),
+        read: Some(Box::new(|across| {
+            let place = (across.round().max(0.0) as usize).min(at.len() - 1);
+            let at = at[place].strftime("%Y-%m-%d %H:%M");
+            let values = curves.iter().map(|(name, values, _)| {
+                let value = f64::from(values[place]);
+                let value = if value.is_finite() {
+                    written(value)
+                } else {
+                    "–".into()
+                };
+                format!("{name} {value}").trim_start().to_owned()
+            });
+            let values: Vec<String> = values.collect();
+            format!("{at}: {}", values.join(", "))
+        })),
+    };
+    let shown = axes.show(ui, rect.shrink(space::MEDIUM), theme, |plot| {
+        for (_, values, colour) in curves {
+            let points = values
+                .iter()
+                .enumerate()
+                .filter(|(_, value)| value.is_finite());
+            let points: PlotPoints<'_> = points
+                .map(|(place, value)| [place as f64, f64::from(*value)])
+                .collect();
+            plot.line(Line::new("", points).color(*colour).width(1.4));
+        }
+    });
+    if curves.len() > 1 {
+        let names = curves
+            .iter()
+            .map(|(name, _, colour)| (*name, *colour, LineStyle::Solid));
+        legend(ui.painter(), &shown, names);
     }
 }
 

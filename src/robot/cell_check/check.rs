@@ -1,5 +1,7 @@
 //! What a check found.
 
+use std::io::{self, Write};
+
 use jiff::Timestamp;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -63,6 +65,14 @@ impl CellCheck {
 }
 
 impl CellFinding {
+    /// True if part or camera are elsewhere.
+    pub fn has_moved(self) -> bool {
+        match self {
+            Self::PartMoved | Self::CameraMoved | Self::PartOrCameraMoved => true,
+            Self::InPlace | Self::Noisier => false,
+        }
+    }
+
     /// As it is written.
     pub fn name(self) -> &'static str {
         match self {
@@ -89,12 +99,12 @@ impl CellFinding {
 impl Advice for CellFinding {
     fn advice(&self) -> String {
         match self {
-            Self::InPlace => "Nothing",
+            Self::InPlace => "Nothing needs to be done",
             Self::PartMoved => {
                 "Hang the part as it was, or check what holds it, and check again; if it is to stay, take a new baseline"
             }
             Self::CameraMoved => {
-                "Fix the camera, calibrate it again (partsight calibrate hand-eye), then take a new baseline (partsight cell baseline)"
+                "Fix the camera, calibrate it again, then take a new baseline"
             }
             Self::PartOrCameraMoved => {
                 "Hang the part as it was and check again; if that does not help, the camera moved: calibrate it and take a new baseline"
@@ -105,4 +115,30 @@ impl Advice for CellFinding {
         }
         .into()
     }
+}
+
+/// Writes checks as a table: a line for each, below one that names the columns.
+pub fn write_csv(writer: &mut dyn Write, checks: &[CellCheck]) -> io::Result<()> {
+    writeln!(
+        writer,
+        "at,finding,frames,simulated,shift_x_m,shift_y_m,shift_z_m,turn_rad,background_shift_m,rms_m,noise_ratio,baseline"
+    )?;
+    for check in checks {
+        let [x, y, z] = check.shift_m;
+        let background = check.background_shift_m.map(|shift| shift.to_string());
+        writeln!(
+            writer,
+            "{},{},{},{},{x},{y},{z},{},{},{},{},{}",
+            check.at,
+            check.finding.name(),
+            check.num_frames,
+            check.is_simulated,
+            check.turn_rad,
+            background.unwrap_or_default(),
+            check.rms_m,
+            check.noise_ratio,
+            check.baseline
+        )?;
+    }
+    Ok(())
 }

@@ -87,7 +87,7 @@ impl Advice for CellCheckError {
             Self::Bad { path, .. } if path.ends_with(CHECKS) => {
                 "Move the file away: the next check begins a new one".into()
             }
-            Self::Bad { .. } => "Take a new baseline: partsight cell baseline FILE".into(),
+            Self::Bad { .. } => "Take a new baseline".into(),
             Self::NoUserFolder => "Name a folder with --folder".into(),
         }
     }

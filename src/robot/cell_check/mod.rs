@@ -11,15 +11,17 @@ mod file;
 mod tests;
 mod view;
 
+use std::ops::RangeInclusive;
+
 use jiff::Timestamp;
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use self::view::PlanePatch;
 pub use self::{
-    check::{CellCheck, CellFinding},
+    check::{CellCheck, CellFinding, write_csv},
     file::{CellCheckError, CellCheckFolder},
-    view::CellView,
+    view::{CellView, CellViews},
 };
 use crate::{
     error::Advice,
@@ -35,6 +37,8 @@ use crate::{
 
 /// The most frames of one check; more add nothing.
 pub const MAX_FRAMES: usize = 16;
+/// Frames that are taken from a camera unless a person asks for another number.
+pub const USUAL_FRAMES: usize = 5;
 /// Spacing of the baseline's points; frames are averaged within it.
 const SPACING: Metres = Metres(0.003);
 /// With less overlap than this, it is another part or partly hidden.
@@ -64,6 +68,11 @@ impl Default for CellLimits {
 }
 
 impl CellLimits {
+    /// Shifts that can be allowed, millimetres.
+    pub const SHIFT_MM: RangeInclusive<f64> = 0.5..=100.0;
+    /// Turns that can be allowed, degrees.
+    pub const TURN_DEGREES: RangeInclusive<f64> = 0.05..=10.0;
+
     fn allow(&self, moved: &PoseDelta) -> bool {
         moved.shift <= self.shift && moved.rotation <= self.turn
     }

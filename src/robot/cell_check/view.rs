@@ -68,6 +68,34 @@ impl PlanePatch {
     }
 }
 
+/// What the frames of a baseline or of a check show.
+#[derive(Clone, Debug)]
+pub struct CellViews {
+    params: SegmentParams,
+    /// One for each frame, in their order.
+    pub views: Vec<CellView>,
+    /// True if a frame was simulated.
+    pub is_simulated: bool,
+}
+
+impl CellViews {
+    /// Before the first frame; `params` find the part in each.
+    pub fn new(params: &SegmentParams) -> Self {
+        Self {
+            params: params.clone(),
+            views: Vec::new(),
+            is_simulated: false,
+        }
+    }
+
+    /// Looks for the part in the next frame.
+    pub fn add(&mut self, scene: &SceneCloud) -> Result<(), NoPart> {
+        self.views.push(CellView::of(scene, &self.params)?);
+        self.is_simulated |= scene.cloud.is_simulated;
+        Ok(())
+    }
+}
+
 impl CellView {
     /// Looks for the part in a frame.
     pub fn of(scene: &SceneCloud, params: &SegmentParams) -> Result<Self, NoPart> {

@@ -3,7 +3,7 @@
 use egui::{Button, Context, RichText, ScrollArea, Ui, vec2};
 
 use super::{
-    by_hand, from_pairs, in_use,
+    by_hand, check_page, from_pairs, in_use,
     state::{RobotAction, RobotCell, RobotDialog, RobotPage},
 };
 use crate::{
@@ -86,6 +86,8 @@ impl RobotCell {
             RobotPage::FromPairs => {
                 from_pairs::ui(ui, self, session.convention, dialog, theme, caused);
             }
+            // It says itself what went wrong, above its list.
+            RobotPage::Check => return check_page::ui(ui, self, session, dialog, theme, caused),
         }
         if let Some(trouble) = &dialog.trouble {
             ui.add_space(space::SMALL);

@@ -4,7 +4,10 @@ use std::{path::PathBuf, sync::Arc};
 
 use jiff::Timestamp;
 
-use super::work::{self, CellInUse, RobotResult, SolvedPairs};
+use super::{
+    cell_check::{CellChecks, CheckAction},
+    work::{self, CellInUse, RobotResult, SolvedPairs},
+};
 use crate::{
     app::{
         inspection::source::file_name,
@@ -22,17 +25,19 @@ use crate::{
     robot::{
         Convention, WrittenPose, WrittenPoseError,
         calibration::{CalibrationFit, CameraPlace, CellCalibration, Origin},
+        cell_check::{CellCheckFolder, CellLimits},
         hand_eye::Mount,
         parse_written_pose,
     },
 };
 
-/// The calibration of the robot's cell, and the dialog about it.
+/// The calibration of the robot's cell, its checks, and the dialog about them.
 #[derive(Debug)]
 pub struct RobotCell {
     in_use: Option<Arc<CellInUse>>,
     dialog: Option<RobotDialog>,
     task: Task<RobotResult>,
+    checks: CellChecks,
     files: FileDialog<RobotFile>,
 }
 
@@ -46,11 +51,13 @@ pub enum RobotPage {
     ByHand,
     /// Hand-eye calibration.
     FromPairs,
+    /// Whether camera and cell still stand where they stood.
+    Check,
 }
 
 impl RobotPage {
     /// All of them, in their order.
-    pub const ALL: [Self; 3] = [Self::InUse, Self::ByHand, Self::FromPairs];
+    pub const ALL: [Self; 4] = [Self::InUse, Self::ByHand, Self::FromPairs, Self::Check];
 
     /// What a person calls it.
     pub fn title(self) -> String {
@@ -58,6 +65,7 @@ impl RobotPage {
             Self::InUse => text!("robot-in-use"),
             Self::ByHand => text!("robot-by-hand"),
             Self::FromPairs => text!("robot-from-pairs"),
+            Self::Check => text!("robot-check"),
         }
     }
 }
@@ -85,6 +93,10 @@ pub struct RobotDialog {
     pub solved: Option<Arc<SolvedPairs>>,
     /// True if a person wants it used although it must not be.
     pub insists: bool,
+    /// What the next baseline of the cell allows.
+    pub limits: CellLimits,
+    /// True while a person is asked whether the baseline is to be replaced.
+    pub is_replacing: bool,
     /// What went wrong last.
     pub trouble: Option<UserError>,
 }
@@ -102,6 +114,8 @@ impl RobotDialog {
             left_out: Vec::new(),
             solved: None,
             insists: false,
+            limits: CellLimits::default(),
+            is_replacing: false,
             trouble: None,
         }
     }
@@ -156,6 +170,8 @@ pub enum RobotAction {
     Pairs(PathBuf),
     /// Use no calibration.
     Forget,
+    /// Of the check of the cell.
+    Check(CheckAction),
 }
 
 /// What a person is asked to choose.
@@ -165,6 +181,8 @@ pub enum RobotFile {
     Calibration,
     /// A file of robot and camera poses.
     Pairs,
+    /// The table that the checks of the cell go to.
+    Checks,
 }
 
 impl RobotFile {
@@ -183,17 +201,23 @@ impl RobotFile {
                 ],
                 choice: FileChoice::File,
             },
+            Self::Checks => FileRequest {
+                title: text!("robot-export-checks-title"),
+                filters: vec![(text!("robot-csv-files"), &["csv"])],
+                choice: FileChoice::NewFile("cell-checks.csv"),
+            },
         }
     }
 }
 
 impl RobotCell {
-    /// Without a calibration.
-    pub fn new(runner: &TaskRunner) -> Self {
+    /// Without a calibration. Baseline and checks of the cell are kept in this folder, if there is one.
+    pub fn new(checks: Option<CellCheckFolder>, runner: &TaskRunner) -> Self {
         Self {
             in_use: None,
             dialog: None,
             task: Task::new("robot", runner),
+            checks: CellChecks::new(checks, runner),
             files: FileDialog::default(),
         }
     }
@@ -208,9 +232,14 @@ impl RobotCell {
         self.dialog.as_ref()
     }
 
-    /// True while nothing is read, written or calculated.
+    /// Baseline and checks of the cell.
+    pub fn checks(&self) -> &CellChecks {
+        &self.checks
+    }
+
+    /// True while nothing is read, written, calculated or captured.
     pub fn is_idle(&self) -> bool {
-        self.task.running().is_none()
+        self.task.running().is_none() && self.checks.running().is_none()
     }
 
     /// Reads the calibration that the window starts with.
@@ -223,11 +252,14 @@ impl RobotCell {
     /// Carries out an action.
     pub fn apply(&mut self, action: RobotAction, cx: &mut ShellContext<'_>) {
         match action {
-            RobotAction::Toggle => {
-                let open = RobotDialog::new(cx.session.convention);
-                self.dialog = self.dialog.is_none().then_some(open);
+            RobotAction::Toggle if self.dialog.is_none() => {
+                self.dialog = Some(RobotDialog::new(cx.session.convention));
             }
-            RobotAction::Close => self.dialog = None,
+            RobotAction::Toggle | RobotAction::Close => {
+                self.dialog = None;
+                // Nobody waits for it any more.
+                self.checks.cancel();
+            }
             RobotAction::Edit(edited) => self.edit(*edited),
             RobotAction::UseTyped => {
                 if let Some(dialog) = &self.dialog
@@ -266,6 +298,38 @@ impl RobotCell {
                 let what = text!("robot-forgotten");
                 cx.notify(Notice::done(what));
             }
+            RobotAction::Check(action) => {
+                let started = self.check(action, cx);
+                if let Some(dialog) = &mut self.dialog {
+                    dialog.trouble = started.err();
+                }
+            }
+        }
+    }
+
+    /// Carries out an action of the check of the cell; an error if it cannot begin.
+    fn check(&mut self, action: CheckAction, cx: &ShellContext<'_>) -> Result<(), UserError> {
+        match action {
+            CheckAction::TakeBaseline => {
+                let Some(dialog) = &mut self.dialog else {
+                    return Ok(());
+                };
+                let is_asked = self.checks.content().has_baseline && !dialog.is_replacing;
+                dialog.is_replacing = is_asked;
+                if is_asked {
+                    return Ok(());
+                }
+                self.checks.take_baseline(dialog.limits, cx)
+            }
+            CheckAction::Check => self.checks.check(cx),
+            CheckAction::Cancel => {
+                self.checks.cancel();
+                Ok(())
+            }
+            CheckAction::Export(path) => {
+                self.checks.export(path);
+                Ok(())
+            }
         }
     }
 
@@ -291,7 +355,8 @@ impl RobotCell {
         }
     }
 
-    /// Takes the dialog over as it is now; pairs are calculated anew where something about them changed.
+    /// Takes the dialog over as it is now; pairs are calculated anew where something about them changed, and the checks of
+    /// the cell are read where their page comes to the front.
     fn edit(&mut self, mut edited: RobotDialog) {
         let Some(known) = &mut self.dialog else {
             return;
@@ -299,6 +364,12 @@ impl RobotCell {
         let is_other = known.mount != edited.mount || known.left_out != edited.left_out;
         if is_other {
             edited.insists = false;
+        }
+        if known.page != edited.page {
+            edited.is_replacing = false;
+            if edited.page == RobotPage::Check {
+                self.checks.read();
+            }
         }
         *known = edited;
         if is_other {
@@ -339,24 +410,32 @@ impl RobotCell {
         self.save(path, calibration);
     }
 
-    /// Polls the task and the file dialog; returns the action that a chosen file causes.
+    /// Polls the tasks and the file dialog; returns the action that a chosen file causes.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) -> Option<RobotAction> {
         match self.task.poll() {
             Some(TaskEvent::Partial(result) | TaskEvent::Done(result)) => self.receive(result, cx),
-            // Where the dialog is open, it says so itself.
-            Some(TaskEvent::Failed(error)) => match &mut self.dialog {
-                Some(dialog) => dialog.trouble = Some(error),
-                None => cx.notify(error),
-            },
+            Some(TaskEvent::Failed(error)) => self.report(error, cx),
             None => {}
+        }
+        if let Some(error) = self.checks.update(cx) {
+            self.report(error, cx);
         }
         match self.files.poll()? {
             (RobotFile::Calibration, Ok(path)) => Some(RobotAction::Load(path)),
             (RobotFile::Pairs, Ok(path)) => Some(RobotAction::Pairs(path)),
+            (RobotFile::Checks, Ok(path)) => Some(RobotAction::Check(CheckAction::Export(path))),
             (_, Err(notice)) => {
                 cx.notify(notice);
                 None
             }
+        }
+    }
+
+    /// Says what went wrong; where the dialog is open, it says so itself.
+    fn report(&mut self, error: UserError, cx: &mut ShellContext<'_>) {
+        match &mut self.dialog {
+            Some(dialog) => dialog.trouble = Some(error),
+            None => cx.notify(error),
         }
     }
 
@@ -409,7 +488,7 @@ mod tests {
     impl Bench {
         fn new() -> Self {
             Self {
-                robot: RobotCell::new(&TaskRunner::without_threads()),
+                robot: RobotCell::new(None, &TaskRunner::without_threads()),
                 shell: TestShell::default(),
                 folder: tempfile::tempdir().expect("a folder"),
             }

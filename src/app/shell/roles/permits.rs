@@ -1,7 +1,11 @@
 //! What the operator's view lets through.
 
 use super::{Action, RoleAction, WorkspaceKind};
-use crate::app::shell::{action::DialogRequest, live::LiveAction, robot::RobotAction};
+use crate::app::shell::{
+    action::DialogRequest,
+    live::LiveAction,
+    robot::{CheckAction, RobotAction},
+};
 
 /// True for the workspaces in which nothing can be changed that verdicts rest on.
 pub(in crate::app) fn is_operators(workspace: WorkspaceKind) -> bool {
@@ -27,7 +31,10 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         ),
         // Averaged depth is part of what a verdict rests on.
         Action::Live(action) => matches!(action, LiveAction::Average(_)),
-        Action::Robot(action) => !matches!(action, RobotAction::Close),
+        Action::Robot(action) => !matches!(
+            action,
+            RobotAction::Close | RobotAction::Check(CheckAction::Cancel)
+        ),
         // The robot's controller expects one of them.
         Action::UseConvention(_)
         | Action::TakeEmptyCell

@@ -1,7 +1,7 @@
 use super::*;
 use crate::app::shell::{
     action::{DialogRequest, apply as apply_any},
-    robot::RobotAction,
+    robot::{CheckAction, RobotAction},
 };
 
 fn write(state: &mut State, digits: &str) {
@@ -26,6 +26,8 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
     apply(&mut state, RoleAction::Switch);
     let held_back = [
         Action::Robot(RobotAction::Forget),
+        Action::Robot(RobotAction::Check(CheckAction::TakeBaseline)),
+        Action::Robot(RobotAction::Check(CheckAction::Check)),
         Action::Press(WorkspaceKind::Compare, 0),
         Action::Ask(DialogRequest::Library),
         Action::Chosen(DialogRequest::Library, "other".into()),

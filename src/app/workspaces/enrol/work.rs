@@ -11,11 +11,10 @@ use super::{
 use crate::{
     app::{
         inspection::{
-            camera::CameraError,
             fuse::{Steps, Then, fuse},
             library_cache::LibraryCache,
             scan_choice::{ScanOrder, ScanRequest},
-            source::{SceneError, SceneSource},
+            source::SceneSource,
         },
         task::{TaskContext, TaskError},
         user_error::UserError,
@@ -61,11 +60,8 @@ pub(super) fn take_scene(
 ) -> Result<DraftEvent, TaskError> {
     let params = params_of(recipe);
     let is_cancelled = || context.is_cancelled();
-    let subject = match EnrolInput::read(source, &params, library_cache.camera(), &is_cancelled) {
-        Ok(read) => read.map_err(|error| UserError::of(&error))?,
-        Err(SceneError::Camera(CameraError::Cancelled)) => return Err(TaskError::Cancelled),
-        Err(error) => return Err(UserError::of(&error).into()),
-    };
+    let read = EnrolInput::read(source, &params, library_cache.camera(), &is_cancelled)?;
+    let subject = read.map_err(|error| UserError::of(&error))?;
     take(subject, &params, library_cache, context)
 }
 

@@ -1,7 +1,6 @@
 //! How score, fit and place of one part drift: a point for each accepted one, in the order of time.
 
-use egui::{Sense, Ui, WidgetInfo, vec2};
-use egui_plot::{Line, LineStyle, PlotPoints};
+use egui::Ui;
 use jiff::{Zoned, tz::TimeZone};
 use nalgebra::Point3;
 
@@ -9,17 +8,11 @@ use crate::{
     app::{
         inspection::unit_system::UnitSystem,
         language::text,
-        ui::{
-            plot::{Axes, Axis, legend, range_of},
-            theme::{ROUNDING, Theme, font, space},
-            widgets::heading,
-        },
+        ui::{plot::over_time, theme::Theme, widgets::heading},
     },
     history::PoseRecord,
 };
 
-/// Height of a plot, logical pixels.
-const HEIGHT: f32 = 150.0;
 /// Above this number, parts are drawn in groups, by their medians.
 const MOST_DRAWN: usize = 240;
 /// Parts needed to show a drift.
@@ -126,9 +119,9 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem, theme: &Theme) {
     };
     let name = text!("history-drift-score");
     let title = format!("{name}: {}", ends(&drift.score, &score));
-    plot(
+    over_time(
         ui,
-        drift,
+        &drift.at,
         &title,
         &[("", &drift.score, colours[0])],
         (&score, 0.1),
@@ -136,9 +129,9 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem, theme: &Theme) {
     );
     let name = text!("history-drift-fit");
     let title = format!("{name}: {}", ends(&drift.rms_m, &length));
-    plot(
+    over_time(
         ui,
-        drift,
+        &drift.at,
         &title,
         &[("", &drift.rms_m, colours[0])],
         (&length, 0.002),
@@ -158,75 +151,7 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem, theme: &Theme) {
             ("z", z, colours[2]),
         ];
         let curves = curves.map(|(name, values, colour)| (name, values.as_slice(), colour));
-        plot(ui, drift, &title, &curves, (&offset, 0.02), theme);
-    }
-}
-
-/// A plot over the parts in their order, with dates along it; its height shows at least this span.
-fn plot(
-    ui: &mut Ui,
-    drift: &Drift,
-    title: &str,
-    curves: &[(&str, &[f32], egui::Color32)],
-    (written, least_span): (&dyn Fn(f64) -> String, f64),
-    theme: &Theme,
-) {
-    let size = vec2(ui.available_width(), HEIGHT);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, title));
-    ui.painter().rect_filled(rect, ROUNDING, theme.panel);
-    ui.add_space(space::SMALL);
-    let last = drift.at.len().saturating_sub(1).max(1);
-    let room = (size.x / 110.0).max(1.0) as usize;
-    let step = drift.at.len().div_ceil(room).max(1);
-    let dates = drift.at.iter().enumerate().step_by(step);
-    let dates = dates.map(|(place, at)| (place as f64, at.strftime("%m-%d %H:%M").to_string()));
-    let known = curves.iter().flat_map(|(_, values, _)| *values);
-    let [low, high] = range_of(known.filter(|value| value.is_finite()));
-    // Noise must not look as large as a drift.
-    let spare = 0.5 * (least_span - (high - low)).max(0.1 * (high - low));
-    let [low, high] = [low - spare, high + spare];
-    let axes = Axes {
-        title: vec![(title.to_owned(), theme.text)],
-        across: Axis::new([0.0, last as f64], dates.collect()),
-        up: Axis::new(
-            [low, high],
-            [low, high].map(|value| (value, written(value))).to_vec(),
-        ),
-        font: font::small(),
-        read: Some(Box::new(|across| {
-            let place = (across.round().max(0.0) as usize).min(drift.at.len() - 1);
-            let at = drift.at[place].strftime("%Y-%m-%d %H:%M");
-            let values = curves.iter().map(|(name, values, _)| {
-                let value = f64::from(values[place]);
-                let value = if value.is_finite() {
-                    written(value)
-                } else {
-                    "–".into()
-                };
-                format!("{name} {value}").trim_start().to_owned()
-            });
-            let values: Vec<String> = values.collect();
-            format!("{at}: {}", values.join(", "))
-        })),
-    };
-    let shown = axes.show(ui, rect.shrink(space::MEDIUM), theme, |plot| {
-        for (_, values, colour) in curves {
-            let points = values
-                .iter()
-                .enumerate()
-                .filter(|(_, value)| value.is_finite());
-            let points: PlotPoints<'_> = points
-                .map(|(place, value)| [place as f64, f64::from(*value)])
-                .collect();
-            plot.line(Line::new("", points).color(*colour).width(1.4));
-        }
-    });
-    if curves.len() > 1 {
-        let names = curves
-            .iter()
-            .map(|(name, _, colour)| (*name, *colour, LineStyle::Solid));
-        legend(ui.painter(), &shown, names);
+        over_time(ui, &drift.at, &title, &curves, (&offset, 0.02), theme);
     }
 }
 

@@ -1,0 +1,462 @@
+//! The check of the cell in the window: what its folder holds, and the task that takes baselines and makes checks.
+//!
+//! Frames come from the source in use; everything else is what `partsight cell` does.
+
+#[cfg(test)]
+mod tests;
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use jiff::{Timestamp, Zoned, tz::TimeZone};
+
+use crate::{
+    app::{
+        inspection::{
+            camera::Camera,
+            source::{Captured, Origin, SceneError, SceneSource},
+        },
+        language::{
+            results::{
+                cell_finding, cell_view_error, cell_view_error_advice, unrecognisable,
+                unrecognisable_advice,
+            },
+            text,
+        },
+        shell::{
+            context::ShellContext,
+            message::Message,
+            notice::Notice,
+            session::{Session, Source, UserRole},
+        },
+        task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
+        user_error::UserError,
+    },
+    capture::SourceSpec,
+    files::write_atomically,
+    pipeline::{ProgressObserver as _, Unrecognisable},
+    robot::cell_check::{
+        CellBaseline, CellCheck, CellCheckError, CellCheckFolder, CellLimits, CellViewError,
+        CellViews, USUAL_FRAMES, write_csv,
+    },
+    stages::segment::SegmentParams,
+};
+
+/// Baseline and checks of the cell.
+#[derive(Debug)]
+pub struct CellChecks {
+    /// `None`: nothing is kept.
+    folder: Option<CellCheckFolder>,
+    content: CheckFolderContent,
+    /// The last check that was made here, also one that could not be listed.
+    made: Option<CellCheck>,
+    task: Task<CheckAnswer>,
+    /// When the shift began at whose start the folder was read, in the operator's view.
+    shift: Option<Timestamp>,
+    /// What the operator was warned of.
+    warning: Option<Notice>,
+}
+
+/// What the folder holds.
+#[derive(Clone, Debug, Default)]
+pub struct CheckFolderContent {
+    /// The baseline, if it can be read.
+    pub baseline: Option<Arc<CellBaseline>>,
+    /// True if there is a baseline, also one that cannot be read.
+    pub has_baseline: bool,
+    /// All checks, the oldest first.
+    pub checks: Vec<CellCheck>,
+    /// Why baseline or checks cannot be read.
+    pub trouble: Vec<UserError>,
+}
+
+/// What can happen.
+#[derive(Clone, Debug)]
+pub enum CheckAction {
+    /// Take a baseline. Where there is one, this asks first, and takes it the second time.
+    TakeBaseline,
+    /// Compare what hangs there with the baseline.
+    Check,
+    /// Take no more frames.
+    Cancel,
+    /// Write the checks to this table.
+    Export(PathBuf),
+}
+
+/// What the task has done.
+#[derive(Clone, Debug)]
+struct CheckAnswer {
+    /// What the folder holds now.
+    content: CheckFolderContent,
+    /// The check that was made, if one was.
+    made: Option<CellCheck>,
+    /// Why it is not listed.
+    trouble: Option<UserError>,
+    /// What a person should know besides.
+    notices: Vec<Notice>,
+}
+
+impl CellChecks {
+    /// With this folder, which is not read yet.
+    pub(super) fn new(folder: Option<CellCheckFolder>, runner: &TaskRunner) -> Self {
+        Self {
+            folder,
+            content: CheckFolderContent::default(),
+            made: None,
+            task: Task::new("cell check", runner),
+            shift: None,
+            warning: None,
+        }
+    }
+
+    /// True if baseline and checks can be kept somewhere.
+    pub fn has_folder(&self) -> bool {
+        self.folder.is_some()
+    }
+
+    /// What the folder held when it was read last.
+    pub fn content(&self) -> &CheckFolderContent {
+        &self.content
+    }
+
+    /// What is being done, if anything.
+    pub fn running(&self) -> Option<&Running> {
+        self.task.running()
+    }
+
+    /// The last check against the baseline in use.
+    pub fn latest(&self) -> Option<&CellCheck> {
+        let baseline = self.content.baseline.as_ref()?;
+        let last = self.made.iter().chain(self.content.checks.last());
+        last.filter(|check| check.baseline == baseline.made_at)
+            .max_by_key(|check| check.at)
+    }
+
+    #[cfg(test)]
+    pub(super) fn run_waiting(&self) -> bool {
+        self.task.run_waiting()
+    }
+
+    /// Reads the folder anew, unless something else is being done with it.
+    pub(super) fn read(&mut self) {
+        if self.task.running().is_some() {
+            return;
+        }
+        if let Some(folder) = self.folder.clone() {
+            let job = move |_: &_| Ok(CheckAnswer::of(&folder));
+            self.task.start(text!("robot-reading-checks"), job);
+        }
+    }
+
+    /// Takes a baseline in place of the one before.
+    pub(super) fn take_baseline(
+        &mut self,
+        limits: CellLimits,
+        cx: &ShellContext<'_>,
+    ) -> Result<(), UserError> {
+        let look = Look::of(cx)?;
+        if let Some(folder) = self.folder.clone() {
+            let job = move |context: &_| take_baseline(&folder, &look, limits, context);
+            self.task.start(text!("robot-taking-baseline"), job);
+        }
+        Ok(())
+    }
+
+    /// Compares what hangs there with the baseline.
+    pub(super) fn check(&mut self, cx: &ShellContext<'_>) -> Result<(), UserError> {
+        let look = Look::of(cx)?;
+        if let Some(folder) = self.folder.clone() {
+            let job = move |context: &_| check(&folder, &look, context);
+            self.task.start(text!("robot-checking"), job);
+        }
+        Ok(())
+    }
+
+    /// Writes the checks to a table.
+    pub(super) fn export(&mut self, path: PathBuf) {
+        if let Some(folder) = self.folder.clone() {
+            let job = move |_: &_| export(&folder, &path);
+            self.task.start(text!("robot-writing-checks"), job);
+        }
+    }
+
+    /// Gives up what is being done.
+    pub(super) fn cancel(&mut self) {
+        self.task.cancel();
+    }
+
+    /// Takes in what the task has done; answers what went wrong. At the start of an operator's shift the folder is read.
+    pub(super) fn update(&mut self, cx: &mut ShellContext<'_>) -> Option<UserError> {
+        self.watch_shift(cx.session);
+        match self.task.poll()? {
+            TaskEvent::Partial(answer) | TaskEvent::Done(answer) => self.receive(answer, cx),
+            TaskEvent::Failed(error) => Some(error),
+        }
+    }
+
+    fn receive(&mut self, answer: CheckAnswer, cx: &mut ShellContext<'_>) -> Option<UserError> {
+        let CheckAnswer {
+            content,
+            made,
+            trouble,
+            notices,
+        } = answer;
+        self.content = content;
+        self.made = made.or(self.made.take());
+        for notice in notices {
+            cx.notify(notice);
+        }
+        self.warn(cx);
+        trouble
+    }
+
+    /// Reads the folder once in each shift of an operator: a command may have made the check.
+    fn watch_shift(&mut self, session: &Session) {
+        if session.role != UserRole::Operator {
+            self.shift = None;
+            return;
+        }
+        if self.folder.is_none() || self.task.running().is_some() {
+            return;
+        }
+        let [since, _] = session.shift_starts.around(&Zoned::now());
+        let since = since.map(|since| since.timestamp());
+        if self.shift != since {
+            self.shift = since;
+            self.read();
+        }
+    }
+
+    /// Warns an operator if the last check found that something moved. A warning that no longer holds is taken away.
+    fn warn(&mut self, cx: &mut ShellContext<'_>) {
+        let moved = self.latest().filter(|check| check.finding.has_moved());
+        let warning = moved.map(|check| {
+            let finding = marked(cell_finding(check.finding), check.is_simulated);
+            Notice::look(
+                text!(
+                    "robot-moved",
+                    time = shown_time(check.at),
+                    finding = finding
+                ),
+                text!("robot-moved-advice"),
+            )
+        });
+        if self.warning != warning
+            && let Some(former) = self.warning.take()
+        {
+            cx.send(Message::Retract(former));
+        }
+        if let (UserRole::Operator, Some(warning)) = (cx.session.role, warning) {
+            cx.notify(warning.clone());
+            self.warning = Some(warning);
+        }
+    }
+}
+
+/// A moment by the local clock, for a person.
+pub(super) fn shown_time(at: Timestamp) -> String {
+    let at = at.to_zoned(TimeZone::system());
+    at.strftime("%Y-%m-%d %H:%M").to_string()
+}
+
+/// The text, with a word that no camera was read if none was.
+pub(super) fn marked(text: String, is_simulated: bool) -> String {
+    if is_simulated {
+        text!("shell-of-simulator", name = text)
+    } else {
+        text
+    }
+}
+
+/// What is looked at, and how the part is found in it.
+struct Look {
+    source: SceneSource,
+    params: SegmentParams,
+    camera: Camera,
+}
+
+impl Look {
+    fn of(cx: &ShellContext<'_>) -> Result<Self, UserError> {
+        Ok(Self {
+            source: source(cx.session)?,
+            params: cx.session.recipe.segment.clone(),
+            camera: cx.services.library_cache.camera().clone(),
+        })
+    }
+
+    /// What the frames show, and what was odd about them.
+    fn views(
+        &self,
+        context: &TaskContext<CheckAnswer>,
+    ) -> Result<(CellViews, Vec<Notice>), TaskError> {
+        let is_cancelled = || context.is_cancelled();
+        let frames: Vec<Captured> = match &self.source {
+            SceneSource::Camera(spec) => {
+                let num = num_frames(spec);
+                context.progress(0, num);
+                let came = |done| context.progress(done, num);
+                let frames = self.camera.frames(spec, num, &is_cancelled, &came);
+                let frames = frames.map_err(SceneError::from)?;
+                frames.into_iter().map(Into::into).collect()
+            }
+            source => vec![source.take(&self.camera, &is_cancelled)?],
+        };
+        let mut views = CellViews::new(&self.params);
+        let mut notices = Vec::new();
+        for Captured {
+            scene,
+            origin,
+            warnings,
+        } in &frames
+        {
+            context.check()?;
+            views.add(scene).map_err(|none| {
+                let why = Unrecognisable::NoPart(none);
+                UserError {
+                    what: format!("{}: {}", origin.shown_title(), unrecognisable(&why)),
+                    advice: unrecognisable_advice(&why),
+                }
+            })?;
+            let told = warnings.iter().map(UserError::of);
+            notices.extend(told.map(Notice::from));
+        }
+        Ok((views, notices))
+    }
+}
+
+/// Where the frames come from: while the simulated cell is not followed, the frame of it in front.
+fn source(session: &Session) -> Result<SceneSource, UserError> {
+    match &session.source {
+        Source::Camera(spec) => Ok(SceneSource::Camera(spec.clone())),
+        Source::File(path) => Ok(SceneSource::File(path.clone())),
+        Source::Cell(choice) if session.is_live() => {
+            let followed = SourceSpec::Simulated(choice.followed());
+            Ok(SceneSource::Camera(Box::new(followed)))
+        }
+        Source::Cell(choice) => {
+            let shown = session.shown.as_ref().filter(|shown| !shown.is_past);
+            let (choice, number) = match shown.map(|shown| &shown.inspected.origin) {
+                Some(Origin::Simulated { choice, number }) => (*choice, *number),
+                _ => (*choice, 1),
+            };
+            Ok(SceneSource::Cell { choice, number })
+        }
+        Source::Scan(_) => Err(UserError {
+            what: text!("robot-check-of-scan"),
+            advice: text!("robot-check-of-scan-advice"),
+        }),
+    }
+}
+
+/// How many frames are taken: of a watched folder one, since nobody knows when the next comes.
+fn num_frames(spec: &SourceSpec) -> usize {
+    match spec {
+        SourceSpec::Watched(_) => 1,
+        SourceSpec::Simulated(_) | SourceSpec::Recording(_) | SourceSpec::Kinect(_) => USUAL_FRAMES,
+    }
+}
+
+impl CheckAnswer {
+    /// What the folder holds, and nothing else.
+    fn of(folder: &CellCheckFolder) -> Self {
+        Self {
+            content: CheckFolderContent::read(folder),
+            made: None,
+            trouble: None,
+            notices: Vec::new(),
+        }
+    }
+}
+
+impl CheckFolderContent {
+    fn read(folder: &CellCheckFolder) -> Self {
+        let mut content = Self {
+            has_baseline: true,
+            ..Self::default()
+        };
+        match folder.baseline() {
+            Ok(baseline) => content.baseline = Some(Arc::new(baseline)),
+            Err(CellCheckError::NoBaseline { .. }) => content.has_baseline = false,
+            Err(error) => content.trouble.push(UserError::of(&error)),
+        }
+        match folder.checks() {
+            Ok(checks) => content.checks = checks,
+            Err(error) => content.trouble.push(UserError::of(&error)),
+        }
+        content
+    }
+}
+
+fn take_baseline(
+    folder: &CellCheckFolder,
+    look: &Look,
+    limits: CellLimits,
+    context: &TaskContext<CheckAnswer>,
+) -> Result<CheckAnswer, TaskError> {
+    let (taken, notices) = look.views(context)?;
+    let baseline = CellBaseline::new(&taken.views, limits, taken.is_simulated, Timestamp::now());
+    let baseline = baseline.map_err(|error| in_words(&error))?;
+    // What was given up changes nothing.
+    context.check()?;
+    let saved = folder.save(&baseline);
+    saved.map_err(|error| UserError::of(&error))?;
+    Ok(CheckAnswer {
+        notices,
+        ..CheckAnswer::of(folder)
+    })
+}
+
+fn check(
+    folder: &CellCheckFolder,
+    look: &Look,
+    context: &TaskContext<CheckAnswer>,
+) -> Result<CheckAnswer, TaskError> {
+    let baseline = folder.baseline().map_err(|error| match error {
+        CellCheckError::NoBaseline { .. } => no_baseline(),
+        error => UserError::of(&error),
+    })?;
+    let (taken, notices) = look.views(context)?;
+    let made = baseline.check(&taken.views, taken.is_simulated, Timestamp::now());
+    let made = made.map_err(|error| in_words(&error))?;
+    context.check()?;
+    // It is shown also where it cannot be listed.
+    let trouble = folder.add(&made).err().map(|error| UserError::of(&error));
+    Ok(CheckAnswer {
+        made: Some(made),
+        trouble,
+        notices,
+        ..CheckAnswer::of(folder)
+    })
+}
+
+fn export(folder: &CellCheckFolder, path: &Path) -> Result<CheckAnswer, TaskError> {
+    let checks = folder.checks().map_err(|error| UserError::of(&error))?;
+    let written = write_atomically(path, |writer| write_csv(writer, &checks));
+    written.map_err(|error| UserError::of(&error))?;
+    let done = text!(
+        "robot-checks-written",
+        count = checks.len(),
+        path = path.display().to_string()
+    );
+    Ok(CheckAnswer {
+        notices: vec![Notice::done(done)],
+        ..CheckAnswer::of(folder)
+    })
+}
+
+/// There is nothing to compare with.
+pub(super) fn no_baseline() -> UserError {
+    UserError {
+        what: text!("robot-no-baseline"),
+        advice: text!("robot-no-baseline-advice"),
+    }
+}
+
+fn in_words(error: &CellViewError) -> UserError {
+    UserError {
+        what: cell_view_error(error),
+        advice: cell_view_error_advice(error),
+    }
+}
