@@ -61,6 +61,9 @@ pub mod report;
 pub mod robot;
 #[doc(hidden)]
 pub mod scan;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod serve;
 #[doc(hidden)]
 pub mod simulate;
 #[doc(hidden)]

@@ -1,9 +1,6 @@
 //! `partsight cell`: whether camera and cell still stand where they stood.
 
-use std::{
-    ops::{ControlFlow, RangeInclusive},
-    path::PathBuf,
-};
+use std::{ops::ControlFlow, path::PathBuf};
 
 use clap::{Args, Subcommand};
 use jiff::{Timestamp, tz::TimeZone};
@@ -13,7 +10,7 @@ use super::{
     Outcome,
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
     follow::{follow, parse_source},
-    input::open_scene,
+    input::{from_to, open_scene, within},
     recipe::RecipeSource,
 };
 use crate::{
@@ -123,18 +120,6 @@ struct ListArgs {
     /// Write a line of JSON for each, and nothing else, to standard output
     #[arg(long, conflicts_with = "csv")]
     json: bool,
-}
-
-/// For clap: a number within a range.
-fn within(text: &str, range: &RangeInclusive<f64>) -> Result<f64, String> {
-    let number = text.parse::<f64>().ok();
-    number
-        .filter(|number| range.contains(number))
-        .ok_or_else(|| format!("expected a number from {}", from_to(range)))
-}
-
-fn from_to(range: &RangeInclusive<f64>) -> String {
-    format!("{} to {}", range.start(), range.end())
 }
 
 pub(super) fn run(args: &CellArgs, console: &mut Console) -> anyhow::Result<Outcome> {

@@ -1,6 +1,7 @@
 //! What the commands read: scenes and clouds, and what robots say as arguments.
 
 use std::{
+    ops::RangeInclusive,
     path::{Path, PathBuf},
     sync::{Arc, mpsc},
     thread,
@@ -163,4 +164,17 @@ pub(super) fn open_cloud(path: &Path) -> Result<(PointCloud, Vec<FileWarning>), 
         path: path.display().to_string(),
     })?;
     Ok((cloud, warnings))
+}
+
+/// For clap: a number within a range.
+pub(super) fn within(text: &str, range: &RangeInclusive<f64>) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok();
+    number
+        .filter(|number| range.contains(number))
+        .ok_or_else(|| format!("expected a number from {}", from_to(range)))
+}
+
+/// A range in words.
+pub(super) fn from_to(range: &RangeInclusive<f64>) -> String {
+    format!("{} to {}", range.start(), range.end())
 }

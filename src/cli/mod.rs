@@ -26,6 +26,7 @@ mod recipes;
 mod record;
 mod report;
 mod scan;
+mod serve;
 mod simulate;
 mod trace;
 mod verdict;
@@ -91,6 +92,7 @@ enum Command {
     Align(align::AlignArgs),
     Calibrate(calibrate::CalibrateArgs),
     Cell(cell::CellArgs),
+    Serve(serve::ServeArgs),
     Simulate(simulate::SimulateArgs),
     Bench(bench::BenchArgs),
     Evaluate(evaluate::EvaluateArgs),
@@ -148,6 +150,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Align(args)) => align::run(&args, &mut console),
         Some(Command::Calibrate(args)) => calibrate::run(&args, &mut console),
         Some(Command::Cell(args)) => cell::run(&args, &mut console),
+        Some(Command::Serve(args)) => serve::run(&args, &mut console),
         Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
         Some(Command::Bench(args)) => bench::run(&args, &mut console),
         Some(Command::Evaluate(args)) => evaluate::run(&args, &mut console),

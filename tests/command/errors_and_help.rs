@@ -60,6 +60,7 @@ fn help_shows_examples_and_exit_codes() {
         &["library"],
         &["align"],
         &["simulate"],
+        &["serve"],
     ] {
         let help = place.accepted(&[command, &["--help"]].concat());
         assert!(help.out.contains("Examples:\n  partsight "), "{command:?}");

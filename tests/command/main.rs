@@ -17,6 +17,7 @@ mod program;
 mod recipe;
 mod report;
 mod scan;
+mod serve;
 mod simulate;
 mod sources;
 mod workplace;

@@ -14,7 +14,7 @@ use crate::{
         shell::{program_setup::ProgramSetup, session::Session},
         ui::{
             parameter_control::fold,
-            theme::{Theme, font, space},
+            theme::{Theme, space},
             widgets::{grouped, heading, labelled, shortened},
         },
     },
@@ -69,7 +69,7 @@ pub(super) fn ui(
     }
     match paint.reach(session) {
         None => {}
-        Some(Ok(reach)) => reach_ui(ui, reach, theme, actions),
+        Some(Ok(reach)) => reasons(ui, reach, theme, actions),
         Some(Err(error)) => {
             note(ui, &error.what, theme.rejected);
             note(ui, &error.advice, theme.text);
@@ -122,18 +122,28 @@ fn field(ui: &mut Ui, theme: &Theme, label: &str, text: &mut String, hint: &str)
     ui.add(edit).labelled_by(name.id)
 }
 
-fn reach_ui(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAction>) {
+/// How much of the path the arm reaches, in one line; nothing where that is not known.
+pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session, theme: &Theme) {
+    let Some(Ok(reach)) = paint.reach(session) else {
+        return;
+    };
     let (num, all) = (reach.check.num_reached(), reach.check.points.len());
-    let arm = reach.arm.as_str();
+    let (arm, missed) = (reach.arm.as_str(), grouped(all - num));
     if num == all {
         let words = text!("paint-reaches-all", arm = arm, all = grouped(all));
         note(ui, &words, theme.accepted);
+    } else {
+        let all = grouped(all);
+        let words = text!("paint-reaches-some", arm = arm, missed = missed, all = all);
+        note(ui, &words, theme.rejected);
+    }
+}
+
+/// Why points are not reached, and from where more would be.
+fn reasons(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAction>) {
+    if reach.check.num_reached() == reach.check.points.len() {
         return;
     }
-    let (missed, all) = (grouped(all - num), grouped(all));
-    let words = text!("paint-reaches-some", arm = arm, missed = missed, all = all);
-    let words = RichText::new(words).font(font::body_strong());
-    ui.add(Label::new(words.color(theme.rejected)).wrap());
     for (reason, count) in reach.reasons().into_iter().take(MAX_REASONS) {
         note(ui, &format!("{} · {reason}", grouped(count)), theme.text);
     }

@@ -138,6 +138,7 @@ fn head(
         tolerance = micrometres(coat.target * coat.tolerance)
     );
     ui.label(RichText::new(text).font(font::body_strong()).color(colour));
+    robot::verdict(ui, paint, session, theme);
     histogram(ui, figures, coat.tolerance, theme);
     let scope = match planned.surface.coverage {
         Coverage::OneSide => text!("paint-scope-one-side"),

@@ -1,0 +1,574 @@
+//! `partsight serve`: robots and PLCs ask for an inspection over TCP.
+
+use std::{
+    ops::ControlFlow,
+    path::PathBuf,
+    sync::{
+        Arc,
+        mpsc::{self, Receiver},
+    },
+    time::Duration,
+};
+
+use clap::{Args, ValueEnum};
+
+use super::{
+    LibraryChoice, Outcome,
+    calibrate::CalibrationChoice,
+    console::{Advised as _, Console, advised_error, with_advice},
+    input::{before, open_empty_cell, parse_convention, within},
+    interrupt::Interrupt,
+    output::{Columns, OutputFormat},
+    recipe::RecipeChoice,
+    record::{HistoryChoice, HistoryRecorder, SceneOrigin},
+    trace::TraceChoice,
+};
+use crate::{
+    capture::{CaptureWarning, Captured, FeedState, Pace, RecordingSpec, SourceSpec},
+    error::{Advice as _, guarded},
+    history::{HungId, Traceability},
+    library::{Library, LibraryLoad, LibraryPlace},
+    pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
+    report::{CaptureLine, InspectionLine},
+    robot::Convention,
+    serve::{
+        Asked, Camera, ClientEvent, ClientNews, Found, FrameOrigin, Inspector, ListenAddress,
+        Listener, NumberedPart, PartFinder, PoseKind, Server, ServerSettings, Trouble,
+    },
+    stages::{
+        field_of_view::FieldOfView,
+        scene::{EmptyCell, SceneCloud, scene_from_image},
+    },
+};
+
+/// Answer robots and PLCs that ask over TCP for an inspection and a pose
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight serve --source kinect --as fanuc
+  partsight serve --source kinect --listen eki=192.168.1.10:54600
+  partsight serve --source kinect --listen ascii=30100 --listen urscript=192.168.1.10:30102 --as abb
+  partsight serve --source simulated:fender --as kuka --calibration cell.toml --json
+  printf 'TRIGGER\\n' | nc 127.0.0.1 30100
+
+Protocols, each at a port of its own; docs/guide/robots_that_ask.md describes them in full:
+  ascii                lines of fields between semicolons, for PLCs
+  binary, binary-be    frames of 256 bytes with a checksum, least or greatest byte first, for PLCs
+  eki                  XML for KUKA's option package Ethernet KRL; poses as kuka
+  urscript             lists of numbers for Universal Robots; poses as universal-robots
+Requests: TRIGGER takes a frame captured from now on and inspects it, LAST gives that answer again, STATUS tells how the
+camera is, and PATH the points of the part's spray path as it hangs now.
+Every answer has a verdict, the age of its frame and a sequence number. Only an accepted part whose frame is not older than
+--max-age has numbers. Triggers wait in the order in which they come; each gets a frame of its own.
+Poses are in the robot's base frame, so a calibration is needed: partsight calibrate --help
+Every inspection is written into the history, a row for each trigger. Ctrl-C ends the service.
+Nothing is encrypted and nobody is asked who he is: without an address, only programs of this computer reach a port.
+Exit codes: 0 ended by Ctrl-C, 2 could not run.")]
+pub(super) struct ServeArgs {
+    /// The camera, recording or watched folder whose frames are inspected (partsight capture --help)
+    #[arg(long, value_name = "SOURCE", value_parser = parse_running_source)]
+    source: SourceSpec,
+    /// Protocol and port, or IP address and port; may be given several times
+    #[arg(long, value_name = "PROTOCOL=PORT", default_value = "ascii=30100", value_parser = parse_listen)]
+    listen: Vec<ListenAddress>,
+    /// The convention of poses in ascii and binary; eki and urscript have their own
+    #[arg(long = "as", value_name = "CONVENTION", value_parser = parse_convention)]
+    convention: Option<Convention>,
+    /// Which pose is given
+    #[arg(long, value_enum, default_value_t = PoseArg::RobotFromPart)]
+    transform: PoseArg,
+    /// The number by which robots know an enrolled part, from 1 to 9999; may be given several times. Without any, parts
+    /// are numbered in the order of their names
+    #[arg(long, value_name = "NAME=N", value_parser = parse_number)]
+    number: Vec<PartNumber>,
+    /// A pose from an older frame is stale and not given, seconds (0.1 to 3600)
+    #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = |text: &str| within(text, &(0.1..=3600.0)))]
+    max_age: f64,
+    /// How long a trigger waits for its frame, seconds (0.1 to 600)
+    #[arg(long, value_name = "SECONDS", default_value_t = 5.0, value_parser = |text: &str| within(text, &(0.1..=600.0)))]
+    frame_timeout: f64,
+    /// Connections at a time, of all ports together (1 to 256)
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u16).range(1..=256))]
+    max_clients: u16,
+    /// A connection without a request for so long is closed, seconds (1 to 86400)
+    #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = |text: &str| within(text, &(1.0..=86_400.0)))]
+    idle_timeout: f64,
+    #[command(flatten)]
+    library: LibraryChoice,
+    #[command(flatten)]
+    recipe: RecipeChoice,
+    /// Capture of the empty cell by the same camera: nothing in it is taken for a part
+    #[arg(long, value_name = "FILE")]
+    empty_cell: Option<PathBuf>,
+    #[command(flatten)]
+    calibration: CalibrationChoice,
+    /// Write one line of JSON per inspection, and nothing else, to standard output
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    trace: TraceChoice,
+    #[command(flatten)]
+    history: HistoryChoice,
+    /// Do not write to the history
+    #[arg(long, conflicts_with = "history")]
+    no_history: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PoseArg {
+    /// Where the part is: for a path in the part's own frame
+    RobotFromPart,
+    /// How far it is from its standard position: for a path taught in the base frame
+    RobotOffset,
+}
+
+impl From<PoseArg> for PoseKind {
+    fn from(choice: PoseArg) -> Self {
+        match choice {
+            PoseArg::RobotFromPart => Self::RobotFromPart,
+            PoseArg::RobotOffset => Self::RobotOffset,
+        }
+    }
+}
+
+/// A part, and the number by which robots know it.
+#[derive(Clone, Debug)]
+struct PartNumber {
+    name: String,
+    number: u32,
+}
+
+fn parse_number(text: &str) -> Result<PartNumber, String> {
+    let read = text.split_once('=').and_then(|(name, number)| {
+        let number = number.parse::<u32>().ok();
+        let number = number.filter(|number| (1..=9999).contains(number))?;
+        let name = name.to_owned();
+        Some(PartNumber { name, number })
+    });
+    read.ok_or_else(|| "expected NAME=N with a number from 1 to 9999, such as fender=3".into())
+}
+
+fn parse_listen(text: &str) -> Result<ListenAddress, String> {
+    text.parse::<ListenAddress>()
+        .map_err(|error| with_advice(&error))
+}
+
+/// A source whose frames come whether they are asked for or not: after a trigger there is one.
+fn parse_running_source(text: &str) -> Result<SourceSpec, String> {
+    let spec = text.parse::<SourceSpec>();
+    let spec = spec.map_err(|error| with_advice(&error))?;
+    match spec.paced(Pace::AsTaken) {
+        SourceSpec::Recording(RecordingSpec {
+            pace: Some(Pace::Step),
+            ..
+        }) => Err(
+            "a recording without its pauses has no frame that is captured after a trigger\n  to do: Leave pace=step out, or give frames a second such as pace=10"
+                .into(),
+        ),
+        spec => Ok(spec),
+    }
+}
+
+/// Messages about clients that wait to be shown; more of them at once are left out.
+const MAX_EVENTS: usize = 64;
+
+pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let listeners = args.listen.iter();
+    let listeners = listeners.map(|at| Listener::new(*at, args.convention));
+    let listeners = listeners.collect::<Result<Vec<_>, _>>().advised()?;
+    let recipe = args.recipe.recipe()?;
+    let trace = args.trace.of_parts(None)?;
+    let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
+    let Some(robot) = args.calibration.frame(console)? else {
+        return Err(advised_error(
+            "poses are given in the robot's base frame, and no calibration says where the camera sits",
+            "Make one with partsight calibrate, or name one with --calibration",
+        ));
+    };
+    let parts = numbered_parts(&args.number, &place, &load, console)?;
+    let empty_cell = args.empty_cell.as_deref();
+    let empty_cell = empty_cell.map(|path| open_empty_cell(path, console));
+    let empty_cell = empty_cell.transpose()?;
+    let camera = Arc::new(Camera::start(&args.source).advised()?);
+    let interrupt = Interrupt::listen()?;
+    let StartedServer { mut server, events } = start(args, &listeners, &camera)?;
+    let recording = (!args.no_history)
+        .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
+        .flatten();
+    announce(&server, &listeners, &parts, &load, console);
+    let format = if args.json {
+        OutputFormat::Json
+    } else {
+        OutputFormat::Rows(Columns::for_captures(&load.library))
+    };
+    format.head(console);
+    let mut session = ServeSession {
+        camera,
+        interrupt,
+        events,
+        library: load.library,
+        recipe,
+        finder: PartFinder {
+            parts,
+            robot,
+            kind: args.transform.into(),
+        },
+        trace,
+        empty_cell,
+        known_view: None,
+        source: args.source.to_string(),
+        frame_timeout: Duration::from_secs_f64(args.frame_timeout),
+        format,
+        recording,
+        mirrored: MirrorTally::default(),
+        console,
+        last: None,
+        told: Vec::new(),
+        trouble: None,
+        has_run: false,
+        failure: None,
+        num_inspected: 0,
+    };
+    server.run(&mut session);
+    session.finish()
+}
+
+/// Says where robots find the service, and by which numbers they know the parts.
+fn announce(
+    server: &Server,
+    listeners: &[Listener],
+    parts: &[NumberedPart],
+    load: &LibraryLoad,
+    console: &Console,
+) {
+    console.end_progress();
+    for (at, listener) in server.addresses().iter().zip(listeners) {
+        let convention = listener.convention().title();
+        console.note(&format_args!("Listening: {at}, poses as {convention}"));
+        if let Some(doubt) = listener.doubt() {
+            console.warn(&doubt, &doubt);
+        }
+    }
+    for (part, meta) in parts.iter().zip(&load.parts) {
+        console.note(&format_args!("  number {}: {}", part.number, meta.name));
+    }
+}
+
+/// A server and what it tells of its clients.
+struct StartedServer {
+    server: Server,
+    events: Receiver<ClientEvent>,
+}
+
+fn start(
+    args: &ServeArgs,
+    listeners: &[Listener],
+    camera: &Arc<Camera>,
+) -> anyhow::Result<StartedServer> {
+    let settings = ServerSettings {
+        max_age: Duration::from_secs_f64(args.max_age),
+        max_clients: usize::from(args.max_clients),
+        idle_timeout: Duration::from_secs_f64(args.idle_timeout),
+        ..ServerSettings::default()
+    };
+    let (tell, events) = mpsc::sync_channel(MAX_EVENTS);
+    let camera = Arc::clone(camera);
+    let on_event = move |event| {
+        // With so many at once nobody reads them all.
+        let _ = tell.try_send(event);
+    };
+    let server = Server::start(listeners, settings, move || camera.status(), on_event);
+    let server = server.advised()?;
+    Ok(StartedServer { server, events })
+}
+
+/// What robots are told of each reference, in the order of the library.
+fn numbered_parts(
+    given: &[PartNumber],
+    place: &LibraryPlace,
+    load: &LibraryLoad,
+    console: &Console,
+) -> anyhow::Result<Vec<NumberedPart>> {
+    let names = load.parts.iter().map(|part| part.name.as_str());
+    let names: Vec<&str> = names.collect();
+    for (i, PartNumber { name, number }) in given.iter().enumerate() {
+        if !names.contains(&name.as_str()) {
+            return Err(advised_error(
+                format!("--number {name}={number}: the library has no part {name}"),
+                format!("Give one of {}", names.join(", ")),
+            ));
+        }
+        let is_same = |other: &PartNumber| other.name == *name || other.number == *number;
+        if given[..i].iter().any(is_same) {
+            return Err(advised_error(
+                format!("--number {name}={number}: the part or the number was given before"),
+                "Give each part one number of its own",
+            ));
+        }
+    }
+    let parts = (1..).zip(&load.parts).map(|(position, meta)| {
+        let name = meta.name.as_str();
+        let number = given.iter().find(|given| given.name == name);
+        let path = place.spray_path(name).unwrap_or_else(|error| {
+            console.warn(&format_args!("{name} has no spray path: {error}"), &error);
+            None
+        });
+        NumberedPart {
+            number: match number {
+                Some(given) => given.number,
+                None if given.is_empty() => position,
+                None => 0,
+            },
+            path,
+            is_simulated: meta.simulated,
+        }
+    });
+    Ok(parts.collect())
+}
+
+/// The thread that inspects, and tells the person at the screen.
+struct ServeSession<'a> {
+    camera: Arc<Camera>,
+    interrupt: Interrupt,
+    events: Receiver<ClientEvent>,
+    library: Library,
+    recipe: NamedRecipe,
+    finder: PartFinder,
+    trace: Traceability,
+    empty_cell: Option<Arc<EmptyCell>>,
+    /// What the frames so far showed of the camera's field of view.
+    known_view: Option<Arc<FieldOfView>>,
+    source: String,
+    frame_timeout: Duration,
+    format: OutputFormat,
+    recording: Option<HistoryRecorder>,
+    mirrored: MirrorTally,
+    console: &'a mut Console,
+    /// The inspection whose answer is on its way.
+    last: Option<InspectedFrame>,
+    /// Warnings about the source that were shown.
+    told: Vec<CaptureWarning>,
+    /// Why the camera gives nothing, as it was shown.
+    trouble: Option<String>,
+    /// True once frames came.
+    has_run: bool,
+    /// Why the service cannot go on.
+    failure: Option<anyhow::Error>,
+    num_inspected: u64,
+}
+
+/// An inspection that is to be shown and kept.
+struct InspectedFrame {
+    name: String,
+    is_simulated: bool,
+    scene: Arc<SceneCloud>,
+    inspection: Inspection,
+    /// The line of JSON.
+    line: String,
+}
+
+impl Inspector for ServeSession<'_> {
+    fn inspect(&mut self, asked: &Asked) -> Found {
+        let interrupt = &self.interrupt;
+        let captured = (self.camera).frame_after(asked, self.frame_timeout, || interrupt.came());
+        let captured = match captured {
+            Ok(captured) => captured,
+            Err(why) => {
+                self.console.note(&format_args!("error: {why}"));
+                self.console
+                    .note(&format_args!("  to do: {}", why.advice()));
+                return Found::error(Trouble::of(why.reason(), &why));
+            }
+        };
+        self.warn_of(&captured);
+        let origin = FrameOrigin {
+            captured: self.camera.captured_at(&captured),
+            is_simulated: captured.is_simulated,
+        };
+        let num_dropped = self.camera.feed_status().num_dropped;
+        let line = CaptureLine::of(&self.source, &captured, num_dropped);
+        let name = captured.name;
+        let mut scene = scene_from_image(captured.image);
+        before(&mut scene, self.empty_cell.as_ref(), &name, self.console);
+        scene.set_known_view(self.known_view.clone());
+        self.known_view = FieldOfView::remembered(self.known_view.take(), scene.field_of_view());
+        let scene = Arc::new(scene);
+        let inspection =
+            pipeline::run(&scene, &self.library, &self.recipe, &Unwatched).expect("nobody cancels");
+        let found = self.finder.found(&inspection, &self.recipe, origin);
+        let line = InspectionLine::of(&name, &inspection)
+            .by(&self.recipe)
+            .traced(&self.trace)
+            .captured(Some(line))
+            .in_robot(Some(&self.finder.robot), &inspection)
+            .to_json();
+        self.last = Some(InspectedFrame {
+            name,
+            is_simulated: origin.is_simulated,
+            scene,
+            inspection,
+            line,
+        });
+        found
+    }
+
+    fn answered(&mut self) {
+        let Some(last) = self.last.take() else {
+            return;
+        };
+        if let Err(fault) = guarded(|| self.show(&last)) {
+            self.console
+                .warn(&format_args!("{}: {fault}", last.name), &fault);
+        }
+    }
+
+    fn turn(&mut self) -> ControlFlow<()> {
+        for event in self.events.try_iter() {
+            show_event(&event, self.console);
+        }
+        self.look_at_camera();
+        if self.interrupt.came() || self.failure.is_some() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+impl ServeSession<'_> {
+    fn warn_of(&mut self, captured: &Captured) {
+        for warning in &captured.warnings {
+            if warning.is_about_source() {
+                if self.told.contains(warning) {
+                    continue;
+                }
+                self.told.push(warning.clone());
+            }
+            self.console
+                .warn(&format_args!("{}: {warning}", captured.name), warning);
+        }
+    }
+
+    /// Shows an inspection and hands it to the history.
+    fn show(&mut self, last: &InspectedFrame) {
+        let InspectedFrame {
+            name,
+            is_simulated,
+            scene,
+            inspection,
+            line,
+        } = last;
+        if self.num_inspected == 0 && *is_simulated {
+            self.console.note(&"Simulated: no camera is read.");
+        }
+        self.num_inspected += 1;
+        self.mirrored.add(&inspection.verdict);
+        self.format
+            .inspected(name, line, inspection, &self.library, self.console);
+        if let Some(recording) = &mut self.recording {
+            let taken = SceneOrigin {
+                scene: name,
+                source: &self.source,
+                is_simulated: *is_simulated,
+            };
+            // Nobody but who asks knows whether it is the same part again.
+            let entry = recording.entry(taken, scene, inspection, line, HungId::new());
+            recording.add(entry, self.console);
+        }
+    }
+
+    /// Says once for each cause that the camera gives nothing, and that it is there again. One that never gave a frame
+    /// and cannot be used ends the service.
+    fn look_at_camera(&mut self) {
+        let (error, is_failed) = match self.camera.feed_status().state {
+            FeedState::Running => {
+                self.has_run = true;
+                if self.trouble.take().is_some() {
+                    self.console.note(&"The camera is there again");
+                }
+                return;
+            }
+            FeedState::Lost { error } => (error, false),
+            FeedState::Failed(error) => (error, true),
+            FeedState::Opening | FeedState::Ended | FeedState::Stopped => return,
+        };
+        let words = error.to_string();
+        if is_failed && !self.has_run {
+            self.failure = Some(advised_error(words, error.advice()));
+            return;
+        }
+        if self.trouble.as_ref() != Some(&words) {
+            self.console.warn(&words, &*error);
+            self.trouble = Some(words);
+        }
+    }
+
+    /// Writes what is left to write; why the service could not go on, if it could not.
+    fn finish(self) -> anyhow::Result<Outcome> {
+        let console = self.console;
+        if let Some(suspicion) = self.mirrored.suspicion() {
+            console.warn(&suspicion, &suspicion);
+        }
+        if let Some(recording) = self.recording {
+            recording.finish(console);
+        }
+        if let Some(error) = self.failure {
+            return Err(error);
+        }
+        console.note(&format_args!("{} inspected", self.num_inspected));
+        Ok(Outcome::Accepted)
+    }
+}
+
+fn show_event(event: &ClientEvent, console: &Console) {
+    let (peer, protocol) = (event.peer, event.protocol.name());
+    match &event.news {
+        ClientNews::Connected => console.note(&format_args!("{peer} connected: {protocol}")),
+        ClientNews::Left => console.note(&format_args!("{peer} left")),
+        ClientNews::TurnedAway => {
+            console.note(&format_args!(
+                "warning: {peer} was turned away: as many clients are connected as are allowed"
+            ));
+            console.note(&"  to do: Close a connection that is not used, or raise --max-clients");
+        }
+        ClientNews::BadRequest(why) => {
+            console.warn(
+                &format_args!("{peer}: {why}; the connection was closed"),
+                why,
+            );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_belongs_to_a_name() {
+        let read = parse_number("fender=3").expect("read");
+        assert_eq!((read.name.as_str(), read.number), ("fender", 3));
+        for text in [
+            "fender",
+            "fender=",
+            "fender=0",
+            "fender=10000",
+            "3",
+            "fender=x",
+        ] {
+            let error = parse_number(text).expect_err(text);
+            assert!(error.contains("NAME=N"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_recording_is_replayed_with_its_pauses() {
+        let read = parse_running_source("recording:monday").expect("read");
+        assert_eq!(read.to_string(), "recording,pace=as-taken:monday");
+        assert!(parse_running_source("recording,pace=5:monday").is_ok());
+        assert!(parse_running_source("watch:scans").is_ok());
+        let error = parse_running_source("recording,pace=step:monday").expect_err("no time");
+        assert!(error.contains("to do"), "{error}");
+        assert!(parse_running_source("camera").is_err());
+    }
+}

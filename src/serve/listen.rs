@@ -1,0 +1,240 @@
+//! Where the server listens, and in which protocol.
+
+use std::{
+    fmt,
+    net::{IpAddr, Ipv4Addr, SocketAddr},
+    str::FromStr,
+};
+
+use thiserror::Error;
+
+use super::protocol::{Protocol, binary::MAX_NUMBERS};
+use crate::{error::Advice, robot::Convention};
+
+/// A protocol and the address that it is spoken at, written `ascii=30100` or `eki=192.168.1.10:54600`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ListenAddress {
+    /// The protocol.
+    pub protocol: Protocol,
+    /// The address; port 0 is any free port.
+    pub address: SocketAddr,
+}
+
+/// Why nothing can listen there.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ListenError {
+    /// A text that names no protocol and address.
+    #[error("{text:?} is no protocol and port")]
+    Unreadable {
+        /// The text.
+        text: String,
+    },
+    /// Another word before the equals sign.
+    #[error("{found:?} is no protocol, expected one of {}", Protocol::ALL.map(Protocol::name).join(", "))]
+    UnknownProtocol {
+        /// The word.
+        found: String,
+    },
+    /// What stands behind the equals sign is no address.
+    #[error("{found:?} is no port, and no IP address with a port")]
+    NoAddress {
+        /// The text.
+        found: String,
+    },
+    /// The protocol leaves the convention open, and none was chosen.
+    #[error("{} does not say in which numbers the robot expects a pose", protocol.name())]
+    NoConvention {
+        /// The protocol.
+        protocol: Protocol,
+    },
+    /// The convention has more numbers than a frame has room for.
+    #[error("{} has {} numbers, a frame of {} has room for {}", convention.title(), convention.names().len(), protocol.name(), MAX_NUMBERS)]
+    TooManyNumbers {
+        /// The protocol.
+        protocol: Protocol,
+        /// The convention.
+        convention: Convention,
+    },
+}
+
+impl Advice for ListenError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Unreadable { .. } | Self::UnknownProtocol { .. } => {
+                "Write PROTOCOL=PORT, for example ascii=30100, or PROTOCOL=IP:PORT".into()
+            }
+            Self::NoAddress { .. } => {
+                "Give a port from 1 to 65535, or the address of this computer's network card with it, for example 192.168.1.10:30100".into()
+            }
+            Self::NoConvention { .. } => {
+                "Choose with --as, for example --as fanuc; partsight report --conventions lists them".into()
+            }
+            Self::TooManyNumbers { .. } => {
+                "Choose another with --as, for example kuka or quaternion-xyzw".into()
+            }
+        }
+    }
+}
+
+impl FromStr for ListenAddress {
+    type Err = ListenError;
+
+    fn from_str(text: &str) -> Result<Self, ListenError> {
+        let unreadable = || ListenError::Unreadable {
+            text: text.to_owned(),
+        };
+        let (name, place) = text.split_once('=').ok_or_else(unreadable)?;
+        let mut all = Protocol::ALL.into_iter();
+        let protocol = all.find(|protocol| protocol.name() == name);
+        let protocol = protocol.ok_or_else(|| ListenError::UnknownProtocol {
+            found: name.to_owned(),
+        })?;
+        let own = |port| SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port);
+        let port = place.parse().ok().map(own);
+        let address = port.or_else(|| place.parse().ok());
+        let address = address.ok_or_else(|| ListenError::NoAddress {
+            found: place.to_owned(),
+        })?;
+        Ok(Self { protocol, address })
+    }
+}
+
+/// As it is read again.
+impl fmt::Display for ListenAddress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.protocol.name(), self.address)
+    }
+}
+
+/// A protocol at its address, with the convention of its poses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Listener {
+    /// Protocol and address.
+    pub at: ListenAddress,
+    /// The convention of its poses.
+    pub(super) convention: Convention,
+}
+
+impl Listener {
+    /// With the protocol's own convention, or else the one chosen.
+    pub fn new(at: ListenAddress, chosen: Option<Convention>) -> Result<Self, ListenError> {
+        let protocol = at.protocol;
+        let convention = protocol.own_convention().or(chosen);
+        let convention = convention.ok_or(ListenError::NoConvention { protocol })?;
+        if matches!(protocol, Protocol::Binary(_)) && convention.names().len() > MAX_NUMBERS {
+            return Err(ListenError::TooManyNumbers {
+                protocol,
+                convention,
+            });
+        }
+        Ok(Self { at, convention })
+    }
+
+    /// The convention of its poses.
+    pub fn convention(&self) -> Convention {
+        self.convention
+    }
+
+    /// A doubt, if others than this computer reach it.
+    pub fn doubt(&self) -> Option<OpenToNetwork> {
+        let is_open = !self.at.address.ip().is_loopback();
+        is_open.then_some(OpenToNetwork { at: self.at })
+    }
+}
+
+/// Others than this computer reach a listener, and nothing is encrypted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error(
+    "{at} is open to the network without encryption: whoever reaches it can trigger inspections and read poses"
+)]
+pub struct OpenToNetwork {
+    at: ListenAddress,
+}
+
+impl Advice for OpenToNetwork {
+    fn advice(&self) -> String {
+        "Use a network of the cell's own, and let the firewall pass only the robot and the PLC to this port".into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::serve::protocol::ByteOrder;
+
+    fn read(text: &str) -> ListenAddress {
+        text.parse()
+            .unwrap_or_else(|error| panic!("{text}: {error}"))
+    }
+
+    #[test]
+    fn a_port_alone_is_reached_by_this_computer_only() {
+        for (text, protocol, address) in [
+            ("ascii=30100", Protocol::Ascii, "127.0.0.1:30100"),
+            (
+                "binary=0",
+                Protocol::Binary(ByteOrder::Little),
+                "127.0.0.1:0",
+            ),
+            (
+                "binary-be=10.0.0.2:2000",
+                Protocol::Binary(ByteOrder::Big),
+                "10.0.0.2:2000",
+            ),
+            ("eki=[::1]:54600", Protocol::Eki, "[::1]:54600"),
+            (
+                "urscript=0.0.0.0:30102",
+                Protocol::UrScript,
+                "0.0.0.0:30102",
+            ),
+        ] {
+            let found = read(text);
+            assert_eq!(
+                (found.protocol, found.address.to_string().as_str()),
+                (protocol, address)
+            );
+            assert_eq!(read(&found.to_string()), found);
+            let listener = Listener::new(found, Some(Convention::Fanuc)).expect("spoken");
+            let is_open = !address.starts_with("127.") && !address.starts_with("[::1]");
+            assert_eq!(listener.doubt().is_some(), is_open, "{text}");
+        }
+    }
+
+    #[test]
+    fn nonsense_is_refused_in_words() {
+        for (text, words) in [
+            ("30100", "no protocol and port"),
+            ("", "no protocol and port"),
+            (
+                "modbus=502",
+                "is no protocol, expected one of ascii, binary",
+            ),
+            ("ascii=", "is no port"),
+            ("ascii=70000", "is no port"),
+            ("ascii=robot:30100", "is no port"),
+            ("ascii=-1", "is no port"),
+        ] {
+            let error = text.parse::<ListenAddress>().expect_err(text);
+            assert!(error.to_string().contains(words), "{text}: {error}");
+            assert!(error.advice().contains("30100"));
+        }
+    }
+
+    #[test]
+    fn the_numbers_are_those_of_the_protocol_or_have_to_be_chosen() {
+        let of = |text, chosen| Listener::new(read(text), chosen).map(|found| found.convention());
+        let chosen = Some(Convention::Abb);
+        assert_eq!(of("ascii=1", chosen), Ok(Convention::Abb));
+        assert_eq!(of("binary=1", chosen), Ok(Convention::Abb));
+        assert_eq!(of("eki=1", chosen), Ok(Convention::Kuka));
+        assert_eq!(of("urscript=1", None), Ok(Convention::UniversalRobots));
+        assert_eq!(
+            of("ascii=1", Some(Convention::Matrix)),
+            Ok(Convention::Matrix)
+        );
+        let error = of("ascii=1", None).expect_err("open");
+        assert!(error.advice().contains("--as"), "{error}");
+        let error = of("binary-be=1", Some(Convention::Matrix)).expect_err("16");
+        assert!(error.to_string().contains("16 numbers"), "{error}");
+    }
+}

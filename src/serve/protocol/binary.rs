@@ -1,0 +1,372 @@
+//! Frames of fixed length, for PLCs that would rather not read text.
+//!
+//! Whole numbers and reals (IEEE 754) are in the byte order that the port was opened with. Texts are UTF-8, filled with
+//! zeros. The checksum is CRC-32 (ISO 3309, as ZIP and PNG count it) over all bytes before it.
+//!
+//! | request: from | bytes | |
+//! | --- | --- | --- |
+//! | 0 | 4 | `PSRQ` |
+//! | 4 | 2 | version, 1 |
+//! | 6 | 2 | length, 20 |
+//! | 8 | 2 | 1 trigger, 2 status, 3 last, 4 path |
+//! | 10 | 2 | reserved, 0 |
+//! | 12 | 4 | path: number of the point from 1, or 0 |
+//! | 16 | 4 | checksum |
+//!
+//! | answer: from | bytes | |
+//! | --- | --- | --- |
+//! | 0 | 4 | `PSAN` |
+//! | 4 | 2 | version, 1 |
+//! | 6 | 2 | length, 256 |
+//! | 8 | 2 | what was asked for; 0: nothing that could be read |
+//! | 10 | 2 | verdict |
+//! | 12 | 4 | boot |
+//! | 16 | 4 | sequence |
+//! | 20 | 4 | age in ms, signed; -1: no frame |
+//! | 24 | 2 | camera |
+//! | 26 | 2 | flags; bit 0: there is a pose |
+//! | 28 | 4 | number of the part |
+//! | 32 | 4 | point |
+//! | 36 | 4 | points |
+//! | 40 | 2 | how many numbers the pose has; 0: none |
+//! | 42 | 6 | reserved, 0 |
+//! | 48 | 8 | speed in mm/s; 0: none |
+//! | 56 | 56 | seven reals: the numbers of the convention, then zeros |
+//! | 112 | 64 | name of the part |
+//! | 176 | 24 | reason |
+//! | 200 | 52 | message, cut off |
+//! | 252 | 4 | checksum |
+
+use super::{ByteOrder, bad_request::BadRequest, parsed::Parsed};
+use crate::{
+    files::crc32,
+    robot::Convention,
+    serve::answer::{Answer, Request},
+};
+
+/// The version of the frames.
+pub(super) const VERSION: u16 = 1;
+/// Bytes of a request.
+pub const REQUEST_BYTES: usize = 20;
+/// Bytes of an answer.
+pub const ANSWER_BYTES: usize = 256;
+/// Numbers that a pose has room for.
+pub const MAX_NUMBERS: usize = 7;
+
+const REQUEST_MAGIC: [u8; 4] = *b"PSRQ";
+const ANSWER_MAGIC: [u8; 4] = *b"PSAN";
+const CHECKSUM_BYTES: usize = 4;
+
+pub(super) fn parse(bytes: &[u8], order: ByteOrder) -> Parsed {
+    let begun = bytes.len().min(REQUEST_MAGIC.len());
+    if bytes[..begun] != REQUEST_MAGIC[..begun] {
+        return Parsed::bad(BadRequest::Magic);
+    }
+    match bytes.first_chunk() {
+        Some(frame) => Parsed::read(REQUEST_BYTES, request_in(frame, order)),
+        None => Parsed::PARTIAL,
+    }
+}
+
+fn request_in(frame: &[u8; REQUEST_BYTES], order: ByteOrder) -> Result<Request, BadRequest> {
+    let short = |at| u16_of(frame, at, order);
+    let version = short(4);
+    if version != VERSION {
+        return Err(BadRequest::Version {
+            found: version,
+            order,
+        });
+    }
+    let length = short(6);
+    if usize::from(length) != REQUEST_BYTES {
+        return Err(BadRequest::Length {
+            found: length,
+            expected: REQUEST_BYTES as u16,
+        });
+    }
+    let expected = crc32(&frame[..REQUEST_BYTES - CHECKSUM_BYTES]);
+    let checksum = u32_of(frame, REQUEST_BYTES - CHECKSUM_BYTES, order);
+    if checksum != expected {
+        return Err(BadRequest::Checksum {
+            found: checksum,
+            expected,
+        });
+    }
+    match short(8) {
+        1 => Ok(Request::Trigger),
+        2 => Ok(Request::Status),
+        3 => Ok(Request::Last),
+        4 => Ok(Request::Path(u32_of(frame, 12, order))),
+        other => Err(BadRequest::unknown(other.to_string().as_bytes())),
+    }
+}
+
+fn u16_of(bytes: &[u8], at: usize, order: ByteOrder) -> u16 {
+    let bytes = [bytes[at], bytes[at + 1]];
+    match order {
+        ByteOrder::Little => u16::from_le_bytes(bytes),
+        ByteOrder::Big => u16::from_be_bytes(bytes),
+    }
+}
+
+fn u32_of(bytes: &[u8], at: usize, order: ByteOrder) -> u32 {
+    let bytes = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
+    match order {
+        ByteOrder::Little => u32::from_le_bytes(bytes),
+        ByteOrder::Big => u32::from_be_bytes(bytes),
+    }
+}
+
+pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -> Vec<u8> {
+    let pose = answer.pose.as_ref().map(|pose| convention.write(pose));
+    let numbers = pose.map_or_else(Vec::new, |pose| pose.numbers());
+    assert!(
+        numbers.len() <= MAX_NUMBERS,
+        "conventions of more numbers are refused at the start"
+    );
+    let mut frame = FrameWriter {
+        bytes: Vec::with_capacity(ANSWER_BYTES),
+        order,
+    };
+    frame.bytes.extend(ANSWER_MAGIC);
+    frame.short(VERSION);
+    frame.short(ANSWER_BYTES as u16);
+    frame.short(answer.request.map_or(0, |request| request.name().1));
+    frame.short(answer.verdict.code());
+    frame.long(answer.boot);
+    frame.long(answer.sequence);
+    frame.long(answer.age_or_none().cast_unsigned());
+    frame.short(answer.camera.code());
+    frame.short(answer.flags());
+    frame.long(answer.number);
+    frame.long(answer.point);
+    frame.long(answer.points);
+    frame.short(numbers.len() as u16);
+    frame.zeros(6);
+    frame.real(answer.speed_mm_s.unwrap_or(0.0));
+    for i in 0..MAX_NUMBERS {
+        frame.real(numbers.get(i).copied().unwrap_or(0.0));
+    }
+    frame.text(&answer.part, 64);
+    frame.text(&answer.trouble.reason, 24);
+    frame.text(&answer.trouble.message, 52);
+    let checksum = crc32(&frame.bytes);
+    frame.long(checksum);
+    frame.bytes
+}
+
+/// A frame as it grows.
+struct FrameWriter {
+    bytes: Vec<u8>,
+    order: ByteOrder,
+}
+
+impl FrameWriter {
+    fn short(&mut self, value: u16) {
+        self.bytes.extend(match self.order {
+            ByteOrder::Little => value.to_le_bytes(),
+            ByteOrder::Big => value.to_be_bytes(),
+        });
+    }
+
+    fn long(&mut self, value: u32) {
+        self.bytes.extend(match self.order {
+            ByteOrder::Little => value.to_le_bytes(),
+            ByteOrder::Big => value.to_be_bytes(),
+        });
+    }
+
+    fn real(&mut self, value: f64) {
+        self.bytes.extend(match self.order {
+            ByteOrder::Little => value.to_le_bytes(),
+            ByteOrder::Big => value.to_be_bytes(),
+        });
+    }
+
+    fn zeros(&mut self, num_bytes: usize) {
+        self.bytes.resize(self.bytes.len() + num_bytes, 0);
+    }
+
+    /// A text in a field of this size, cut off between two letters.
+    fn text(&mut self, text: &str, num_bytes: usize) {
+        let end = text.floor_char_boundary(num_bytes);
+        self.bytes.extend(&text.as_bytes()[..end]);
+        self.zeros(num_bytes - end);
+    }
+}
+
+/// The frame of a request.
+#[cfg(test)]
+pub(super) fn request(request: Request, order: ByteOrder) -> Vec<u8> {
+    let mut frame = FrameWriter {
+        bytes: REQUEST_MAGIC.to_vec(),
+        order,
+    };
+    frame.short(VERSION);
+    frame.short(REQUEST_BYTES as u16);
+    frame.short(request.name().1);
+    frame.zeros(2);
+    frame.long(match request {
+        Request::Path(point) => point,
+        _ => 0,
+    });
+    let checksum = crc32(&frame.bytes);
+    frame.long(checksum);
+    frame.bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::*;
+    use crate::{
+        geometry::rigid::{from_euler_zyx, pose_error},
+        serve::{
+            answer::{Trouble, VerdictCode},
+            protocol::tests::refused,
+        },
+    };
+
+    const ORDERS: [ByteOrder; 2] = [ByteOrder::Little, ByteOrder::Big];
+
+    fn real(frame: &[u8], at: usize, order: ByteOrder) -> f64 {
+        let bytes = frame[at..at + 8].try_into().expect("eight");
+        match order {
+            ByteOrder::Little => f64::from_le_bytes(bytes),
+            ByteOrder::Big => f64::from_be_bytes(bytes),
+        }
+    }
+
+    #[test]
+    fn requests_come_back_in_either_byte_order() {
+        for order in ORDERS {
+            for wanted in [
+                Request::Trigger,
+                Request::Status,
+                Request::Last,
+                Request::Path(0),
+                Request::Path(70_000),
+            ] {
+                let frame = request(wanted, order);
+                assert_eq!(frame.len(), REQUEST_BYTES);
+                assert_eq!(parse(&frame, order), Parsed::read(20, Ok(wanted)));
+            }
+        }
+        // As the guide has it.
+        assert_eq!(
+            request(Request::Trigger, ByteOrder::Little)[..16],
+            *b"PSRQ\x01\x00\x14\x00\x01\x00\x00\x00\x00\x00\x00\x00"
+        );
+    }
+
+    #[test]
+    fn whatever_is_wrong_with_a_frame_is_named() {
+        let reason = |frame: &[u8], order| {
+            let read = parse(frame, order).request.expect("whole");
+            read.expect_err("refused").reason()
+        };
+        for order in ORDERS {
+            let whole = request(Request::Path(3), order);
+            let other = ORDERS[usize::from(order == ByteOrder::Little)];
+            assert_eq!(reason(&whole, other), "version");
+            // Each byte counts.
+            for at in 0..REQUEST_BYTES {
+                let mut changed = whole.clone();
+                changed[at] ^= 0x40;
+                let expected = match at {
+                    0..4 => "magic",
+                    4..6 => "version",
+                    6..8 => "length",
+                    _ => "checksum",
+                };
+                assert_eq!(reason(&changed, order), expected, "byte {at}");
+            }
+            let mut unknown = whole.clone();
+            unknown[8..10].copy_from_slice(&[9, 9]);
+            let checksum = crc32(&unknown[..16]);
+            let checksum = match order {
+                ByteOrder::Little => checksum.to_le_bytes(),
+                ByteOrder::Big => checksum.to_be_bytes(),
+            };
+            unknown[16..].copy_from_slice(&checksum);
+            assert_eq!(reason(&unknown, order), "unknown_request");
+        }
+        assert_eq!(reason(b"GET / HTTP/1.1", ByteOrder::Little), "magic");
+        assert_eq!(reason(b"P\0", ByteOrder::Little), "magic");
+        assert_eq!(parse(b"PSR", ByteOrder::Little), Parsed::PARTIAL);
+        let advice = |why: BadRequest| crate::error::Advice::advice(&why);
+        let swapped = BadRequest::Version {
+            found: 0x0100,
+            order: ByteOrder::Little,
+        };
+        assert!(advice(swapped).contains("binary-be"));
+    }
+
+    #[test]
+    fn an_answer_has_its_fields_where_the_guide_says() {
+        let pose = from_euler_zyx([0.4, -0.2, 1.3, 1.2005, -0.4, 1.9]);
+        let answer = Answer {
+            request: Some(Request::Path(2)),
+            verdict: VerdictCode::Accepted,
+            point: 2,
+            points: 9,
+            speed_mm_s: Some(250.0),
+            marks: Answer::GUN_ON,
+            pose: Some(pose),
+            trouble: Trouble::default(),
+            ..refused()
+        };
+        for order in ORDERS {
+            for (convention, count) in [(Convention::Fanuc, 6), (Convention::Abb, 7)] {
+                let frame = write(&answer, convention, order);
+                assert_eq!(frame.len(), ANSWER_BYTES);
+                assert_eq!(frame[..4], ANSWER_MAGIC);
+                let short = |at| u16_of(&frame, at, order);
+                let long = |at| u32_of(&frame, at, order);
+                assert_eq!([4, 6, 8, 10].map(short), [1, 256, 4, 1]);
+                assert_eq!([12, 16, 20].map(long), [1_234_567, 41, 215]);
+                assert_eq!([24, 26].map(short), [1, 9]);
+                assert_eq!([28, 32, 36].map(long), [3, 2, 9]);
+                assert_eq!(short(40), count);
+                assert!((real(&frame, 48, order) - 250.0).abs() < 1e-9);
+                let numbers: Vec<f64> = (0..usize::from(count))
+                    .map(|i| real(&frame, 56 + 8 * i, order))
+                    .collect();
+                let read = convention.read(&numbers).expect("a pose");
+                let off = pose_error(&read, &pose, &Point3::origin());
+                assert!(off.shift.mm() < 1e-6 && off.rotation.degrees() < 1e-4);
+                assert_eq!(frame[112..122], *b"front_door");
+                assert!(frame[122..252].iter().all(|&byte| byte == 0));
+                assert_eq!(long(252), crc32(&frame[..252]));
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_pose_every_real_is_zero() {
+        for order in ORDERS {
+            let frame = write(&refused(), Convention::Abb, order);
+            assert_eq!(frame.len(), ANSWER_BYTES);
+            assert!(frame[40..112].iter().all(|&byte| byte == 0));
+            assert_eq!(u16_of(&frame, 26, order), Answer::SIMULATED);
+            assert_eq!(frame[176..185], *b"low_score");
+            let never = Answer {
+                age_ms: None,
+                ..refused()
+            };
+            let frame = write(&never, Convention::Abb, order);
+            assert_eq!(frame[20..24], [0xff; 4]);
+        }
+    }
+
+    #[test]
+    fn a_text_that_is_too_long_is_cut_off_between_two_letters() {
+        let mut frame = FrameWriter {
+            bytes: Vec::new(),
+            order: ByteOrder::Little,
+        };
+        frame.text("aüü", 4);
+        assert_eq!(frame.bytes, b"a\xc3\xbc\0");
+    }
+}

@@ -1,0 +1,119 @@
+//! A request as a line of text: `TRIGGER`, `STATUS`, `LAST`, `PATH` or `PATH 3`.
+//!
+//! A line ends with LF, CR or both. Capitals do not matter; blanks and zeros around it, and empty lines, are read over.
+
+use super::{
+    bad_request::BadRequest,
+    parsed::{Parsed, is_filler},
+};
+use crate::serve::answer::Request;
+
+/// Bytes of the longest line, more than any request has.
+const MAX_LINE: usize = 64;
+
+pub(super) fn parse(bytes: &[u8]) -> Parsed {
+    let start = bytes.iter().position(|&byte| !is_filler(byte));
+    let Some(start) = start else {
+        return Parsed::skipped(bytes.len());
+    };
+    let line = &bytes[start..];
+    let end = line.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+    match end {
+        Some(end) if end <= MAX_LINE => Parsed::read(start + end + 1, request(&line[..end])),
+        None if line.len() <= MAX_LINE => Parsed::skipped(start),
+        _ => Parsed::bad(BadRequest::TooLong { limit: MAX_LINE }),
+    }
+}
+
+fn request(line: &[u8]) -> Result<Request, BadRequest> {
+    let mut words = line
+        .split(|&byte| is_filler(byte) || byte == b';')
+        .filter(|word| !word.is_empty());
+    let (word, number) = (words.next().unwrap_or_default(), words.next());
+    if words.next().is_some() {
+        return Err(BadRequest::unknown(line));
+    }
+    named(word, number).ok_or_else(|| BadRequest::unknown(line))?
+}
+
+/// The request of this word, and of this number behind it; `None` of another word.
+pub(super) fn named(word: &[u8], number: Option<&[u8]>) -> Option<Result<Request, BadRequest>> {
+    let word = std::str::from_utf8(word).ok()?;
+    let request = Request::of_name(word, 0)?;
+    let Some(number) = number else {
+        return Some(Ok(request));
+    };
+    if !matches!(request, Request::Path(_)) {
+        return None;
+    }
+    let text = std::str::from_utf8(number).ok();
+    let point = text.and_then(|text| text.parse().ok());
+    Some(match point {
+        Some(point) => Ok(Request::Path(point)),
+        None => Err(BadRequest::no_point(number)),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn only(text: &str) -> Result<Request, BadRequest> {
+        let parsed = parse(text.as_bytes());
+        assert_eq!(parsed.used, text.len(), "{text:?}");
+        parsed
+            .request
+            .unwrap_or_else(|| panic!("{text:?} is whole"))
+    }
+
+    #[test]
+    fn every_request_is_read_with_any_end_and_in_any_case() {
+        for (text, request) in [
+            ("TRIGGER\n", Request::Trigger),
+            ("status\r", Request::Status),
+            ("Last\n", Request::Last),
+            ("PATH\n", Request::Path(0)),
+            ("PATH 12\n", Request::Path(12)),
+            ("PATH;7\n", Request::Path(7)),
+            ("\r\n \0\0TRIGGER \0\n", Request::Trigger),
+        ] {
+            assert_eq!(only(text), Ok(request), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn lines_are_read_one_after_the_other() {
+        let text = b"STATUS\r\nTRIGGER\r\nLA";
+        let first = parse(text);
+        assert_eq!((first.used, first.request), (7, Some(Ok(Request::Status))));
+        let second = parse(&text[7..]);
+        assert_eq!(
+            (second.used, second.request),
+            (9, Some(Ok(Request::Trigger)))
+        );
+        // The other half of the line's end.
+        assert_eq!(parse(&text[16..]), Parsed::skipped(1));
+        assert_eq!(parse(&text[17..]), Parsed::PARTIAL);
+    }
+
+    #[test]
+    fn anything_else_is_refused_by_name() {
+        for (text, reason) in [
+            ("TRIGER\n", "unknown_request"),
+            ("TRIGGER 1\n", "unknown_request"),
+            ("PATH 1 2\n", "unknown_request"),
+            ("PATH -1\n", "no_point"),
+            ("PATH 99999999999\n", "no_point"),
+            ("GET / HTTP/1.1\r", "unknown_request"),
+            ("\u{e4}\u{1b}[2J\n", "unknown_request"),
+        ] {
+            let why = only(text).expect_err(text);
+            assert_eq!(why.reason(), reason, "{text:?}");
+            assert!(!why.to_string().contains('\u{1b}'), "{why}");
+        }
+        let endless = [b'A'; MAX_LINE + 1];
+        let refused = parse(&endless).request.expect("refused");
+        assert_eq!(refused.expect_err("too long").reason(), "too_long");
+        assert_eq!(parse(&endless[1..]), Parsed::PARTIAL);
+    }
+}

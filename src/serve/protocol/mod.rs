@@ -1,0 +1,234 @@
+//! The protocols: which bytes are a request, and which bytes an answer is. Pure functions of their input.
+//!
+//! | protocol | request | answer | pose |
+//! | --- | --- | --- | --- |
+//! | [`Ascii`](Protocol::Ascii) | a line | a line of fields | any convention |
+//! | [`Binary`](Protocol::Binary) | 20 bytes | 256 bytes | conventions of up to seven numbers |
+//! | [`Eki`](Protocol::Eki) | an XML element | an XML element | KUKA |
+//! | [`UrScript`](Protocol::UrScript) | a line | a list of numbers in parentheses | Universal Robots |
+//!
+//! `docs/guide/robots_that_ask.md` describes them in full. They only grow: a field goes to the end, or into room that is
+//! reserved for it.
+//!
+//! Sources: KUKA, *Ethernet KRL 2.1*, for the elements that EKI reads and writes; Universal Robots, *Script manual*,
+//! `socket_read_ascii_float`, for the list of numbers. Nothing was tried on a controller.
+
+mod ascii;
+pub(super) mod bad_request;
+pub(super) mod binary;
+mod eki;
+mod line;
+pub(super) mod parsed;
+mod urscript;
+
+use super::answer::Answer;
+use crate::robot::Convention;
+
+use self::parsed::Parsed;
+
+/// How a client and the server speak with each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Protocol {
+    /// Lines of text, for PLCs.
+    Ascii,
+    /// Frames of fixed length, for PLCs.
+    Binary(ByteOrder),
+    /// XML as KUKA's option package Ethernet KRL reads and writes it.
+    Eki,
+    /// Lists of numbers as a program of Universal Robots reads them.
+    UrScript,
+}
+
+/// Which byte of a number comes first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ByteOrder {
+    /// The least one, as in PCs and most controllers.
+    Little,
+    /// The greatest one, as in Siemens S7.
+    Big,
+}
+
+impl Protocol {
+    /// Every protocol.
+    pub const ALL: [Self; 5] = [
+        Self::Ascii,
+        Self::Binary(ByteOrder::Little),
+        Self::Binary(ByteOrder::Big),
+        Self::Eki,
+        Self::UrScript,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ascii => "ascii",
+            Self::Binary(ByteOrder::Little) => "binary",
+            Self::Binary(ByteOrder::Big) => "binary-be",
+            Self::Eki => "eki",
+            Self::UrScript => "urscript",
+        }
+    }
+
+    /// The convention that comes with the protocol; none where it has to be chosen.
+    pub fn own_convention(self) -> Option<Convention> {
+        match self {
+            Self::Ascii | Self::Binary(_) => None,
+            Self::Eki => Some(Convention::Kuka),
+            Self::UrScript => Some(Convention::UniversalRobots),
+        }
+    }
+
+    /// What the bytes that have come so far begin with.
+    pub fn parse(self, bytes: &[u8]) -> Parsed {
+        match self {
+            Self::Ascii | Self::UrScript => line::parse(bytes),
+            Self::Binary(order) => binary::parse(bytes, order),
+            Self::Eki => eki::parse(bytes),
+        }
+    }
+
+    /// The bytes of an answer, with its pose in this convention.
+    pub fn write(self, answer: &Answer, convention: Convention) -> Vec<u8> {
+        match self {
+            Self::Ascii => ascii::write(answer, convention).into_bytes(),
+            Self::Binary(order) => binary::write(answer, convention, order),
+            Self::Eki => eki::write(answer).into_bytes(),
+            Self::UrScript => urscript::write(answer).into_bytes(),
+        }
+    }
+}
+
+/// Longest message in an answer, letters.
+const MAX_MESSAGE: usize = 200;
+
+/// A text that every controller can show: printable ASCII without the letters that end fields, and not too long.
+fn plain(text: &str, max_letters: usize) -> String {
+    let letters = text.chars().map(|c| match c {
+        ';' => ',',
+        ' '..='~' => c,
+        '°' => ' ',
+        _ => '?',
+    });
+    letters.take(max_letters).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::serve::answer::{CameraState, Request, Trouble, VerdictCode};
+
+    /// An answer without a pose, of which everything else is as bad as it can be.
+    pub(super) fn refused() -> Answer {
+        Answer {
+            request: Some(Request::Trigger),
+            verdict: VerdictCode::Refused,
+            sequence: 41,
+            boot: 1_234_567,
+            age_ms: Some(215),
+            camera: CameraState::Running,
+            part: "front_door".into(),
+            number: 3,
+            marks: Answer::SIMULATED,
+            trouble: Trouble {
+                reason: "low_score".into(),
+                message: format!(
+                    "it scores; <0.5> & \"less\"\r\nthan 90 % at 3°, {}",
+                    "ü".repeat(500)
+                ),
+            },
+            ..Answer::default()
+        }
+    }
+
+    #[test]
+    fn names_are_as_many_as_protocols() {
+        let names: std::collections::BTreeSet<_> = Protocol::ALL
+            .iter()
+            .map(|protocol| protocol.name())
+            .collect();
+        assert_eq!(names.len(), Protocol::ALL.len());
+    }
+
+    #[test]
+    fn a_text_of_an_answer_is_one_line_of_printable_letters() {
+        let shown = plain(&refused().trouble.message, MAX_MESSAGE);
+        assert_eq!(shown.len(), MAX_MESSAGE);
+        assert!(shown.starts_with("it scores, <0.5> & \"less\"??than 90 % at 3 , ????"));
+    }
+
+    proptest! {
+        /// Whatever comes: no panic, never more bytes taken than there are, and no more kept than a request can have.
+        #[test]
+        fn any_bytes_are_a_request_or_refused_and_never_pile_up(
+            bytes in proptest::collection::vec(any::<u8>(), 0..2000)
+        ) {
+            for protocol in Protocol::ALL {
+                let mut rest = bytes.as_slice();
+                for _ in 0..=bytes.len() {
+                    let Parsed { used, request } = protocol.parse(rest);
+                    prop_assert!(used <= rest.len());
+                    match request {
+                        Some(Ok(_)) => prop_assert!(used > 0),
+                        Some(Err(_)) => break,
+                        None if used == 0 => {
+                            prop_assert!(rest.len() <= 600, "{} bytes kept by {}", rest.len(), protocol.name());
+                            break;
+                        }
+                        None => {}
+                    }
+                    rest = &rest[used..];
+                }
+            }
+        }
+
+        /// A request that comes in pieces is the same as in one.
+        #[test]
+        fn a_request_in_pieces_is_read_when_it_is_whole(cut in 0_usize..100) {
+            let requests: [(Protocol, Vec<u8>); 5] = [
+                (Protocol::Ascii, b"PATH 3\r\n".to_vec()),
+                (Protocol::UrScript, b"path 3\n".to_vec()),
+                (Protocol::Eki, b"<Robot><Request>PATH</Request><Point>3</Point></Robot>".to_vec()),
+                (Protocol::Binary(ByteOrder::Little), binary::request(Request::Path(3), ByteOrder::Little)),
+                (Protocol::Binary(ByteOrder::Big), binary::request(Request::Path(3), ByteOrder::Big)),
+            ];
+            for (protocol, bytes) in requests {
+                let cut = cut % bytes.len();
+                let begun = protocol.parse(&bytes[..cut]);
+                // A line ends with either half of its end.
+                if protocol == Protocol::Ascii && cut + 1 == bytes.len() {
+                    continue;
+                }
+                prop_assert_eq!(begun.request, None, "{} of {}", cut, protocol.name());
+                let whole = protocol.parse(&bytes);
+                prop_assert_eq!(whole.request, Some(Ok(Request::Path(3))));
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_in_an_answer_without_a_pose_is_a_number_of_one() {
+        // A pose that would show: the digits of its numbers appear nowhere else.
+        let with_pose = Answer {
+            verdict: VerdictCode::Accepted,
+            pose: Some(crate::geometry::rigid::from_euler_zyx([
+                0.1, 0.2, 0.3, 1.117, 1.118, 1.119,
+            ])),
+            ..refused()
+        };
+        for protocol in [Protocol::Ascii, Protocol::Eki, Protocol::UrScript] {
+            let convention = protocol.own_convention().unwrap_or(Convention::Fanuc);
+            let text = |answer: &Answer| {
+                String::from_utf8(protocol.write(answer, convention)).expect("text")
+            };
+            let shows = |text: &str| {
+                ["1117", "1118", "1119", "1.117", "1.118", "1.119"]
+                    .iter()
+                    .any(|number| text.contains(number))
+            };
+            assert!(shows(&text(&with_pose)), "{}", text(&with_pose));
+            assert!(!shows(&text(&refused())), "{}", text(&refused()));
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! `partsight serve`: the built program asked over TCP, with the simulated cell as its camera.
+
+// Ctrl-C is sent as a signal.
+#![cfg(unix)]
+
+use std::{
+    io::{BufRead as _, BufReader, Read as _, Write as _},
+    net::TcpStream,
+    process::{Child, Command, Stdio},
+    sync::{Arc, Mutex},
+    thread::{self, JoinHandle},
+    time::{Duration, Instant},
+};
+
+use serde_json::Value;
+
+use crate::workplace::{Workplace, matrix};
+
+/// Long enough for a machine at work with other things; what is waited for comes at once.
+const PATIENCE: Duration = Duration::from_mins(5);
+
+/// A cell whose camera is where the robot stands: the base frame is the camera's.
+const CALIBRATE: [&str; 7] = [
+    "calibrate",
+    "set",
+    "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1",
+    "--mount",
+    "eye-to-hand",
+    "--out",
+    "cell.toml",
+];
+
+/// A service at work.
+struct Service {
+    child: Child,
+    /// What it wrote to standard error so far.
+    messages: Arc<Mutex<String>>,
+    reader: Option<JoinHandle<()>>,
+}
+
+impl Service {
+    fn start(place: &Workplace, args: &[&str]) -> Self {
+        place.accepted(&CALIBRATE);
+        let calibrated = ["serve", "--calibration", "cell.toml", "--json"];
+        let mut child = place
+            .command(&[&calibrated[..], args].concat())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("starts");
+        let messages = Arc::new(Mutex::new(String::new()));
+        let theirs = Arc::clone(&messages);
+        let stderr = BufReader::new(child.stderr.take().expect("a pipe"));
+        let reader = thread::spawn(move || {
+            for line in stderr.lines().map_while(Result::ok) {
+                let mut messages = theirs.lock().expect("whole");
+                *messages += &line;
+                *messages += "\n";
+            }
+        });
+        Self {
+            child,
+            messages,
+            reader: Some(reader),
+        }
+    }
+
+    fn messages(&self) -> String {
+        self.messages.lock().expect("whole").clone()
+    }
+
+    /// A connection in this protocol.
+    fn connect(&mut self, protocol: &str) -> BufReader<TcpStream> {
+        let begin = format!("Listening: {protocol}=");
+        let until = Instant::now() + PATIENCE;
+        let address = loop {
+            let messages = self.messages();
+            let line = messages.lines().find_map(|line| line.strip_prefix(&begin));
+            if let Some((address, _)) = line.and_then(|line| line.split_once(',')) {
+                break address.to_owned();
+            }
+            let ended = self.child.try_wait().expect("asked");
+            assert!(ended.is_none() && Instant::now() < until, "{messages}");
+            thread::sleep(Duration::from_millis(20));
+        };
+        let stream = TcpStream::connect(address).expect("connected");
+        stream.set_read_timeout(Some(PATIENCE)).expect("set");
+        BufReader::new(stream)
+    }
+
+    /// Ends it as Ctrl-C does: the code it ended with, and its standard output.
+    fn interrupt(mut self) -> (Option<i32>, String, String) {
+        let sent = Command::new("kill")
+            .args(["-INT", &self.child.id().to_string()])
+            .status();
+        assert!(sent.expect("kill is there").success());
+        let mut out = String::new();
+        let stdout = self.child.stdout.as_mut().expect("a pipe");
+        stdout.read_to_string(&mut out).expect("text");
+        let code = self.child.wait().expect("ends").code();
+        if let Some(reader) = self.reader.take() {
+            reader.join().expect("read");
+        }
+        (code, out, self.messages())
+    }
+}
+
+impl Drop for Service {
+    fn drop(&mut self) {
+        // It has ended already where a test came to its end.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+fn asked(stream: &mut BufReader<TcpStream>, request: &str) -> String {
+    stream
+        .get_mut()
+        .write_all(request.as_bytes())
+        .expect("sent");
+    let mut line = String::new();
+    stream.read_line(&mut line).expect("a line");
+    line.trim_end().to_owned()
+}
+
+const EKI_TRIGGER: &str = "<Robot><Request>TRIGGER</Request><Point>0</Point></Robot>";
+
+/// Trigger as a binary frame, least byte first; its checksum was counted by another program.
+const BINARY_TRIGGER: [u8; 20] =
+    *b"PSRQ\x01\x00\x14\x00\x01\x00\x00\x00\x00\x00\x00\x00\xdd\x81\x35\xd0";
+
+#[test]
+fn every_protocol_triggers_the_simulated_camera_and_gets_the_pose() {
+    let place = Workplace::new();
+    let mut service = Service::start(
+        &place,
+        &[
+            "--source",
+            "simulated,fps=5:fender",
+            "--listen",
+            "ascii=0",
+            "--listen",
+            "binary=0",
+            "--listen",
+            "eki=0",
+            "--listen",
+            "urscript=0",
+            "--as",
+            "kuka",
+            "--number",
+            "fender=7",
+        ],
+    );
+    let line = asked(&mut service.connect("ascii"), "TRIGGER\n");
+    let fields: Vec<&str> = line.split(';').collect();
+    assert_eq!(fields[..3], ["TRIGGER", "accepted", "1"], "{line}");
+    // A pose of a simulated frame, of the part with this number.
+    assert_eq!(fields[5..8], ["running", "fender", "7"], "{line}");
+    let flags: u32 = fields[8].parse().expect("a number");
+    assert_eq!(flags & 5, 5, "{line}");
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    let ascii: Vec<f64> = fields[12..15].iter().map(|field| number(field)).collect();
+
+    let mut binary = service.connect("binary");
+    binary.get_mut().write_all(&BINARY_TRIGGER).expect("sent");
+    let mut frame = [0; 256];
+    binary.read_exact(&mut frame).expect("a frame");
+    let short = |at: usize| u16::from_le_bytes([frame[at], frame[at + 1]]);
+    assert_eq!((short(8), short(10), short(40)), (1, 1, 6));
+    let real = |at: usize| f64::from_le_bytes(frame[at..at + 8].try_into().expect("eight"));
+    let binary = [real(56), real(64), real(72)];
+
+    let line = asked(&mut service.connect("eki"), EKI_TRIGGER);
+    assert!(
+        line.contains("<Code>1</Code><Sequence>3</Sequence>"),
+        "{line}"
+    );
+    let attribute = |name: &str| {
+        let rest = line.split_once(&format!("{name}=\"")).expect(name).1;
+        number(rest.split('"').next().expect("a value"))
+    };
+    let eki = ["X", "Y", "Z"].map(attribute);
+
+    let line = asked(&mut service.connect("urscript"), "TRIGGER\n");
+    let inner = line
+        .strip_prefix('(')
+        .and_then(|line| line.strip_suffix(')'));
+    let list: Vec<f64> = inner.expect("a list").split(", ").map(number).collect();
+    assert_eq!(
+        (list.len(), list[0], list[1], list[2]),
+        (17, 16.0, 1.0, 4.0)
+    );
+    let urscript = [list[11], list[12], list[13]].map(|metres| metres * 1000.0);
+
+    let (code, out, messages) = service.interrupt();
+    assert_eq!(code, Some(0), "{messages}");
+    assert!(messages.contains("4 inspected"), "{messages}");
+    assert!(
+        messages.contains("Simulated: no camera is read"),
+        "{messages}"
+    );
+    let lines: Vec<Value> = out
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("a line of JSON"))
+        .collect();
+    assert_eq!(lines.len(), 4, "{out}");
+    for (line, told) in lines.iter().zip([&ascii[..], &binary, &eki, &urscript]) {
+        assert_eq!(line["part"], "fender");
+        let pose = matrix(&line["robot"]["robot_from_part"]);
+        for (metres, mm) in [pose[3], pose[7], pose[11]].iter().zip(told) {
+            assert!((metres * 1000.0 - mm).abs() < 2e-3, "{line} {told:?}");
+        }
+    }
+    // Each trigger had a frame of its own, captured after the one before was inspected.
+    let numbers = lines
+        .iter()
+        .map(|line| line["number"].as_u64().expect("a number"));
+    assert!(numbers.is_sorted_by(|a, b| a + 1 < *b), "{out}");
+    let listed = place.accepted(&["history", "list", "--json"]).lines();
+    assert_eq!(listed.len(), 4, "a row for each trigger");
+}
+
+#[test]
+fn an_empty_cell_has_no_part_and_no_numbers() {
+    let place = Workplace::new();
+    let source = ["--source", "simulated,fps=5:empty", "--as", "fanuc"];
+    let listen = ["--listen", "ascii=0", "--listen", "eki=0", "--no-history"];
+    let mut service = Service::start(&place, &[&source[..], &listen[..]].concat());
+    let line = asked(&mut service.connect("ascii"), "TRIGGER\n");
+    let fields: Vec<&str> = line.split(';').collect();
+    assert_eq!(fields.len(), 20, "{line}");
+    assert!(matches!(fields[1], "no_part" | "refused"), "{line}");
+    assert_eq!(fields[12..18], [""; 6], "{line}");
+    assert!(!fields[18].is_empty() && !fields[19].is_empty(), "{line}");
+    let line = asked(&mut service.connect("eki"), EKI_TRIGGER);
+    assert!(
+        line.contains("<Sequence>2</Sequence>") && !line.contains("<Pose"),
+        "{line}"
+    );
+    let (code, _, messages) = service.interrupt();
+    assert_eq!(code, Some(0), "{messages}");
+}
+
+#[test]
+fn what_the_service_cannot_start_with_is_said_with_what_to_do() {
+    let place = Workplace::new();
+    let serve = ["serve", "--source", "simulated:fender"];
+    let err = |code, args: &[&str]| {
+        let ran = place.coded(code, &[&serve[..], args].concat());
+        assert!(
+            ran.err.contains("to do") || ran.err.contains("expected"),
+            "{}",
+            ran.err
+        );
+        ran.err
+    };
+    assert!(err(2, &[]).contains("--as"));
+    assert!(err(2, &["--as", "kuka"]).contains("no calibration"));
+    place.accepted(&CALIBRATE);
+    let calibrated = ["--as", "kuka", "--calibration", "cell.toml"];
+    for (args, words) in [
+        (&["--listen", "modbus=502"][..], "is no protocol"),
+        (&["--listen", "binary=0", "--as", "matrix"], "16 numbers"),
+        (&["--number", "boat=1"], "no part boat"),
+        (
+            &["--number", "fender=1", "--number", "grille=1"],
+            "given before",
+        ),
+        (&["--max-age", "0"], "expected a number"),
+    ] {
+        let args = if args.contains(&"--as") {
+            [args, &calibrated[2..]].concat()
+        } else {
+            [args, &calibrated[..]].concat()
+        };
+        let found = err(2, &args);
+        assert!(found.contains(words), "{args:?}: {found}");
+    }
+    let stepping = ["--source", "recording,pace=step:x"];
+    let ran = place.coded(2, &[&serve[..1], &stepping[..], &calibrated[..]].concat());
+    assert!(ran.err.contains("pace=10"), "{}", ran.err);
+    let missing = ["--source", "recording:missing", "--listen", "ascii=0"];
+    let ran = place.coded(2, &[&serve[..1], &missing[..], &calibrated[..]].concat());
+    assert!(ran.err.contains("the folder is not there"), "{}", ran.err);
+}
