@@ -1,6 +1,6 @@
 //! Whether a score means what it says: of the guesses with a score near 0.9, are nine in ten right?
 //!
-//! The guesses are sorted into bins of equal width by their score; in each the share of right ones is held against the
+//! The guesses are sorted into bins of equal width by their score; in each the share of right ones is compared with the
 //! mean score (the reliability diagram of M. H. DeGroot and S. E. Fienberg, "The Comparison and Evaluation of
 //! Forecasters", The Statistician 32, 1983). The one figure is the expected calibration error of M. P. Naeini, G. F.
 //! Cooper and M. Hauskrecht, "Obtaining Well Calibrated Probabilities Using Bayesian Binning", AAAI 2015:
@@ -18,13 +18,13 @@ const NUM_BINS: usize = 10;
 /// Guesses with about the same score.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ScoreBin {
-    /// Least score.
+    /// Lower end, inclusive.
     pub from: f64,
-    /// Greatest score, itself in the next bin but for the last.
+    /// Upper end, exclusive but in the last bin.
     pub to: f64,
-    /// Guesses.
+    /// Number of guesses.
     pub num: usize,
-    /// Right ones.
+    /// How many of them are right.
     pub num_right: usize,
     /// Their mean score; 0 without a guess.
     pub mean_score: f64,
@@ -47,7 +47,7 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// Of the best guesses, accepted or not. What is not enrolled has no right guess.
+    /// Bins the best guesses, accepted or not. A scene that shows no enrolled part has no right guess.
     pub fn of<'a>(results: impl IntoIterator<Item = &'a CaseResult>) -> Self {
         let guesses = results.into_iter().filter_map(|result| {
             let score = result.found.score.filter(|score| score.is_finite())?;

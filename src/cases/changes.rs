@@ -1,4 +1,4 @@
-//! Two runs over the same cases: what was broken, what was mended, and whose score changed.
+//! Compares two runs over the same cases: which results are worse, which are better, and which scores changed.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,10 +7,10 @@ use super::{
     record::{CaseRecord, EarlierRun},
 };
 
-/// A score that changed by less reads the same.
+/// Smaller changes of a score do not show with two decimals.
 const LEAST_CHANGE: f64 = 0.005;
 
-/// What became of a case.
+/// A case whose result changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseChange {
     /// The case's folder name.
@@ -21,11 +21,11 @@ pub struct CaseChange {
     pub before: FoundVerdict,
     /// What is found now.
     pub now: FoundVerdict,
-    /// Whether that was right, and whether this is.
+    /// Judgement before, and now.
     pub judgements: [CaseOutcome; 2],
 }
 
-/// What differs between two runs; each list in the order of the later run's cases.
+/// The differences between two runs; each list is in the order of the later run's cases.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
     /// Judged worse now: right before and not now, or refused before and wrong and accepted now.
@@ -36,14 +36,14 @@ pub struct Changes {
     pub rescored: Vec<CaseChange>,
     /// Cases of both runs.
     pub num_common: usize,
-    /// Cases of this run only.
+    /// Cases of the later run only.
     pub added: Vec<String>,
     /// Cases of the earlier run only: removed since, or damaged.
     pub gone: Vec<String>,
 }
 
 impl Changes {
-    /// From an earlier run to these results. Both are judged by what the case is said to be now.
+    /// Compares these results with an earlier run. Both are judged by the present truth of the case.
     pub fn between(earlier: &EarlierRun, results: &[CaseResult]) -> Self {
         let before: BTreeMap<&str, &CaseRecord> = earlier
             .cases

@@ -1,4 +1,4 @@
-//! The confusion matrix: what it truly was, against what it was taken for.
+//! The confusion matrix: truth against answer.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,23 +9,23 @@ use super::judge::{CaseAnswer, CaseOutcome, CaseResult, Truth};
 /// A cell of the matrix.
 pub type Cell = (Truth, CaseAnswer);
 
-/// How many came out how.
+/// Counts of results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
-    /// Cases counted.
+    /// All results.
     pub total: usize,
-    /// Right.
+    /// See [`CaseOutcome::Right`].
     pub right: usize,
-    /// Accepted as something else: the worst.
+    /// See [`CaseOutcome::WrongAccepted`].
     pub wrong_accepted: usize,
-    /// Enrolled parts that were refused.
+    /// See [`CaseOutcome::Refused`].
     pub refused: usize,
     /// Enrolled parts whose best guess, accepted or not, is right.
     pub guessed_right: usize,
 }
 
 impl Tally {
-    /// Of these results.
+    /// Counts these results.
     pub fn of<'a>(results: impl IntoIterator<Item = &'a CaseResult>) -> Self {
         let mut tally = Self::default();
         for result in results {
@@ -44,13 +44,13 @@ impl Tally {
 /// The results, sorted into cells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Confusion {
-    /// What there truly was: parts in the library's order, then those no longer enrolled, then the rest.
+    /// Truths: parts in the library's order, then those no longer enrolled, then the rest.
     pub rows: Vec<Truth>,
-    /// What they may be taken for: every part among the rows or the answers, last the refusal.
+    /// Answers: every part among truths and answers, last the refusal.
     pub columns: Vec<CaseAnswer>,
-    /// Places in the list of results, per cell that has any.
+    /// For each cell that is not empty, the places of its results in the list.
     pub cells: BTreeMap<Cell, Vec<usize>>,
-    /// The sums.
+    /// Counts over all cells.
     pub tally: Tally,
 }
 

@@ -5,12 +5,13 @@ use std::{io, path::PathBuf};
 use crate::{
     error::Advice,
     files::{advice_on, words_of},
+    history::HistoryError,
 };
 
 /// Why a case or a folder of cases cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
-    /// The system could not read.
+    /// The folder cannot be read.
     #[error("{}: cannot read the kept cases: {}", path.display(), words_of(source))]
     Unreadable {
         /// The folder.
@@ -18,7 +19,7 @@ pub enum CaseError {
         /// What the system says.
         source: io::Error,
     },
-    /// The system could not write; what was kept before still is.
+    /// The folder cannot be written to; the cases in it are unchanged.
     #[error("{}: cannot write to the kept cases: {}", path.display(), words_of(source))]
     Unwritable {
         /// The folder.
@@ -26,27 +27,27 @@ pub enum CaseError {
         /// What the system says.
         source: io::Error,
     },
-    /// A case is not as it was written.
+    /// A case has changed since it was written.
     #[error("the kept case {name} is damaged and set aside: {what}")]
     Damaged {
-        /// Its folder.
+        /// Name of its folder.
         name: String,
         /// What is wrong.
         what: String,
     },
-    /// Written by a newer program.
+    /// Written by a newer version.
     #[error(
         "the kept case {name} was made by a newer version (format {found}, known up to {known})"
     )]
     Newer {
-        /// Its folder.
+        /// Name of its folder.
         name: String,
-        /// Its version.
+        /// Its schema.
         found: u32,
-        /// The newest known.
+        /// The newest schema that this version reads.
         known: u32,
     },
-    /// No case of that name.
+    /// There is no case of that name.
     #[error("{}: no kept case named {name}", path.display())]
     NoSuchCase {
         /// The folder.
@@ -54,6 +55,9 @@ pub enum CaseError {
         /// The name asked for.
         name: String,
     },
+    /// The history whose inspections become cases cannot be read.
+    #[error(transparent)]
+    History(#[from] HistoryError),
     /// The system does not say where a user's data belong.
     #[error("this system names no folder for a user's data")]
     NoUserFolder,
@@ -68,7 +72,8 @@ impl Advice for CaseError {
             }
             Self::Damaged { .. } => "Copy it again from where it came, or delete its folder".into(),
             Self::Newer { .. } => "Update Partsight on this computer".into(),
-            Self::NoSuchCase { .. } => "Look whether the folder was moved or renamed".into(),
+            Self::NoSuchCase { .. } => "Check whether the folder was moved or renamed".into(),
+            Self::History(error) => error.advice(),
             Self::NoUserFolder => "Choose a folder of cases".into(),
         }
     }

@@ -1,7 +1,7 @@
-//! A folder of cases inspected one by one, and what it comes to.
+//! Inspects a folder of cases and summarises the results.
 //!
-//! Cases are shared among workers; the results are in the order of the cases and, but for the times, the same for any
-//! number of workers. A case whose scene is damaged is named and left out, the others count.
+//! Several workers share the cases; the results are in the order of the cases and, but for the times, the same for any
+//! number of workers. A case whose scene is damaged is reported and not counted.
 
 use std::collections::BTreeSet;
 
@@ -23,7 +23,7 @@ use crate::{
     stages::scene::SceneCloud,
 };
 
-/// Inspects cases and holds what is found against the truth.
+/// Inspects cases and compares the verdicts with the truth.
 pub struct CaseJudge<'a> {
     library: &'a Library,
     recipe: &'a Recipe,
@@ -32,7 +32,7 @@ pub struct CaseJudge<'a> {
 }
 
 impl<'a> CaseJudge<'a> {
-    /// With this library and recipe.
+    /// Judges by this library and recipe.
     pub fn new(library: &'a Library, recipe: &'a Recipe) -> Self {
         let references = library.references.iter();
         let clouds = references.map(|reference| CloudCheck::of_cloud(&reference.cloud).crc32);
@@ -43,7 +43,7 @@ impl<'a> CaseJudge<'a> {
         }
     }
 
-    /// Inspects the scene of a case.
+    /// Inspects the scene of a case and compares the verdict with its truth.
     pub fn judge(
         &self,
         case: &KeptCase,
@@ -74,8 +74,7 @@ impl<'a> CaseJudge<'a> {
         if !truth.cloud_crc32.as_ref().is_none_or(is_of_it) {
             return None;
         }
-        let (low, high) = self.library.references.get(place)?.cloud.bounds()?;
-        let middle = nalgebra::center(&low, &high).cast::<f64>();
+        let middle = self.library.references.get(place)?.middle()?;
         Some(pose_error(
             &found.camera_from_part(),
             &truth.camera_from_part,
@@ -84,27 +83,27 @@ impl<'a> CaseJudge<'a> {
     }
 }
 
-/// What a folder of cases comes to.
+/// The results of a folder of cases, and their summary.
 #[derive(Debug, Default)]
 pub struct Evaluation {
     /// One result per case that could be read, in the order of the cases.
     pub results: Vec<CaseResult>,
-    /// The cases that could not.
+    /// The cases that could not be read.
     pub problems: Vec<CaseError>,
-    /// What was taken for what.
+    /// Truth against answer.
     pub confusion: Confusion,
-    /// By what it truly is, in the order of the matrix' rows.
+    /// Counts by truth, in the order of the matrix' rows.
     pub by_truth: Vec<(Truth, Tally)>,
-    /// By difficulty, in the order of the words; those without one come first.
+    /// Counts by difficulty in alphabetical order; cases without one come first.
     pub by_difficulty: Vec<(Option<String>, Tally)>,
-    /// Scores against shares.
+    /// Scores against the shares of right guesses.
     pub calibration: Calibration,
-    /// What a threshold on the score costs.
+    /// False accepts and refusals at every threshold on the score.
     pub trade_off: TradeOff,
 }
 
 impl Evaluation {
-    /// Of these results; `order` names the library's parts.
+    /// Summarises these results; `order` names the library's parts.
     pub fn of(results: Vec<CaseResult>, problems: Vec<CaseError>, order: &[String]) -> Self {
         let confusion = Confusion::of(&results, order);
         let tally_where =
@@ -129,7 +128,7 @@ impl Evaluation {
     }
 }
 
-/// Runs all cases by so many workers; `after_each` is called from them.
+/// Inspects all cases on `num_workers` threads, which call `after_each`.
 pub fn evaluate(
     folder: &CaseFolder,
     list: CaseList,

@@ -1,14 +1,15 @@
-//! What truly hangs there, what was found, and whether the two agree.
+//! The truth of a case, what an inspection found, and whether the two agree.
 
 use serde::{Deserialize, Serialize};
 
 pub use crate::library::Truth;
 use crate::{
     geometry::rigid::PoseDelta,
+    history::{Record, StoredVerdict},
     pipeline::{Timings, Verdict},
 };
 
-/// What an inspection found, in short.
+/// The verdict of an inspection, as cases store it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FoundVerdict {
     /// The best guess; `None` if nothing could be recognised.
@@ -17,12 +18,12 @@ pub struct FoundVerdict {
     /// Its score, 0..1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub score: Option<f64>,
-    /// Its lead over the next part's score.
+    /// Its margin.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
-    /// Whether it was accepted.
+    /// Whether the best guess was accepted.
     pub accepted: bool,
-    /// Why not.
+    /// Why it was not accepted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
@@ -39,8 +40,24 @@ impl From<&Verdict> for FoundVerdict {
     }
 }
 
+impl From<&Record> for FoundVerdict {
+    fn from(Record { summary, detail }: &Record) -> Self {
+        Self {
+            part: detail.nearest.clone(),
+            score: summary.score.map(|[score, _]| score),
+            margin: summary.score.map(|[_, margin]| margin),
+            accepted: summary.verdict == StoredVerdict::Accepted,
+            // With enrolled names, as in a verdict: the stored sentence has the titles of that time.
+            reason: detail.refusal.as_ref().map(|refusal| {
+                let why = refusal.why.as_ref();
+                why.map_or_else(|| refusal.reason.clone(), ToString::to_string)
+            }),
+        }
+    }
+}
+
 impl FoundVerdict {
-    /// What it comes to for whoever waits for the answer.
+    /// The accepted part, or the refusal.
     pub fn answered(&self) -> CaseAnswer {
         match &self.part {
             Some(part) if self.accepted => CaseAnswer::Part(part.clone()),
@@ -49,29 +66,29 @@ impl FoundVerdict {
     }
 }
 
-/// What a verdict comes to: an accepted part, or a refusal.
+/// An accepted part, or a refusal.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CaseAnswer {
     /// Accepted as the part of this name.
     Part(String),
-    /// Not accepted, or nothing found: the robot stands still.
+    /// Not accepted, or nothing found: the robot does not move.
     NotAccepted,
 }
 
-/// Whether an answer is right; the later, the worse.
+/// Whether an answer is right, from the best to the worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CaseOutcome {
-    /// The part was accepted as what it is, or what is no enrolled part was refused.
+    /// An enrolled part was accepted under its name, or anything else was refused.
     Right,
     /// An enrolled part was refused.
     Refused,
-    /// Accepted as something that it is not: the robot would paint it wrongly.
+    /// Accepted as another part: the robot would paint it wrongly.
     WrongAccepted,
 }
 
 impl CaseOutcome {
-    /// Holds an answer against the truth.
+    /// Compares an answer with the truth.
     pub fn of(truth: &Truth, answered: &CaseAnswer) -> Self {
         match (truth, answered) {
             (Truth::Part(is), CaseAnswer::Part(found)) if is == found => Self::Right,
@@ -81,7 +98,7 @@ impl CaseOutcome {
         }
     }
 
-    /// In words.
+    /// In English.
     pub fn words(self) -> &'static str {
         match self {
             Self::Right => "right",
@@ -91,20 +108,20 @@ impl CaseOutcome {
     }
 }
 
-/// What came out of one case.
+/// The result of one case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseResult {
     /// The case's folder name.
     pub name: String,
-    /// How hard it is, in free words.
+    /// See [`CaseDescription::difficulty`](super::CaseDescription::difficulty).
     pub difficulty: Option<String>,
     /// What it truly is.
     pub truth: Truth,
     /// What was found.
     pub found: FoundVerdict,
-    /// How far the pose is off, the shift taken at the part's middle; only of a right guess whose true pose is known.
+    /// Pose error, the shift at the middle of the part; only of a right guess whose true pose is known.
     pub pose_error: Option<PoseDelta>,
-    /// How long the stages took.
+    /// Times of the stages.
     pub timings: Timings,
 }
 

@@ -1,4 +1,4 @@
-//! What is written down of a case.
+//! `case.toml`: the description of a case and the record of its scene.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -6,46 +6,63 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::judge::{FoundVerdict, Truth};
 use crate::{
     geometry::{depth_frame::Intrinsics, rigid::RigidTransform, sixteen_numbers},
-    history::FrameRecord,
+    history::{FrameRecord, Record},
     stages::scene::PictureEdge,
 };
 
-/// The version of the format that is written; newer ones are refused. The first held every scene as a cloud, this one as
-/// the history does.
+/// The schema that is written; newer ones are refused. Schema 1 stored every scene as a cloud, schema 2 stores it as the
+/// history stores frames.
 pub const SCHEMA_VERSION: u32 = 2;
 
-/// What a person and an inspection say of a case that is to be kept.
+/// What is known of a scene: its origin, its true label, and what an inspection found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseDescription {
-    /// Where the scene came from, for people.
+    /// Name of the scene; the folder is named after it.
     pub origin: String,
-    /// True if no camera was read.
+    /// True if the scene is not from a camera.
     pub simulated: bool,
-    /// When it was kept.
+    /// When it was kept; in an export of the history, when it was inspected.
     pub kept_at: Timestamp,
-    /// A remark for people; may be empty.
+    /// May be empty.
     #[serde(default)]
     pub remark: String,
-    /// How hard it is, in free words such as `placed` or `hard`; cases with the same words are counted together.
+    /// Free text such as `placed` or `hard`; cases with the same text are counted together.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub difficulty: Option<String>,
     /// What it truly is.
     pub truth: Truth,
-    /// What was found when it was kept.
+    /// By the recipe that the scene was inspected with.
     pub found: FoundVerdict,
-    /// Where the part truly is, if it is known.
+    /// The true pose, if it is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<TruePose>,
 }
 
-/// Where the part truly is.
+impl CaseDescription {
+    /// Describes an inspection, stored in the history or not, of which this is the truth.
+    pub fn of(record: &Record, truth: Truth) -> Self {
+        let summary = &record.summary;
+        Self {
+            origin: summary.scene.clone(),
+            simulated: summary.is_simulated,
+            kept_at: summary.at,
+            remark: summary.remark.clone(),
+            difficulty: None,
+            truth,
+            found: FoundVerdict::from(record),
+            pose: None,
+        }
+    }
+}
+
+/// The true pose of a part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TruePose {
-    /// Maps a point of the enrolled part to where it is in the scene; 16 numbers row after row, metres.
+    /// 16 numbers row after row, metres.
     #[serde(with = "sixteen_numbers")]
     pub camera_from_part: RigidTransform,
-    /// The checksum of the enrolled part's cloud, as its `part.toml` has it: enrolled from another capture it has
-    /// other coordinates, and the pose says nothing of it. Without one it is taken to be of whatever is enrolled.
+    /// The checksum of the enrolled part's cloud, as in its `part.toml`. A part that is enrolled from another capture has
+    /// other coordinates, in which this pose means nothing. Without a checksum the pose holds for whatever is enrolled.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cloud_crc32: Option<String>,
 }
@@ -55,15 +72,15 @@ pub struct TruePose {
 pub struct CaseMeta {
     /// [`SCHEMA_VERSION`] when written.
     pub schema_version: u32,
-    /// What is said of it.
+    /// Origin, truth and verdict.
     #[serde(flatten)]
     pub about: CaseDescription,
-    /// Its scene's file, and what that alone does not tell.
+    /// The file of its scene, and what the file itself does not hold.
     #[serde(deserialize_with = "scene_of_any_version")]
     pub scene: FrameRecord,
 }
 
-/// The scene of a case of the first version: `scene.pcd`, and `empty-cell.pcd` if it has a checksum.
+/// The scene in schema 1: `scene.pcd`, and `empty-cell.pcd` if there is a checksum of it.
 #[derive(Deserialize)]
 struct FirstScene {
     bytes: u64,

@@ -1,31 +1,33 @@
-//! Kept cases: captured scenes with the actual part, to find out why one was taken for another.
+//! Cases: captured scenes with their true label, on which recipes and libraries are measured.
 //!
-//! A folder of cases can be copied on a stick and read by a person, one folder per case:
+//! The history holds scene, verdict and label of every inspection; a case is a copy of them that another computer can
+//! read. The history's export and Compare describe it by [`CaseDescription::of`] and write it by [`CaseFolder::keep`].
+//! What Compare keeps it also labels in the history, where the part has a row there. One folder per case:
 //!
 //! ```text
 //! cases/
 //!   simulated_frame_7/
 //!     case.toml     what it truly is, what was found, where it came from (see CaseMeta)
-//!     scene.png     the scene as its camera gave it, as the history keeps frames: 16-bit depth; what is none is a
-//!                   scene.pcd: binary, metres, camera space, rows and columns kept
+//!     scene.png     16-bit depth, written as the history writes frames; a scene without a depth image is
+//!                   scene.pcd: binary, metres, camera space, with rows and columns
 //!     intrinsics.json  the camera of a depth image, for other programs
 //!     empty-cell-….pcd  only if the empty cell was known: its nearest depth around each pixel
-//!   .trash/         what was removed; moved back by hand it is a case again
+//!   .trash/         removed cases; move a folder back to restore it
 //! ```
 //!
 //! ```toml
 //! schema_version = 2
-//! origin = "Simulated frame 7"      # for people
-//! simulated = true                  # no camera was read
+//! origin = "Simulated frame 7"      # name of the scene
+//! simulated = true                  # not from a camera
 //! kept_at = "2026-11-20T14:07:31Z"
 //! remark = ""
-//! difficulty = "placed"             # free words to be sorted by; may be absent
+//! difficulty = "placed"             # free text to group cases by; may be absent
 //!
 //! [truth]
 //! is = "part"                       # part, not_enrolled or nothing
 //! part = "back_door"                # the enrolled name, only with is = "part"
 //!
-//! [found]                           # by the recipe in use when the case was kept
+//! [found]                           # by the recipe that the scene was inspected with
 //! part = "front_door"               # absent if nothing could be recognised
 //! score = 0.91
 //! margin = 0.2
@@ -54,13 +56,11 @@
 //! cy = 239.5
 //! ```
 //!
-//! Cases of the first version are read as well: their scene is always `scene.pcd`, with `picture_edge` and
-//! `empty-cell.pcd`.
+//! Cases of the first version are read too: their scene is always `scene.pcd`, with `picture_edge` and `empty-cell.pcd`.
 //!
-//! The scene opens again bit for bit, camera and empty cell included, so that the same recipe gives the same verdict. A case is
-//! written whole or not at all: built in a hidden folder (`.new-…`), synced, renamed. A damaged case is named and set
-//! aside, the others load; a newer schema is refused in words. The size is held against `case.toml` when a folder is
-//! listed, the checksum when a scene is read.
+//! The scene is read back bit for bit, with camera and empty cell, so the same recipe gives the same verdict. A case is
+//! written whole or not at all: built in a hidden folder (`.new-…`), synced, renamed. A damaged case is reported, and the
+//! others load; a newer schema is refused. Listing a folder checks the size of each scene, reading a scene its checksum.
 
 mod calibration;
 mod changes;

@@ -1,21 +1,16 @@
-//! Inspections of the history as cases: their kept frames with what was truly there.
+//! Exports inspections of the history as cases: their kept frames with their true labels.
 
 use std::path::Path;
 
-use super::{
-    error::CaseError,
-    judge::{FoundVerdict, Truth},
-    meta::CaseDescription,
-    store::CaseFolder,
-};
+use super::{error::CaseError, judge::Truth, meta::CaseDescription, store::CaseFolder};
 use crate::history::{FrameError, Record, StoredVerdict, read_frame};
 
-/// What is taken for the truth of a past inspection.
+/// Which truth a past inspection is exported with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TruthFrom {
-    /// The true label that a person gave, and nothing else.
+    /// Its true label; an inspection without one is left out.
     Label,
-    /// Where nobody gave one, the part that was accepted: such cases show what changed, not what is right.
+    /// Its true label, else the accepted part. Such cases show what changed, not what is right.
     LabelOrVerdict,
 }
 
@@ -32,26 +27,26 @@ impl TruthFrom {
     }
 }
 
-/// Keeps inspections as cases, and counts those that cannot be.
+/// Writes inspections as cases, and counts those that cannot be written.
 #[derive(Debug)]
 pub struct PastCases<'a> {
     folder: &'a CaseFolder,
     frames: &'a Path,
     truth: TruthFrom,
-    /// Cases that were kept.
+    /// Cases that were written.
     pub num_kept: usize,
-    /// Inspections of which nobody knows what was there.
+    /// Inspections without a known truth.
     pub num_without_truth: usize,
-    /// Inspections whose frame is not kept any more, or never was.
+    /// Inspections whose frame is not kept.
     pub num_without_frame: usize,
-    /// Inspections of several frames together: a case has one.
+    /// Scans: a case has one frame.
     pub num_scans: usize,
     /// Frames that cannot be read.
     pub problems: Vec<FrameError>,
 }
 
 impl<'a> PastCases<'a> {
-    /// Into this folder of cases, from this folder of kept frames.
+    /// Exports into this folder of cases, from this folder of kept frames.
     pub fn new(folder: &'a CaseFolder, frames: &'a Path, truth: TruthFrom) -> Self {
         Self {
             folder,
@@ -65,7 +60,7 @@ impl<'a> PastCases<'a> {
         }
     }
 
-    /// Keeps an inspection as a case, if it can be one.
+    /// Writes an inspection as a case, if it can be one.
     pub fn take(&mut self, record: &Record) -> Result<(), CaseError> {
         let Some(truth) = self.truth.of(record) else {
             self.num_without_truth += 1;
@@ -86,32 +81,15 @@ impl<'a> PastCases<'a> {
                 return Ok(());
             }
         };
-        let Record { summary, detail } = record;
-        let about = CaseDescription {
-            origin: format!("inspection {} {}", summary.number, summary.scene),
-            simulated: summary.is_simulated,
-            kept_at: summary.at,
-            remark: summary.remark.clone(),
-            difficulty: None,
-            truth,
-            found: FoundVerdict {
-                part: detail.nearest.clone(),
-                score: summary.score.map(|[score, _]| score),
-                margin: summary.score.map(|[_, margin]| margin),
-                accepted: summary.verdict == StoredVerdict::Accepted,
-                reason: detail
-                    .refusal
-                    .as_ref()
-                    .map(|refusal| refusal.reason.clone()),
-            },
-            pose: None,
-        };
+        let mut about = CaseDescription::of(record, truth);
+        // Many scenes of a camera have the same name.
+        about.origin = format!("inspection {} {}", record.summary.number, about.origin);
         self.folder.keep(&scene, about)?;
         self.num_kept += 1;
         Ok(())
     }
 
-    /// What was kept and what was not, in words.
+    /// What was written and what was not, in English.
     pub fn in_words(&self) -> String {
         let mut words = format!("{} kept as cases", self.num_kept);
         for (num, why) in [
@@ -125,5 +103,64 @@ impl<'a> PastCases<'a> {
             }
         }
         words
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::{
+        cases::CaseAnswer,
+        history::{Filter, Retention},
+        kit::{history_entry, low_score, new_history},
+    };
+
+    #[test]
+    fn a_case_says_what_was_found_and_what_a_person_said_of_it() {
+        let (home, mut history) = new_history();
+        let mut entry = history_entry(1, StoredVerdict::NotAccepted, "grille");
+        let refusal = low_score("grille", 0.81);
+        entry.record.detail.refusal = Some(refusal.clone());
+        history.add(&entry, &Retention::default()).expect("written");
+        let truth = Truth::Part("fender".into());
+        history.set_label(1, Some(&truth)).expect("labelled");
+        history.set_remark(1, "bent").expect("written");
+        let folder = CaseFolder::at(home.path().join("cases"));
+        let mut past = PastCases::new(&folder, history.frames_folder(), TruthFrom::Label);
+        let taken = history.each(&Filter::default(), |record| past.take(&record));
+        taken.expect("kept");
+        let list = folder.list().expect("listed");
+        let about = &list.cases[0].meta.about;
+        assert_eq!(about.origin, "inspection 1 frame 1");
+        assert_eq!((&about.truth, about.remark.as_str()), (&truth, "bent"));
+        assert_eq!(about.found.part.as_deref(), Some("grille"));
+        assert_eq!(about.found.score, Some(0.97));
+        assert_eq!(about.found.answered(), CaseAnswer::NotAccepted);
+        let why = refusal.why.expect("with figures").to_string();
+        assert_eq!(about.found.reason, Some(why));
+    }
+
+    #[test]
+    fn the_first_case_that_cannot_be_written_ends_the_export() {
+        let (home, mut history) = new_history();
+        for (number, seconds) in (1..).zip(1..=2) {
+            let entry = history_entry(seconds, StoredVerdict::NotAccepted, "grille");
+            history.add(&entry, &Retention::default()).expect("written");
+            let labelled = history.set_label(number, Some(&Truth::Nothing));
+            labelled.expect("labelled");
+        }
+        let path = home.path().join("cases");
+        fs::write(&path, "not a folder").expect("written");
+        let folder = CaseFolder::at(&path);
+        let mut past = PastCases::new(&folder, history.frames_folder(), TruthFrom::Label);
+        let mut num = 0;
+        let taken = history.each(&Filter::default(), |record| {
+            num += 1;
+            past.take(&record)
+        });
+        assert!(matches!(taken, Err(CaseError::Unwritable { .. })));
+        assert_eq!(num, 1);
     }
 }

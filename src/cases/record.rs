@@ -1,4 +1,4 @@
-//! What is written down of a run of all cases: JSON, schema 1, which a later run can be held against.
+//! The results of a run over all cases as JSON, schema 1; a later run can be compared with them.
 //!
 //! ```json
 //! {"schema":1,"matcher":"default","pose":"global","num_threads":1,
@@ -15,7 +15,8 @@
 //!  "damaged":["the kept case door is damaged and set aside: scene.pcd does not have its checksum"]}
 //! ```
 //!
-//! `changed` lists other parameters that were not at their default. `accepted_as` is null where nothing was accepted. Errors are those of right guesses whose true pose is known.
+//! `changed` lists other parameters that were not at their default. `accepted_as` is null where nothing was accepted.
+//! `pose_errors` covers right guesses whose true pose is known.
 
 use std::path::{Path, PathBuf};
 
@@ -37,7 +38,7 @@ use crate::{
 /// The version that is written; newer ones are refused.
 pub const RECORD_SCHEMA: u32 = 1;
 
-/// A run of all cases, to be written. `T` is what a stage's times are written as.
+/// A run over all cases, to be written. `T` is the form of the stages' times.
 #[derive(Debug, Serialize)]
 pub struct EvaluationRecord<'a, T> {
     schema: u32,
@@ -56,14 +57,14 @@ pub struct EvaluationRecord<'a, T> {
     damaged: Vec<String>,
 }
 
-/// By which recipe a run was made.
+/// The recipe of a run.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct RecipeRecord<'a> {
-    /// Its name and identity.
+    /// Name and identity.
     pub recipe: &'a RecipeBlock,
-    /// The matcher.
+    /// As `--matcher` takes it.
     pub matcher: &'a str,
-    /// The way to the pose.
+    /// As `--pose` takes it.
     pub pose: &'a str,
     /// Other parameters that were not at their default, as `NAME=VALUE`.
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
@@ -89,28 +90,28 @@ struct CellRecord<'a> {
     num: usize,
 }
 
-/// How far the poses are off.
+/// Pose errors over a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct PoseErrors {
-    /// Poses whose true one is known.
+    /// Right guesses whose true pose is known.
     pub num: usize,
-    /// Half of them are off by less, the rotation and the shift each by itself.
+    /// Median of rotation and of shift, each by itself.
     pub median: Option<PoseOff>,
-    /// 95 in 100 of them are off by less.
+    /// 95th percentile of both.
     pub p95: Option<PoseOff>,
 }
 
-/// How far a pose is off.
+/// Error of a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PoseOff {
     /// Degrees.
     pub rotation_deg: f64,
-    /// Millimetres, at the part's middle.
+    /// Millimetres, at the middle of the part.
     pub shift_mm: f64,
 }
 
 impl PoseErrors {
-    /// Of these results.
+    /// Median and 95th percentile of these results.
     pub fn of(results: &[CaseResult]) -> Self {
         let errors: Vec<_> = results.iter().filter_map(|r| r.pose_error).collect();
         let off = |share: f64| {
@@ -133,24 +134,24 @@ impl PoseErrors {
     }
 }
 
-/// A case of a run, as it is written and read again.
+/// The result of one case, as written to and read from the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseRecord {
-    /// Its folder.
+    /// Name of its folder.
     pub name: String,
-    /// How hard it is.
+    /// Free text that cases are grouped by.
     #[serde(default)]
     pub difficulty: Option<String>,
     /// What it truly is.
     pub truth: Truth,
     /// What was found.
     pub found: FoundVerdict,
-    /// Whether that was right.
+    /// Whether the answer was right.
     pub judgement: CaseOutcome,
-    /// How far the pose is turned, degrees.
+    /// Rotation error of the pose, degrees.
     #[serde(default)]
     pub rotation_error_deg: Option<f64>,
-    /// How far the pose is shifted, millimetres.
+    /// Translation error of the pose at the middle of the part, millimetres.
     #[serde(default)]
     pub shift_error_mm: Option<f64>,
     /// Time of the inspection, milliseconds.
@@ -174,7 +175,7 @@ impl From<&CaseResult> for CaseRecord {
 }
 
 impl<'a, T> EvaluationRecord<'a, T> {
-    /// Of an evaluation by this recipe, on so many threads.
+    /// Describes an evaluation with this recipe on `num_threads` threads.
     pub fn of(
         evaluation: &'a Evaluation,
         recipe: RecipeRecord<'a>,
@@ -227,33 +228,33 @@ impl<'a, T> EvaluationRecord<'a, T> {
     }
 }
 
-/// What a later run needs of an earlier one.
+/// An earlier run, as far as a later one is compared with it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct EarlierRun {
-    /// Its cases.
+    /// One result per case.
     pub cases: Vec<CaseRecord>,
 }
 
-/// Why a file is no earlier run.
+/// Why a file cannot be read as an earlier run.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
     /// It cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// It is something else.
+    /// The file is something else.
     #[error("{}: not an evaluation: {what}", path.display())]
     NotARecord {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// What the JSON reader says.
         what: String,
     },
-    /// Written by a newer program.
+    /// Written by a newer version.
     #[error("{}: made by a newer version (schema {found}, known up to {RECORD_SCHEMA})", path.display())]
     Newer {
         /// The file.
         path: PathBuf,
-        /// Its version.
+        /// Its schema.
         found: u32,
     },
 }
@@ -271,9 +272,9 @@ impl Advice for RecordError {
 }
 
 impl EarlierRun {
-    /// Reads what a run has written.
+    /// Reads the file that a run wrote.
     pub fn read(path: &Path) -> Result<Self, RecordError> {
-        /// The one field that every version has.
+        /// The field that every schema has.
         #[derive(Deserialize)]
         struct Versioned {
             schema: u32,

@@ -1,6 +1,6 @@
-//! The folder of the kept cases: listing, keeping, reading, removing and putting back.
+//! A folder of cases: listing, keeping, reading, removing and restoring.
 //!
-//! Looking never writes: cases can lie on a medium that is write-protected. Writers take turns by a lock.
+//! Readers never write, so cases can be read from a write-protected medium. A lock allows one writer at a time.
 
 use std::{
     fs::{self},
@@ -27,32 +27,32 @@ const SCENE: &str = "scene";
 const NEW_PREFIX: &str = ".new-";
 const TRASH: &str = ".trash";
 const LOCK: &str = ".lock";
-/// A `case.toml` larger than this is none.
+/// A larger `case.toml` is damaged.
 const MAX_META_BYTES: u64 = 1 << 20;
-/// Most letters of a case's folder name, its number left out.
+/// Longest name of a case's folder, without its number.
 const MAX_NAME: usize = 48;
 
-/// A folder of cases; it need not be there until the first is kept.
+/// A folder of cases. Keeping the first case creates it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CaseFolder {
     path: PathBuf,
 }
 
-/// A case that is there.
+/// A case in the folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptCase {
     /// Name of its folder.
     pub name: String,
-    /// What is written down of it.
+    /// Its `case.toml`.
     pub meta: CaseMeta,
 }
 
-/// What lies in a folder of cases.
+/// The contents of a folder of cases.
 #[derive(Debug, Default)]
 pub struct CaseList {
-    /// The cases, in the order of their names.
+    /// By name; numbers in names count as numbers.
     pub cases: Vec<KeptCase>,
-    /// What had to be set aside.
+    /// The cases that cannot be read.
     pub problems: Vec<CaseError>,
 }
 
@@ -62,7 +62,7 @@ impl CaseFolder {
         Self { path: path.into() }
     }
 
-    /// The user's own, in the folder that the system keeps for a user's data.
+    /// The user's own, in the system's folder for user data.
     pub fn of_user() -> Result<Self, CaseError> {
         let folders = user_folders().ok_or(CaseError::NoUserFolder)?;
         Ok(Self::at(folders.data_dir().join("cases")))
@@ -73,7 +73,7 @@ impl CaseFolder {
         &self.path
     }
 
-    /// The cases; what is damaged is named, the others are there. A folder that is not there holds none.
+    /// Lists the cases. A damaged one is a problem of the list; a folder that does not exist has no cases.
     pub fn list(&self) -> Result<CaseList, CaseError> {
         let mut list = CaseList::default();
         for name in self.names()? {
@@ -86,7 +86,7 @@ impl CaseFolder {
         Ok(list)
     }
 
-    /// Keeps a scene, whole or not at all; the name follows from its origin.
+    /// Writes a case, whole or not at all, and names it after its origin.
     pub fn keep(&self, scene: &SceneCloud, about: CaseDescription) -> Result<KeptCase, CaseError> {
         let kept = || -> io::Result<KeptCase> {
             disk::create_dir_all(&self.path)?;
@@ -112,7 +112,7 @@ impl CaseFolder {
         kept().map_err(|source| self.unwritable(source))
     }
 
-    /// The scene of a case, as it was.
+    /// Reads the scene of a case, bit for bit as it was kept.
     pub fn read_scene(&self, case: &KeptCase) -> Result<SceneCloud, CaseError> {
         let read = read_frame(&self.path.join(&case.name), &case.meta.scene);
         read.map_err(|error| CaseError::Damaged {
@@ -121,7 +121,7 @@ impl CaseFolder {
         })
     }
 
-    /// Moves a case, damaged or not, to the trash and says where it lies there.
+    /// Moves a case, damaged or not, to the trash and returns its path there.
     pub fn remove(&self, name: &str) -> Result<PathBuf, CaseError> {
         let folder = self.path.join(name);
         if !is_plain(name) || !folder.is_dir() {
@@ -143,7 +143,7 @@ impl CaseFolder {
         moved().map_err(|source| self.unwritable(source))
     }
 
-    /// Puts a removed case back under its name.
+    /// Moves a removed case back under its name.
     pub fn restore(&self, name: &str, from: &Path) -> Result<(), CaseError> {
         let place = self.path.join(name);
         if !is_plain(name) || !from.is_dir() {
@@ -175,7 +175,7 @@ impl CaseFolder {
         }
     }
 
-    /// Folders that are not hidden, in order.
+    /// The folders that are not hidden, by name.
     fn names(&self) -> Result<Vec<String>, CaseError> {
         let listed = || -> io::Result<Vec<String>> {
             let found = match fs::read_dir(&self.path) {
@@ -199,7 +199,7 @@ impl CaseFolder {
         })
     }
 
-    /// `None` for a folder that is no case at all.
+    /// `None` for a folder that is no case.
     fn read_meta(&self, name: &str) -> Result<Option<CaseMeta>, CaseError> {
         #[derive(serde::Deserialize)]
         struct Versioned {
@@ -212,7 +212,7 @@ impl CaseFolder {
         };
         let meta = folder.join(META);
         if !meta.exists() {
-            // Somebody's folder, unless the scene says that it was a case.
+            // Any other folder, unless it has a scene.
             let what = format!("{META} is missing");
             let mut scenes = ["png", "pcd"].iter();
             return if scenes.any(|ending| folder.join(format!("{SCENE}.{ending}")).exists()) {
@@ -253,7 +253,7 @@ impl CaseFolder {
         }
     }
 
-    /// The first name of this kind that is free, and its folder.
+    /// The first free name of `plain`, `plain_2` and so on, and its path.
     fn free_name(&self, plain: &str) -> io::Result<(String, PathBuf)> {
         numbered(plain)
             .map(|name| (self.path.join(&name), name))
@@ -262,7 +262,7 @@ impl CaseFolder {
             .ok_or_else(|| io::ErrorKind::AlreadyExists.into())
     }
 
-    /// What an interrupted writer left. Only under the lock: another writer's folders are not leftovers.
+    /// Removes what an interrupted writer left. Only under the lock: a folder of another writer at work is no leftover.
     fn clear_leftovers(&self) -> io::Result<()> {
         for entry in fs::read_dir(&self.path)? {
             let entry = entry?;
@@ -273,14 +273,14 @@ impl CaseFolder {
         Ok(())
     }
 
-    /// Runs one change while no other writer is at work.
+    /// Runs a change under the writers' lock.
     fn writing<T>(&self, change: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
         let _lock = lock_exclusively(&self.path.join(LOCK))?;
         change()
     }
 }
 
-/// The name, then the name with 2, 3 and so on.
+/// `name`, `name_2`, `name_3` and so on.
 fn numbered(name: &str) -> impl Iterator<Item = String> {
     (1..=99_999).map(move |n| match n {
         1 => name.to_owned(),
@@ -288,12 +288,12 @@ fn numbered(name: &str) -> impl Iterator<Item = String> {
     })
 }
 
-/// True for the name of a folder right here.
+/// True for the name of a visible file or folder, without a path.
 fn is_plain(name: &str) -> bool {
     !name.is_empty() && !name.starts_with('.') && !name.contains(['/', '\\'])
 }
 
-/// Small letters, digits and single underscores: a folder name on every system.
+/// Lower-case letters, digits and single underscores, which every file system takes.
 fn plain_name(origin: &str) -> String {
     let stem = Path::new(origin).file_stem().unwrap_or_default();
     let mut name = String::new();

@@ -1,22 +1,22 @@
 //! What a threshold on the score costs: raising it refuses more parts, lowering it accepts more of what is wrong.
 //!
-//! By the score alone: the other rules of a verdict (margin, mirror image, a piece only) refuse more than this shows.
+//! Known limit: only the score counts here; the other rules of a verdict (margin, mirror image, a piece only) refuse more.
 
 use serde::Serialize;
 
 use super::judge::{CaseResult, Truth};
 
-/// Thresholds from 0 to 1.
+/// Steps between the thresholds 0 and 1.
 const NUM_STEPS: usize = 50;
 
-/// How the cases would come out at one threshold.
+/// The counts at one threshold.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ThresholdCounts {
     /// Least score to be accepted.
     pub threshold: f64,
-    /// Cases that would be accepted as what they are not.
+    /// Cases that would be accepted as another part.
     pub num_wrong_accepted: usize,
-    /// Enrolled parts that would not be accepted as what they are.
+    /// Enrolled parts that would not be accepted under their name.
     pub num_refused: usize,
 }
 
@@ -27,12 +27,12 @@ pub struct TradeOff {
     pub num_cases: usize,
     /// Cases that show an enrolled part.
     pub num_enrolled: usize,
-    /// In the order of thresholds, from 0 to 1.
+    /// By threshold, from 0 to 1.
     pub steps: Vec<ThresholdCounts>,
 }
 
 impl TradeOff {
-    /// Of these cases.
+    /// Counts these results at every threshold.
     pub fn of<'a>(results: impl IntoIterator<Item = &'a CaseResult>) -> Self {
         let guesses: Vec<BestMatch> = results.into_iter().map(BestMatch::of).collect();
         let step = |place: usize| {

@@ -20,6 +20,7 @@ use super::{
     entry::{NewEntry, Record, Summary, png_of},
     error::HistoryError,
     filter::Filter,
+    hung::HungId,
     news::HistoryEvent,
     open::OpenedHistory,
     outcomes::PartOutcome,
@@ -173,6 +174,35 @@ impl HistoryBuffer {
         self.queue_change_event(number, changed);
     }
 
+    /// Writes down what a part truly is, in the row that stands for it, and the remark if that row has none. Returns the
+    /// row as it is then; `None` if the part has no row.
+    pub fn label_part(
+        &self,
+        hung: &HungId,
+        label: &Truth,
+        remark: &str,
+    ) -> Result<Option<Summary>, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        let Some(mut row) = inner.part(hung)? else {
+            return Ok(None);
+        };
+        let number = row.number;
+        let set = |row: &mut Summary| {
+            row.label = Some(label.clone());
+            if row.remark.is_empty() {
+                remark.trim().clone_into(&mut row.remark);
+            }
+        };
+        match inner.waiting_mut(number) {
+            Some(entry) => set(&mut entry.record.summary),
+            None => self.change(&mut inner, number, |history| history.change(number, set))?,
+        }
+        set(&mut row);
+        self.tell(HistoryEvent::FilesChanged);
+        Ok(Some(row))
+    }
+
     fn change(
         &self,
         inner: &mut Inner,
@@ -270,6 +300,13 @@ impl HistoryBuffer {
         }
     }
 
+    /// The row that stands for a part; `None` if the part has no row.
+    pub fn part(&self, hung: &HungId) -> Result<Option<Summary>, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        inner.part(hung)
+    }
+
     /// The inspections that lie below this one, the oldest first.
     pub fn below(&self, number: i64) -> Result<Vec<Record>, HistoryError> {
         let mut inner = self.lock();
@@ -292,14 +329,14 @@ impl HistoryBuffer {
 
     /// Goes through all rows that the filter lets through, the oldest first: those that are written, then those that
     /// wait.
-    pub fn each(
+    pub fn each<E: From<HistoryError>>(
         &self,
         filter: &Filter,
-        mut each: impl FnMut(Record) -> Result<(), HistoryError>,
-    ) -> Result<(), HistoryError> {
+        mut each: impl FnMut(Record) -> Result<(), E>,
+    ) -> Result<(), E> {
         let inner = self.lock();
         if let Some(history) = &inner.history {
-            history.each(filter, &mut each)?;
+            history.each::<E>(filter, &mut each)?;
         }
         let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
         for (summary, entry) in rows.into_iter().zip(&inner.waiting) {
@@ -459,6 +496,16 @@ impl HistoryBuffer {
 }
 
 impl Inner {
+    fn part(&self, hung: &HungId) -> Result<Option<Summary>, HistoryError> {
+        let history = self.history.as_ref();
+        let mut waiting = waiting_rows(&self.waiting, history)?.into_iter();
+        let waits = waiting.find(|row| row.hung == *hung && row.parent.is_none());
+        match (waits, history) {
+            (None, Some(history)) => history.head_of(hung),
+            (waits, _) => Ok(waits),
+        }
+    }
+
     fn waiting_mut(&mut self, number: i64) -> Option<&mut NewEntry> {
         let mut waiting = self.waiting.iter_mut();
         waiting.find(|entry| entry.record.summary.number == number)

@@ -10,7 +10,7 @@ use rusqlite::ErrorCode;
 use super::frames::FrameError;
 use crate::{
     error::Advice,
-    files::{advice_on, words_of},
+    files::{FileError, advice_on, words_of},
 };
 
 /// Why the history cannot be read or written.
@@ -86,6 +86,9 @@ pub enum HistoryError {
     /// A frame cannot be written or read.
     #[error(transparent)]
     Frame(#[from] FrameError),
+    /// The table cannot be written.
+    #[error(transparent)]
+    Table(#[from] FileError),
     /// No inspection of that number.
     #[error("there is no inspection {number} in the history")]
     NoSuchInspection {
@@ -170,6 +173,7 @@ impl Advice for HistoryError {
                 "Try again; if it happens again, move the file away: a new one is then started".into()
             }
             Self::Frame(error) => error.advice(),
+            Self::Table(error) => error.advice(),
             Self::NoSuchInspection { .. } => {
                 "Use one of the numbers that `partsight history list` shows".into()
             }

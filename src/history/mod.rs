@@ -7,8 +7,8 @@
 //! ```
 //!
 //! ```text
-//! NewEntry ─► Writer ─► Keeper ─► History ─► history.sqlite
-//!             a thread  what cannot be written waits in memory
+//! NewEntry ─► Writer ─► HistoryBuffer ─► History ─► history.sqlite
+//!             a thread  holds in memory what cannot be written
 //! ```
 //!
 //! A kill at any moment loses at most the inspection that was being written. What cannot be opened is never deleted: a
@@ -55,7 +55,7 @@ pub use self::{
     retention::{KeepFrames, PruneResult, Retention, Usage},
     shots::{ShotRecord, read_shots},
     store::{History, Page},
-    table::{write_head, write_row},
+    table::write_table,
     traceability::Traceability,
     writer::Writer,
 };

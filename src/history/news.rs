@@ -40,7 +40,7 @@ pub enum HistoryEvent {
         /// What to do.
         advice: String,
     },
-    /// The files have changed: perhaps another program wrote.
+    /// Rows may have changed: perhaps another program wrote, or a part was labelled while a case was kept.
     FilesChanged,
     /// Frames are kept by another rule.
     RuleChanged,

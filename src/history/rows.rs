@@ -75,8 +75,11 @@ pub(super) fn insert(
         summary.trace = summary.trace.or(&head.trace);
     }
     if let Some(head) = gives_way {
-        summary.remark.clone_from(&head.remark);
-        summary.label.clone_from(&head.label);
+        // It may have been said while this one waited to be written.
+        if summary.remark.is_empty() {
+            summary.remark.clone_from(&head.remark);
+        }
+        summary.label = summary.label.or_else(|| head.label.clone());
     }
     let [score, margin] = summary.score.map_or([None; 2], |both| both.map(Some));
     let refusal = detail.refusal.as_ref();

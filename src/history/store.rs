@@ -182,12 +182,12 @@ impl History {
         rows.filter_map(Result::transpose).collect()
     }
 
-    /// Goes through all rows that the filter lets through, the oldest first.
-    pub fn each(
+    /// Goes through all rows that the filter lets through, the oldest first, up to the first error.
+    pub fn each<E: From<HistoryError>>(
         &self,
         filter: &Filter,
-        mut each: impl FnMut(Record) -> Result<(), HistoryError>,
-    ) -> Result<(), HistoryError> {
+        mut each: impl FnMut(Record) -> Result<(), E>,
+    ) -> Result<(), E> {
         let (condition, values) = filter.condition();
         let asked = format!("SELECT number FROM inspection WHERE {condition} ORDER BY at, number");
         let numbers = || -> rusqlite::Result<Vec<i64>> {
@@ -276,7 +276,7 @@ impl History {
         self.change(number, |row| row.label = label.cloned())
     }
 
-    fn change(
+    pub(super) fn change(
         &mut self,
         number: i64,
         change: impl FnOnce(&mut Summary),

@@ -1,9 +1,18 @@
 //! Inspections as comma-separated values.
 
-use std::io::{self, Write};
+use std::{
+    io::{self, Write},
+    path::Path,
+};
 
-use super::entry::{Record, StoredRefusal};
-use crate::library::Truth;
+use super::{
+    entry::{Record, StoredRefusal},
+    error::HistoryError,
+};
+use crate::{
+    files::{FileError, write_atomically},
+    library::Truth,
+};
 
 /// The first line.
 const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
@@ -11,15 +20,27 @@ const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,scor
     m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33,recipe_name,recipe_changed,\
     serial,order,operator,reason_kind";
 
-/// Writes the first line: the names of the columns. Times are UTC; `parent` is the number of
-/// the inspection that stands for the same part, `reinspections` how many others lie below it; m00..m33 are `camera_from_part`, row after row,
-/// metres.
-pub fn write_head(writer: &mut dyn Write) -> io::Result<()> {
-    writeln!(writer, "{HEAD}")
+/// Writes the inspections that `each` goes through into this file, and returns their number. If one cannot be read, the
+/// file stays as it was.
+///
+/// Times are UTC; `parent` is the number of the inspection that stands for the same part, `reinspections` how many others
+/// lie below it; m00..m33 are `camera_from_part`, row after row, metres.
+pub fn write_table(
+    path: &Path,
+    each: impl FnOnce(&mut dyn FnMut(Record) -> Result<(), HistoryError>) -> Result<(), HistoryError>,
+) -> Result<usize, HistoryError> {
+    let mut table = format!("{HEAD}\n").into_bytes();
+    let mut num = 0;
+    each(&mut |record| {
+        num += 1;
+        let written = write_row(&mut table, &record);
+        written.map_err(|error| FileError::writing(path, error).into())
+    })?;
+    write_atomically(path, |writer| writer.write_all(&table))?;
+    Ok(num)
 }
 
-/// Writes the line of an inspection.
-pub fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
+fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
     let Record { summary, detail } = record;
     let [score, margin] = summary
         .score

@@ -399,25 +399,20 @@ fn two_recipes_with_one_identity_are_both_kept() {
 
 #[test]
 fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
-    let (_folder, mut history) = new_history();
-    for seconds in 1..=3 {
-        history
-            .add(
-                &history_entry(seconds, StoredVerdict::NotAccepted, "grille"),
-                &Retention::default(),
-            )
-            .expect("written");
+    let (folder, mut history) = new_history();
+    for seconds in 1..=4 {
+        let mut entry = history_entry(seconds, StoredVerdict::NotAccepted, "grille");
+        if seconds == 4 {
+            entry.record.detail.refusal = Some(low_score("grille", 0.81));
+        }
+        history.add(&entry, &Retention::default()).expect("written");
     }
-    let mut table = Vec::new();
-    write_head(&mut table).expect("written");
-    let listed = history.each(&Filter::default(), |record| {
-        write_row(&mut table, &record).expect("written");
-        Ok(())
-    });
-    listed.expect("listed");
-    let table = String::from_utf8(table).expect("text");
+    let path = folder.path().join("all.csv");
+    let written = write_table(&path, |row| history.each(&Filter::default(), row));
+    assert_eq!(written.expect("written"), 4);
+    let table = std::fs::read_to_string(&path).expect("text");
     let lines: Vec<&str> = table.lines().collect();
-    assert_eq!(lines.len(), 4);
+    assert_eq!(lines.len(), 5);
     assert!(lines[1].starts_with("1,2026-03-01T06:00:01Z,frame 1,simulated,true,not_accepted,grille,grille,0.9700,0.2500,too low,31.500,"));
     let num_fields = |line: &str| line.split(',').count();
     assert!(
@@ -427,11 +422,14 @@ fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
     );
     // Those were written by an earlier program.
     assert!(lines[0].ends_with(",reason_kind") && lines[1].ends_with(','));
-    let mut refused = history_entry(4, StoredVerdict::NotAccepted, "grille");
-    refused.record.detail.refusal = Some(low_score("grille", 0.81));
-    let mut line = Vec::new();
-    write_row(&mut line, &refused.record).expect("written");
-    assert!(line.ends_with(b",low_score\n"), "{line:?}");
+    assert!(lines[4].ends_with(",low_score"), "{}", lines[4]);
+    // What cannot be read to its end leaves the table that was there.
+    let failed = write_table(&path, |row| {
+        history.each(&Filter::default(), row)?;
+        Err(HistoryError::NoSuchInspection { number: 5 })
+    });
+    failed.expect_err("not whole");
+    assert_eq!(std::fs::read_to_string(&path).expect("text"), table);
 }
 
 /// One more inspection of the same part.
@@ -488,7 +486,7 @@ fn a_part_counts_once_however_often_it_was_inspected_and_nothing_of_it_is_lost()
     let mut exported = 0;
     let counted = history.each(&all, |_| {
         exported += 1;
-        Ok(())
+        Ok::<(), HistoryError>(())
     });
     counted.expect("listed");
     assert_eq!(exported, 2);

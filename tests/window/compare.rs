@@ -11,8 +11,11 @@ use partsight::{
     app::{
         WindowOptions,
         inspection::source::CellChoice,
-        shell::action::Action,
-        workspaces::compare::{CompareAction, CompareState, CompareWorkspace, Front, RecipeAction},
+        shell::{action::Action, session::WorkspaceKind},
+        workspaces::{
+            compare::{CompareAction, CompareState, CompareWorkspace, Front, RecipeAction},
+            history::{HistoryAction, HistoryWorkspace},
+        },
     },
     cases::{CaseDescription, CaseFolder, FoundVerdict, Truth},
     library::PartName,
@@ -23,7 +26,8 @@ use partsight::{
 use crate::kit::scene_of;
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle, wait_for,
+    SMALL, USUAL, WindowHarness, act, act_in, history_of, open_with, plain_options, press, settle,
+    wait_for,
 };
 
 fn open_at(size: Vec2, cases: &Path) -> WindowHarness {
@@ -161,6 +165,62 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     show(&mut harness, DOOR);
     assert!(matches!(own(&harness).front, Front::Scene));
     assert_eq!(found(&harness).as_deref(), Some("front_door"));
+}
+
+fn act_in_history(harness: &mut WindowHarness, action: HistoryAction) {
+    act_in(harness, |workspace: &mut HistoryWorkspace, cx| {
+        workspace.apply(action, cx);
+    });
+}
+
+#[test]
+fn a_kept_case_labels_its_inspection_and_a_label_of_the_history_is_the_truth_here() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open(folder.path());
+    press(&mut harness, "Compare");
+    show(&mut harness, DOOR);
+    act_in_compare(&mut harness, CompareAction::Remark(" bent ".into()));
+    press(&mut harness, "Choose… ▼");
+    press(&mut harness, "Actual part: Back door, left");
+    press(&mut harness, "Keep case");
+    act(&mut harness, Action::GoTo(WorkspaceKind::History));
+    let row = history_of(&harness).row(0).expect("listed");
+    assert_eq!(row.label, Some(Truth::Part("back_door".into())));
+    assert_eq!(row.remark, "bent");
+    let cases = CaseFolder::at(folder.path()).list().expect("listed").cases;
+    assert_eq!(cases[0].meta.about.remark, "bent");
+
+    let corrected = HistoryAction::Label(row.number, Some(Truth::NotEnrolled));
+    act_in_history(&mut harness, corrected);
+    act(&mut harness, Action::GoTo(WorkspaceKind::Compare));
+    act_in_compare(&mut harness, CompareAction::FrontScene);
+    assert_eq!(own(&harness).truth, Some(Truth::NotEnrolled));
+    harness.get_by_label("accepted, but it is");
+}
+
+#[test]
+fn a_past_inspection_that_is_opened_again_is_labelled_where_it_was_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let options = || WindowOptions {
+        cases: Some(folder.path().join("cases")),
+        history: Some(folder.path().join("history")),
+        ..plain_options()
+    };
+    // The window writes down its first inspection.
+    drop(open_with(USUAL, options()));
+    let mut harness = open_with(USUAL, options());
+    act(&mut harness, Action::GoTo(WorkspaceKind::History));
+    act_in_history(&mut harness, HistoryAction::Open(1));
+    press(&mut harness, "Compare");
+    press(&mut harness, "Choose… ▼");
+    press(&mut harness, "Actual part: Not enrolled");
+    press(&mut harness, "Keep case");
+    act(&mut harness, Action::GoTo(WorkspaceKind::History));
+    let history = history_of(&harness);
+    let rows = (0..history.num_rows()).filter_map(|place| history.row(place));
+    let mut labels: Vec<_> = rows.map(|row| (row.number, row.label.clone())).collect();
+    labels.sort_by_key(|(number, _)| *number);
+    assert_eq!(labels, [(1, Some(Truth::NotEnrolled)), (2, None)]);
 }
 
 #[test]

@@ -17,8 +17,6 @@ compare-accepted-wrong = akzeptiert, es ist aber
 compare-not-accepted-wrong = nicht akzeptiert, es ist aber
 compare-choose-truth = Auswählen…
 compare-truth-hint = Was tatsächlich vor der Kamera hing
-compare-actual-part = Tatsächliches Teil: { $part }
-compare-truth-nothing = Nichts (leere Zelle)
 compare-against = verglichen mit
 compare-against-none = kein Teil
 compare-against-hint = Das eingelernte Teil, mit dem der Fall verglichen wird
@@ -110,7 +108,6 @@ compare-cell-right = richtig
 compare-cell-false-accept = Falschakzeptanz
 compare-cell-refused = zu Unrecht abgewiesen
 compare-matrix-hint = Zeilen: was es ist · Spalten: als was es akzeptiert wurde · eine Zelle öffnet ihre Fälle
-compare-not-enrolled = Nicht eingelernt
 compare-empty-cell = Leere Zelle
 compare-not-accepted = Nicht akzeptiert
 

@@ -78,6 +78,13 @@ shell-four-digits = Mindestens vier Ziffern
 shell-pins-differ = Die beiden stimmen nicht überein: neue PIN eingeben
 shell-pin-set = PIN festgelegt: Das Fenster startet jetzt in der Bedieneransicht
 
+## What a scene truly shows
+
+shell-actual-part = Tatsächliches Teil: { $part }
+shell-truth-not-set = offen
+shell-truth-not-enrolled = Nicht eingelernt
+shell-truth-nothing = Nichts (leere Zelle)
+
 ## The source
 
 shell-simulated-cell = Simulierte Zelle

@@ -17,8 +17,6 @@ compare-accepted-wrong = accepted, but it is
 compare-not-accepted-wrong = not accepted, but it is
 compare-choose-truth = Choose…
 compare-truth-hint = What actually hung in front of the camera
-compare-actual-part = Actual part: { $part }
-compare-truth-nothing = Nothing (empty cell)
 compare-against = against
 compare-against-none = no part
 compare-against-hint = The enrolled part that the case is compared with
@@ -110,7 +108,6 @@ compare-cell-right = right
 compare-cell-false-accept = false accept
 compare-cell-refused = wrongly refused
 compare-matrix-hint = Rows: what it is · columns: what it was accepted as · a cell opens its cases
-compare-not-enrolled = Not enrolled
 compare-empty-cell = Empty cell
 compare-not-accepted = Not accepted
 

@@ -78,6 +78,13 @@ shell-four-digits = At least four digits
 shell-pins-differ = The two differ: enter a new PIN
 shell-pin-set = PIN set: the window now starts in the operator's view
 
+## What a scene truly shows
+
+shell-actual-part = Actual part: { $part }
+shell-truth-not-set = Not set
+shell-truth-not-enrolled = Not enrolled
+shell-truth-nothing = Nothing (empty cell)
+
 ## The source
 
 shell-simulated-cell = Simulated cell

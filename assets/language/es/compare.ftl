@@ -17,8 +17,6 @@ compare-accepted-wrong = aceptada, pero es
 compare-not-accepted-wrong = no aceptada, pero es
 compare-choose-truth = Elegir…
 compare-truth-hint = Qué colgaba en realidad delante de la cámara
-compare-actual-part = Pieza real: { $part }
-compare-truth-nothing = Nada (celda vacía)
 compare-against = comparada con
 compare-against-none = ninguna pieza
 compare-against-hint = La pieza registrada con la que se compara el caso
@@ -114,7 +112,6 @@ compare-cell-right = correcto
 compare-cell-false-accept = falsa aceptación
 compare-cell-refused = rechazo erróneo
 compare-matrix-hint = Filas: qué es · columnas: como qué se aceptó · una celda abre sus casos
-compare-not-enrolled = No registrada
 compare-empty-cell = Celda vacía
 compare-not-accepted = No aceptada
 

@@ -78,6 +78,13 @@ shell-four-digits = Al menos cuatro cifras
 shell-pins-differ = No coinciden: introducir un PIN nuevo
 shell-pin-set = PIN definido: la ventana se abrirá en la vista del operador
 
+## What a scene truly shows
+
+shell-actual-part = Pieza real: { $part }
+shell-truth-not-set = Sin indicar
+shell-truth-not-enrolled = No registrada
+shell-truth-nothing = Nada (celda vacía)
+
 ## The source
 
 shell-simulated-cell = Celda simulada

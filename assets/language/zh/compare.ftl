@@ -17,8 +17,6 @@ compare-accepted-wrong = 已接受，但实际是
 compare-not-accepted-wrong = 未接受，但实际是
 compare-choose-truth = 选择…
 compare-truth-hint = 相机前实际悬挂的是什么
-compare-actual-part = 实际零件：{ $part }
-compare-truth-nothing = 无（空工位）
 compare-against = 对比
 compare-against-none = 无零件
 compare-against-hint = 与该样本进行比较的已注册零件
@@ -109,7 +107,6 @@ compare-cell-right = 正确
 compare-cell-false-accept = 误接受
 compare-cell-refused = 误拒绝
 compare-matrix-hint = 行：实际零件 · 列：接受为 · 单击单元格可打开其中的样本
-compare-not-enrolled = 未注册
 compare-empty-cell = 空工位
 compare-not-accepted = 未接受
 

@@ -69,6 +69,13 @@ shell-four-digits = 至少四位数字
 shell-pins-differ = 两次输入不一致：请输入新 PIN
 shell-pin-set = PIN 已设置：窗口将以操作员视图启动
 
+## What a scene truly shows
+
+shell-actual-part = 实际零件：{ $part }
+shell-truth-not-set = 未设置
+shell-truth-not-enrolled = 未注册
+shell-truth-nothing = 无（空工位）
+
 ## The source
 
 shell-simulated-cell = 仿真工位

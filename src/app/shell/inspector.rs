@@ -148,15 +148,21 @@ impl State {
         self.inspect_part(title, job, ReinspectionPurpose::New, part);
     }
 
-    /// Inspects something that is no part of its own; ends following the source.
+    /// Inspects something once more: of the part that the history knows, else as one of a part of its own; ends following
+    /// the source.
     pub(in crate::app) fn inspect_again_as(
         &mut self,
         title: String,
         job: InspectJob,
         purpose: ReinspectionPurpose,
+        hung: Option<HungId>,
         trace: Traceability,
     ) {
-        self.inspect_part(title, job, purpose, PartAtHand::Past(trace));
+        let part = match hung {
+            Some(hung) => PartAtHand::Known(hung, trace),
+            None => PartAtHand::Past(trace),
+        };
+        self.inspect_part(title, job, purpose, part);
     }
 
     fn inspect_part(
@@ -324,7 +330,7 @@ impl State {
 enum PartAtHand {
     /// One of its own: it takes the serial number that is written now.
     New(CurrentTrace),
-    /// This one, which still hangs there.
+    /// This one: it still hangs there, or the history knows it.
     Known(HungId, Traceability),
     /// One of its own that is traced by this.
     Past(Traceability),

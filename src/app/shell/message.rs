@@ -13,7 +13,7 @@ use crate::{
         library_cache::LibraryView,
         scan_choice::ScanOrder,
     },
-    history::{NewEntry, Traceability},
+    history::{HungId, NewEntry, Traceability},
     pipeline::NamedRecipe,
     robot::{Convention, RobotFrame},
 };
@@ -61,6 +61,8 @@ pub enum Message {
         job: InspectJob,
         /// What for.
         purpose: ReinspectionPurpose,
+        /// The part in the history, if this is an inspection of it.
+        hung: Option<HungId>,
         /// Serial number, order and operator of the inspection that is made again.
         trace: Traceability,
     },

@@ -31,4 +31,5 @@ pub mod shift;
 mod source_menu;
 pub mod state;
 pub(in crate::app) mod top_bar;
+pub(in crate::app) mod truth_menu;
 pub mod workspace;

@@ -123,8 +123,11 @@ impl Window {
                 title,
                 job,
                 purpose,
+                hung,
                 trace,
-            } => self.state.inspect_again_as(title, job, purpose, trace),
+            } => self
+                .state
+                .inspect_again_as(title, job, purpose, hung, trace),
         }
     }
 

@@ -7,8 +7,7 @@ use crate::{
         Outcome,
         console::{Advised as _, Console, advised_error},
     },
-    files::write_atomically,
-    history::{History, write_head, write_row},
+    history::{History, write_table},
 };
 
 pub(super) fn run(
@@ -18,23 +17,7 @@ pub(super) fn run(
 ) -> anyhow::Result<Outcome> {
     let filter = asked.filter.filter();
     if let Some(path) = &asked.csv {
-        let mut num = 0;
-        let mut listed = Ok(());
-        write_atomically(path, |writer| {
-            write_head(writer)?;
-            let mut written = Ok(());
-            listed = history.each(&filter, |record| {
-                num += 1;
-                // The first failure is the one to tell; what follows is not written.
-                if written.is_ok() {
-                    written = write_row(writer, &record);
-                }
-                Ok(())
-            });
-            written
-        })
-        .advised()?;
-        listed.advised()?;
+        let num = write_table(path, |row| history.each(&filter, row)).advised()?;
         console.note(&format_args!(
             "{num} inspections written to {}",
             path.display()
@@ -48,17 +31,8 @@ pub(super) fn run(
         };
         let folder = CaseFolder::at(path);
         let mut cases = PastCases::new(&folder, history.frames_folder(), truth);
-        let mut failed = None;
-        let listed = history.each(&filter, |record| {
-            if failed.is_none() {
-                failed = cases.take(&record).err();
-            }
-            Ok(())
-        });
-        listed.advised()?;
-        if let Some(error) = failed {
-            return Err(error).advised();
-        }
+        let exported = history.each(&filter, |record| cases.take(&record));
+        exported.advised()?;
         for problem in &cases.problems {
             console.warn(problem, problem);
         }

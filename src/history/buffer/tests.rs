@@ -188,3 +188,39 @@ fn a_file_that_breaks_while_it_is_open_is_set_aside_and_writing_goes_on() {
     assert_eq!(failures(&news), 0, "{news:?}");
     assert_eq!(numbers(&keeper), [2, 1]);
 }
+
+#[test]
+fn a_label_goes_to_the_row_that_stands_for_the_part_whether_it_waits_or_is_written() {
+    let home = tempfile::tempdir().expect("a folder");
+    let place = home.path().join("taken");
+    fs::write(&place, "a file").expect("written");
+    let keeper = HistoryBuffer::new(Some(place.clone()));
+    let begun = Instant::now();
+    let refused = not_accepted(1);
+    let hung = refused.record.summary.hung.clone();
+    let mut accepted = history_entry(2, StoredVerdict::Accepted, "fender");
+    accepted.record.summary.hung = hung.clone();
+    for (ticket, entry) in (1..).zip([refused, accepted, not_accepted(3)]) {
+        keeper.add(ticket, entry, begun);
+    }
+    let label = |label: &Truth, remark: &str| {
+        let row = keeper.label_part(&hung, label, remark).expect("labelled");
+        let row = row.expect("a row");
+        assert_eq!(keeper.part(&hung).expect("asked"), Some(row.clone()));
+        (row.number, row.label, row.remark)
+    };
+    let fender = Truth::Part("fender".into());
+    let bent = || "bent".to_owned();
+    assert_eq!(label(&fender, " bent "), (-2, Some(fender.clone()), bent()));
+
+    fs::remove_file(&place).expect("removed");
+    keeper.retry(begun + PAUSE);
+    let row = |number| keeper.row(number).expect("asked").expect("there").summary;
+    assert_eq!((row(2).label, row(2).remark), (Some(fender), bent()));
+    let other = Truth::NotEnrolled;
+    // A remark that stands there stays.
+    assert_eq!(label(&other, "painted"), (2, Some(other), bent()));
+    assert_eq!((row(1).label, row(3).label), (None, None));
+    let unknown = keeper.label_part(&HungId::new(), &Truth::Nothing, "");
+    assert_eq!(unknown.expect("asked"), None);
+}

@@ -1,4 +1,4 @@
-//! What can happen in the workspace, and what a person is asked to choose.
+//! The actions of the workspace, and its file dialogs.
 
 use std::path::PathBuf;
 
@@ -11,34 +11,34 @@ use crate::{
     cases::{Cell, Truth},
 };
 
-/// Something that happened in the workspace.
+/// An action of a person in the workspace.
 #[derive(Clone, Debug)]
 pub enum CompareAction {
-    /// Look whether there is something to do: the workspace came to the front, or another scene did.
+    /// Do what is due: the workspace came to the front, or another scene did.
     Follow,
-    /// The case in front is the scene that was inspected last.
+    /// Bring the scene that was inspected last to the front.
     FrontScene,
-    /// The kept case of this name comes to the front.
+    /// Bring the kept case of this name to the front.
     OpenCase(String),
-    /// This is what it truly is.
+    /// Set the truth of the case in front.
     SetTruth(Truth),
     /// Compare with this part; without one the part follows from truth and verdict.
     Against(Option<String>),
-    /// The remark that the case is kept with.
+    /// Set the remark that the case is kept with.
     Remark(String),
-    /// Keep the case in front.
+    /// Keep the scene in front as a case.
     Keep,
     /// Run all kept cases with the recipe on trial.
     RunAll,
-    /// Have a person choose a file or folder.
+    /// Open a file dialog.
     Ask(CompareFile),
     /// Use this folder of cases.
     Folder(PathBuf),
-    /// List the cases of this cell of the matrix, or show the matrix.
+    /// List the cases of this cell of the matrix; `None` shows the matrix.
     ShowCell(Option<Cell>),
-    /// Measure from how many references on several workers pay.
+    /// Measure from how many references on several workers are faster.
     MeasureScaling,
-    /// List what changed since the run that has written this file.
+    /// List the changes since the run that wrote this file.
     Earlier(PathBuf),
     /// Remove the kept case of this name.
     Remove(String),
@@ -50,51 +50,51 @@ pub enum CompareAction {
     ResetAll,
     /// Inspect with the recipe on trial from now on.
     Use,
-    /// Do something with the kept recipes.
+    /// Change the kept recipes.
     Recipe(RecipeAction),
-    /// Take back what was done last.
+    /// Undo the last action that can be undone.
     Undo,
 }
 
-/// What can be done with the kept recipes. Without a name it is about the recipe on trial.
+/// An action on the kept recipes; one without a name applies to the recipe on trial.
 #[derive(Clone, Debug)]
 pub enum RecipeAction {
     /// Try the recipe of this name.
     Open(String),
-    /// Keep it under its name.
+    /// Save it under its name.
     Save,
-    /// Keep a copy of it under the next free name, which is then on trial.
+    /// Save a copy under the next free name, and put the copy on trial.
     Duplicate,
-    /// Begin to write a name.
+    /// Start to enter a name.
     Name(NamingPurpose),
-    /// This is written so far.
+    /// Set the name as entered so far.
     Write(String),
-    /// The name is written: do what it is for.
+    /// Use the entered name.
     TakeName,
-    /// Leave the name.
+    /// Give up entering a name.
     CancelName,
-    /// Remove it.
+    /// Delete it.
     Delete,
-    /// Use it where no recipe is named.
+    /// Make it the default recipe.
     MakeDefault,
-    /// Keep the recipe in this file, and try it.
+    /// Save the recipe in this file, and put it on trial.
     Import(PathBuf),
     /// Write it to this file.
     Export(PathBuf),
-    /// List the parameters that differ from their defaults, or no longer.
+    /// Show or hide the parameters that differ from their defaults.
     ListChanges,
 }
 
-/// What a person is asked to choose.
+/// What a file dialog asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CompareFile {
     /// A folder of kept cases.
     Cases,
-    /// What an earlier run of all cases has written.
+    /// The file of an earlier run over all cases.
     EarlierRun,
-    /// A recipe to keep.
+    /// A recipe to save.
     ImportRecipe,
-    /// Where the recipe on trial is written to.
+    /// The file that the recipe on trial is exported to.
     ExportRecipe,
 }
 

@@ -1,13 +1,15 @@
-//! The case in front: what it was taken for, what it truly is, and what it is compared with.
+//! The bar of the case in front: its verdict, its truth, and the part that it is compared with.
 
 use egui::{Button, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2, WidgetInfo};
 
-use super::{CompareAction, CompareState, Front, matrix::truth_title};
+use super::{CompareAction, CompareState, Front};
 use crate::{
     app::{
-        inspection::library_cache::LibraryView,
         language::{keys, text},
-        shell::session::Session,
+        shell::{
+            session::Session,
+            truth_menu::{truth_entries, truth_title},
+        },
         ui::{
             theme::{Theme, font, space},
             widgets::{Mark, labelled, mark, shortened},
@@ -19,7 +21,6 @@ use crate::{
 /// A bar wider than this has room for a long remark.
 const WIDE: f32 = 800.0;
 
-/// Draws the bar.
 pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,
@@ -93,7 +94,7 @@ fn case_menu(
     });
 }
 
-/// "taken for Front door, left, accepted, and it is": a sentence that the menu beside it ends, or answers.
+/// Such as "taken for Front door, left, accepted, and it is"; the menu of truths beside it ends the sentence.
 fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme) {
     let weak = |text: &str| RichText::new(text).color(theme.weak_text);
     let Some(study) = &compare.study else {
@@ -114,7 +115,7 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme
     ui.label(weak(&verb));
     ui.label(strong(&part));
     let judgement = judged(compare);
-    // What was refused, rightly or not, does not look accepted.
+    // A refusal never gets the sign of an accepted part, even where it is right.
     let sign = if found.accepted && judgement != Some(CaseOutcome::WrongAccepted) {
         Mark::Good
     } else {
@@ -145,14 +146,6 @@ pub(super) fn judged(compare: &CompareState) -> Option<CaseOutcome> {
     Some(CaseOutcome::of(truth, &answered))
 }
 
-/// What a truth is called where it is chosen.
-fn chosen_title(truth: &Truth, library: &LibraryView) -> String {
-    match truth {
-        Truth::Nothing => text!("compare-truth-nothing"),
-        Truth::Part(_) | Truth::NotEnrolled => truth_title(truth, library),
-    }
-}
-
 fn truth_menu(
     ui: &mut Ui,
     compare: &CompareState,
@@ -163,33 +156,17 @@ fn truth_menu(
         return;
     };
     let chosen = compare.truth.as_ref();
-    let title = chosen.map_or_else(
-        || format!("{} ▼", text!("compare-choose-truth")),
-        |truth| format!("{} ▼", chosen_title(truth, library)),
-    );
-    menu(ui, &title, text!("compare-truth-hint"), &mut |ui| {
-        let parts = library.parts.iter();
-        let parts = parts.map(|part| Truth::Part(part.name.as_str().to_owned()));
-        // However many parts there are, what is none of them comes in sight first.
-        let others = [Truth::NotEnrolled, Truth::Nothing];
-        let num_others = others.len();
-        for (place, truth) in others.into_iter().chain(parts).enumerate() {
-            if place == num_others {
-                ui.separator();
-            }
-            let title = chosen_title(&truth, library);
-            let response = ui.selectable_label(chosen == Some(&truth), &title);
-            // Other lists name the same parts.
-            response.widget_info(|| {
-                let label = text!("compare-actual-part", part = &title);
-                WidgetInfo::labeled(egui::Role::Button, true, label)
-            });
-            if response.clicked() {
-                acts.push(CompareAction::SetTruth(truth));
-                ui.close();
-            }
-        }
+    let title = match chosen {
+        Some(_) => truth_title(chosen, library),
+        None => text!("compare-choose-truth"),
+    };
+    let menu = ui.menu_button(format!("{title} ▼"), |ui| {
+        let first = [Some(Truth::NotEnrolled), Some(Truth::Nothing)];
+        truth_entries(ui, chosen, &first, library, |truth| {
+            acts.extend(truth.map(CompareAction::SetTruth));
+        });
     });
+    menu.response.on_hover_text(text!("compare-truth-hint"));
 }
 
 fn against_menu(
@@ -232,7 +209,7 @@ fn against_menu(
     });
 }
 
-/// What can be done with the case, and with all of them.
+/// Remark and buttons: keep, remove, run all, undo.
 fn case_buttons(
     ui: &mut Ui,
     compare: &CompareState,

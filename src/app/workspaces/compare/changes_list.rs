@@ -1,8 +1,8 @@
-//! What changed since an earlier run: the worse first, then the better, then other scores.
+//! The changes since an earlier run: worse results first, then better ones, then other scores.
 
 use egui::{RichText, ScrollArea, Ui};
 
-use super::{CompareAction, RunChanges, kept_cases::case_row, matrix::part_title};
+use super::{CompareAction, RunChanges, kept_cases::case_row};
 use crate::{
     app::{
         inspection::library_cache::LibraryView,
@@ -12,7 +12,6 @@ use crate::{
     cases::{CaseChange, CaseOutcome, FoundVerdict},
 };
 
-/// Draws all of it.
 pub(super) fn ui(
     ui: &mut Ui,
     changes: &RunChanges,
@@ -66,10 +65,10 @@ pub(super) fn ui(
         });
 }
 
-/// Short: a row has room for some sixty letters.
+/// Kept short: a row has room for some sixty letters.
 fn words(word: &str, change: &CaseChange, shown: &LibraryView) -> String {
     let found = |found: &FoundVerdict| match (&found.part, found.score) {
-        (Some(part), Some(score)) => format!("{} {score:.2}", part_title(part, shown)),
+        (Some(part), Some(score)) => format!("{} {score:.2}", shown.title_of(part)),
         _ => text!("compare-nothing"),
     };
     let before = found(&change.before);

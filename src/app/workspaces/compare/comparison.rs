@@ -1,5 +1,5 @@
-//! A scene's outline against one enrolled part's, as plain figures: laid over each other at the best lag, ray by ray,
-//! and by auto- and cross-correlation.
+//! Compares the outline of a scene with that of one enrolled part: overlaid at the best lag, ray by ray, and by auto- and
+//! cross-correlation.
 //!
 //! What the two matchers do with a correlation differs, and so do the figures:
 //! - the default one correlates the rays as complex numbers L·e^{iΘ} around the circle. The strongest lag says how far
@@ -19,7 +19,7 @@ use crate::{
     },
 };
 
-/// What a number on an axis is.
+/// The unit of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisQuantity {
     /// Metres.
@@ -30,33 +30,33 @@ pub enum AxisQuantity {
     Pixels,
 }
 
-/// A scene's outline against an enrolled part's.
+/// The comparison of a scene's outline with that of an enrolled part.
 #[derive(Debug)]
 pub struct OutlineComparison {
-    /// The part's name for people.
+    /// Title of the part.
     pub title: String,
     /// The matcher whose figures these are.
     pub matcher: Matcher,
-    /// The outlines over each other; not there if no lag was found.
+    /// `None` if no lag was found.
     pub overlay: Option<Overlay>,
     /// L, then Θ.
     pub traces: [Trace; 2],
     /// Auto- and cross-correlation: one of the rays, or one of L and one of Θ.
     pub correlations: Vec<Correlation>,
-    /// ‖A − C‖₁ over all of them.
+    /// ‖A − C‖₁, summed over the correlations.
     pub l1: f64,
-    /// The same as a share of ‖A‖₁.
+    /// `l1` divided by ‖A‖₁.
     pub relative_l1: f64,
 }
 
-/// Two outlines over each other, the scene's plane space.
+/// Two overlaid outlines in the scene's plane space.
 #[derive(Debug)]
 pub struct Overlay {
     /// The scene's outline, closed.
     pub query: PlaneLine,
     /// The part's outline, placed, closed.
     pub reference: PlaneLine,
-    /// Short lines between samples that belong together and lie apart.
+    /// Lines between corresponding samples that lie apart.
     pub joins: Vec<[[f32; 2]; 2]>,
     /// Centroid of both.
     pub centroid: [f32; 2],
@@ -64,7 +64,7 @@ pub struct Overlay {
     pub bounds: [[f32; 2]; 2],
     /// Ray of the scene that the part's first ray falls on.
     pub lag: usize,
-    /// Of how many rays.
+    /// Rays of the scene.
     pub num_rays: usize,
     /// Turn from the part to the scene, radians, in (−π, π].
     pub turn: f64,
@@ -72,12 +72,12 @@ pub struct Overlay {
     pub distance: f64,
 }
 
-/// A signature's curve of the scene and of the part.
+/// One curve of the signatures: of the scene and of the part.
 #[derive(Debug)]
 pub struct Trace {
     /// L or Θ.
     pub name: &'static str,
-    /// What its values are.
+    /// Unit of its values.
     pub measure: AxisQuantity,
     /// The scene's.
     pub query: Vec<f32>,
@@ -105,21 +105,21 @@ pub struct Correlation {
     pub auto: Vec<f32>,
     /// C per lag.
     pub cross: Vec<f32>,
-    /// The lag that the first value stands at.
+    /// Lag of the first value.
     pub first_lag: i64,
-    /// ‖A − C‖₁ of these two.
+    /// ‖A − C‖₁.
     pub l1: f64,
 }
 
-/// Samples nearer to each other than this are not joined, metres: about a pixel of the image.
+/// Closer samples are not joined, metres: about a pixel of the image.
 const LEAST_JOIN: f64 = 0.005;
-/// About as many joins as can be told apart in a picture.
+/// More joins cannot be told apart in a picture.
 const NUM_JOINS: usize = 128;
-/// More values of a curve than this are finer than any picture shows.
+/// A curve with more values is finer than any picture shows.
 const MAX_VALUES: usize = 1200;
 
 impl OutlineComparison {
-    /// Compares; `placement` is the best that the default matcher finds.
+    /// Compares the outlines; `placement` is the best one of the default matcher.
     pub fn of(
         title: &str,
         query: &Query<'_>,
@@ -213,7 +213,7 @@ impl Correlation {
         }
     }
 
-    /// Only what a picture can show; sums are taken before.
+    /// Drops values that no picture shows, after the sums are taken.
     fn thinned(self) -> Self {
         Self {
             auto: every(&self.auto),
@@ -302,7 +302,7 @@ fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Corr
     (traces, correlations)
 }
 
-/// Every so many of the values.
+/// At most [`MAX_VALUES`] of the values, evenly spaced.
 fn every(values: &[f32]) -> Vec<f32> {
     let step = values.len().div_ceil(MAX_VALUES).max(1);
     values.iter().step_by(step).copied().collect()

@@ -1,4 +1,4 @@
-//! How far every enrolled part is off, by both matchers; a row compares with its part.
+//! The distance of every enrolled part by both matchers; pressing a row compares with its part.
 
 use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
@@ -26,7 +26,6 @@ const FIGURES: f32 = 16.0;
 /// A row wider than this has room for the figures beside the name.
 const WIDE: f32 = 270.0;
 
-/// Draws the list.
 pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,

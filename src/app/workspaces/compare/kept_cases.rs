@@ -1,4 +1,4 @@
-//! The kept cases: all of them, what they were taken for as a matrix, and the cases of one of its cells.
+//! The kept cases: a list before the first run, then the confusion matrix with its plots, or the cases of one cell.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -9,7 +9,7 @@ use egui::{
 
 use super::{
     CaseRun, CompareAction, CompareFile, CompareState, changes_list,
-    matrix::{Matrix, MatrixCell, answer_title, part_title, truth_title},
+    matrix::{Matrix, MatrixCell, column_title, row_title},
     score_plots,
 };
 use crate::{
@@ -33,7 +33,6 @@ const NARROWEST: f32 = space::TARGET + 2.0;
 /// A column wider than this has its name written across.
 const WIDE: f32 = 110.0;
 
-/// Draws what there is of them.
 pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,
@@ -78,7 +77,7 @@ pub(super) fn ui(
         });
 }
 
-/// Side by side, or one under the other where there is no room.
+/// Side by side, or below each other in a narrow window.
 fn matrix_and_calibration(
     ui: &mut Ui,
     run: &CaseRun,
@@ -161,7 +160,7 @@ fn header(
     let height = std::mem::take(&mut ui.spacing_mut().interact_size.y);
     ui.horizontal_wrapped(|ui| {
         let tally = &run.matrix.tally;
-        // The worst is said first.
+        // The worst comes first.
         let colour = match tally.wrong_accepted {
             0 => theme.accepted,
             _ => theme.rejected,
@@ -219,8 +218,7 @@ fn list(
             for case in cases.get(rows).unwrap_or_default() {
                 let about = &case.meta.about;
                 let truth = session.library.as_ref();
-                let truth =
-                    truth.map_or_else(String::new, |shown| truth_title(&about.truth, shown));
+                let truth = truth.map_or_else(String::new, |shown| row_title(&about.truth, shown));
                 let what = text!("compare-it-is", part = truth)
                     + &difficulty_words(about.difficulty.as_deref());
                 case_row(ui, &case.name, &what, theme, acts);
@@ -241,7 +239,7 @@ fn of_cell(
         return;
     };
     let (truth, answer) = &cell.cell;
-    let (truth, title) = (truth_title(truth, shown), answer_title(answer, shown));
+    let (truth, title) = (row_title(truth, shown), column_title(answer, shown));
     let text = cell_text(answer, truth, title, cell.results.len());
     ui.label(RichText::new(text).color(theme.weak_text));
     for result in cell
@@ -253,9 +251,9 @@ fn of_cell(
         let what = match (&found.part, found.score, &found.reason) {
             // A high score alone does not say why it is refused.
             (Some(part), Some(score), Some(reason)) => {
-                format!("{} {score:.2}: {reason}", part_title(part, shown))
+                format!("{} {score:.2}: {reason}", shown.title_of(part))
             }
-            (Some(part), Some(score), None) => format!("{} {score:.2}", part_title(part, shown)),
+            (Some(part), Some(score), None) => format!("{} {score:.2}", shown.title_of(part)),
             (_, _, reason) => reason.clone().unwrap_or_default(),
         };
         let what = format!("{what}{}", difficulty_words(result.difficulty.as_deref()));
@@ -263,7 +261,7 @@ fn of_cell(
     }
 }
 
-/// What a cell counts, in words.
+/// Says what a cell counts.
 fn cell_text(answer: &CaseAnswer, truth: String, title: String, num: usize) -> String {
     match answer {
         CaseAnswer::Part(_) => text!(
@@ -276,7 +274,7 @@ fn cell_text(answer: &CaseAnswer, truth: String, title: String, num: usize) -> S
     }
 }
 
-/// Behind what a case is.
+/// Suffix of a case's line.
 fn difficulty_words(difficulty: Option<&str>) -> String {
     difficulty.map_or_else(String::new, |words| format!(" · {words}"))
 }
@@ -310,7 +308,7 @@ pub(super) fn case_row(
     });
 }
 
-/// What it truly was from top to bottom, what it was taken for from left to right.
+/// Truths from top to bottom, answers from left to right.
 fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAction>) {
     let num_columns = matrix.columns.len().max(1);
     let room = ui.available_width() - NAMES - 16.0;

@@ -1,4 +1,4 @@
-//! The recipes that are kept as files, and the task that changes them: one change after the other.
+//! The recipes that are saved as files, and the task that makes their changes one after the other.
 
 use std::{collections::VecDeque, path::PathBuf, sync::Arc};
 
@@ -17,49 +17,49 @@ use crate::{
     },
 };
 
-/// The recipes that are kept, and what is being done with them.
+/// The kept recipes, and the changes that wait for the task.
 #[derive(Debug)]
 pub struct KeptRecipes {
-    /// Where they are; without it none can be kept.
+    /// Their folder; without one no recipe can be saved.
     folder: Option<RecipeFolder>,
     /// The recipes, once listed.
     pub list: RecipeList,
-    /// The name that is being written.
+    /// The name that is being entered.
     pub naming: Option<Naming>,
-    /// True while the parameters that differ from their defaults are listed.
+    /// True while the parameters that differ from their defaults are shown.
     pub is_listing_changes: bool,
     waiting: VecDeque<RecipeChange>,
     pub(super) task: Task<Changed>,
-    /// Sees what commands change.
+    /// Watches for changes by commands.
     watch: FolderWatch,
 }
 
-/// A name that is being written.
+/// A name that is being entered.
 #[derive(Clone, Debug)]
 pub struct Naming {
-    /// What for.
+    /// What it is for.
     pub purpose: NamingPurpose,
-    /// What is written so far.
+    /// As entered so far.
     pub text: String,
-    /// True until its line was shown, which then has the keys.
+    /// True until its field was shown once and took the keyboard focus.
     pub is_new: bool,
 }
 
-/// What a name is written for.
+/// What an entered name is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NamingPurpose {
-    /// Keep the recipe on trial under it.
+    /// Save the recipe on trial under it.
     SaveAs,
-    /// Call the recipe on trial by it.
+    /// Rename the recipe on trial.
     Rename,
 }
 
-/// What is done with the files.
+/// A change of the files.
 #[derive(Debug)]
 pub(super) enum RecipeChange {
     List,
     Save(Box<RecipeFile>, Replace),
-    /// Puts a removed one back.
+    /// Saves a removed recipe again.
     Restore {
         file: Box<RecipeFile>,
         was_default: bool,
@@ -67,12 +67,12 @@ pub(super) enum RecipeChange {
     Rename(PartName, PartName),
     Remove(PartName),
     MakeDefault(PartName),
-    /// Under its own name, or the next that is free.
+    /// Under its own name, or the next free one.
     Import(PathBuf),
     Export(Box<RecipeFile>, PathBuf),
 }
 
-/// What was done, and the recipes after it.
+/// A change that was made, and the recipes after it.
 #[derive(Debug)]
 pub(super) struct Changed {
     pub(super) list: RecipeList,
@@ -82,7 +82,7 @@ pub(super) struct Changed {
 #[derive(Debug)]
 pub(super) enum RecipeDone {
     Listed,
-    /// The recipe on trial goes by this name.
+    /// The recipe on trial has this name now.
     Saved(PartName),
     Restored(PartName),
     Renamed(PartName, PartName),
@@ -105,7 +105,7 @@ impl KeptRecipes {
             },
             naming: None,
             is_listing_changes: false,
-            // In the first frame: the recipe in use may differ from its file by now.
+            // Listed in the first frame: the recipe in use may differ from its file by now.
             waiting: VecDeque::from([RecipeChange::List]),
             task: Task::new("recipes", runner),
             watch: FolderWatch::new("recipe-watch", runner),
@@ -121,12 +121,12 @@ impl KeptRecipes {
         recipes.find(|file| file.name.as_str() == name)
     }
 
-    /// True if a recipe is kept under this name.
+    /// True if there is a recipe of this name.
     pub(super) fn has(&self, name: &str) -> bool {
         name == BUILT_IN || self.of_name(name).is_some()
     }
 
-    /// These parameters under this name, marked where they are not what is kept under it.
+    /// Names parameters, and marks them as changed if the recipe of this name has others.
     pub(super) fn named(&self, name: &str, parameters: Arc<Recipe>) -> NamedRecipe {
         let is_kept = if name == BUILT_IN {
             *parameters == Recipe::default()
@@ -143,7 +143,7 @@ impl KeptRecipes {
         }
     }
 
-    /// The first of `name_2`, `name_3` and so on that is free.
+    /// The first free name of `name_2`, `name_3` and so on.
     pub(super) fn free_name(&self, name: &str) -> Result<PartName, RecipeError> {
         Ok(free_name(name, |name| self.has(name))?)
     }
@@ -167,7 +167,7 @@ impl KeptRecipes {
         }
     }
 
-    /// One after the other: no file is given up for the next.
+    /// One after the other: a change is never cancelled for the next.
     pub(super) fn start_next(&mut self) {
         if let (None, Some(folder)) = (self.task.running(), &self.folder)
             && let Some(change) = self.waiting.pop_front()

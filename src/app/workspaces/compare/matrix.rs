@@ -1,38 +1,38 @@
 //! The confusion matrix as it is drawn: names for people, counts and judgements, prepared once.
 
 use crate::{
-    app::{inspection::library_cache::LibraryView, language::text},
+    app::{inspection::library_cache::LibraryView, language::text, shell::truth_menu},
     cases::{CaseAnswer, CaseOutcome, Cell, Confusion, Tally, Truth},
 };
 
 /// The matrix, row by row.
 #[derive(Debug, Default)]
 pub struct Matrix {
-    /// Names of the rows: what it truly was.
+    /// Names of the rows: the truths.
     pub rows: Vec<String>,
-    /// Names of the columns: what it was taken for.
+    /// Names of the columns: the answers.
     pub columns: Vec<String>,
-    /// Cells with any case in them.
+    /// Cells that are not empty.
     pub cells: Vec<MatrixCell>,
-    /// The sums.
+    /// Counts over all cells.
     pub tally: Tally,
 }
 
-/// A cell with cases in it.
+/// A cell that is not empty.
 #[derive(Debug)]
 pub struct MatrixCell {
-    /// Which.
+    /// Truth and answer.
     pub cell: Cell,
     /// Row and column.
     pub place: [usize; 2],
-    /// Whether its cases are right.
+    /// The same for all its cases.
     pub judgement: CaseOutcome,
-    /// Places in the list of results.
+    /// Places of its cases in the list of results.
     pub results: Vec<usize>,
 }
 
 impl Matrix {
-    /// Names everything.
+    /// Names rows and columns by the titles of this library.
     pub fn of(confusion: Confusion, shown: &LibraryView) -> Self {
         let Confusion {
             rows,
@@ -52,40 +52,33 @@ impl Matrix {
         });
         Self {
             cells: cells.collect(),
-            rows: rows.iter().map(|row| truth_title(row, shown)).collect(),
+            rows: rows.iter().map(|row| row_title(row, shown)).collect(),
             columns: columns
                 .iter()
-                .map(|column| answer_title(column, shown))
+                .map(|column| column_title(column, shown))
                 .collect(),
             tally,
         }
     }
 
-    /// The cell, if it has any case.
+    /// The cell, if it is not empty.
     pub fn cell(&self, wanted: &Cell) -> Option<&MatrixCell> {
         self.cells.iter().find(|cell| cell.cell == *wanted)
     }
 }
 
-/// What a person calls what truly hangs there.
-pub fn truth_title(truth: &Truth, shown: &LibraryView) -> String {
+/// Name of a row: shorter than in a menu.
+pub fn row_title(truth: &Truth, shown: &LibraryView) -> String {
     match truth {
-        Truth::Part(name) => part_title(name, shown),
-        Truth::NotEnrolled => text!("compare-not-enrolled"),
         Truth::Nothing => text!("compare-empty-cell"),
+        Truth::Part(_) | Truth::NotEnrolled => truth_menu::truth_title(Some(truth), shown),
     }
 }
 
-/// What a person calls an answer.
-pub fn answer_title(answer: &CaseAnswer, shown: &LibraryView) -> String {
+/// Name of a column.
+pub fn column_title(answer: &CaseAnswer, shown: &LibraryView) -> String {
     match answer {
-        CaseAnswer::Part(name) => part_title(name, shown),
+        CaseAnswer::Part(name) => shown.title_of(name).to_owned(),
         CaseAnswer::NotAccepted => text!("compare-not-accepted"),
     }
-}
-
-/// What a person calls a part.
-pub fn part_title(name: &str, shown: &LibraryView) -> String {
-    let place = shown.place_of(name);
-    place.map_or_else(|| name.to_owned(), |place| shown.title(place).to_owned())
 }

@@ -1,7 +1,7 @@
-//! Compare, the process engineer's workspace: why was this taken for that?
+//! Compare, the process engineer's workspace: why was a part taken for another?
 //!
-//! A case, the scene inspected last or a kept one, is inspected with the recipe on trial and laid against one enrolled
-//! part; all kept cases can be run, and their confusion matrix leads back to each of them.
+//! The case in front is the scene that was inspected last, or a kept case. It is inspected with the recipe on trial and
+//! compared with one enrolled part. All kept cases can be run; a cell of their confusion matrix lists its cases.
 
 mod action;
 mod case_bar;
@@ -32,7 +32,7 @@ pub use self::{
     action::{CompareAction, CompareFile, RecipeAction},
     kept_recipes::{KeptRecipes, Naming, NamingPurpose},
     state::{Cases, CompareState, Front, Undo},
-    work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
+    work::{CaseDone, CaseEdit, CaseRun, CompareResult, RunChanges},
 };
 use crate::app::{
     language::{keys, text},
@@ -74,25 +74,25 @@ const SHORTCUTS: [Shortcut<CompareAction>; 3] = [
 /// Width of the recipe, logical pixels, and in a narrow window.
 const RECIPE: [f32; 2] = [310.0, 284.0];
 
-/// The workspace. Nothing is kept between frames but its state.
+/// The workspace.
 pub struct CompareWorkspace {
     state: CompareState,
 }
 
 impl CompareWorkspace {
-    /// With this folder of cases, without one the user's own; and this folder of recipes, without one none are kept.
+    /// `folder` holds the cases, by default the user's own; without `recipes` no recipe can be saved.
     pub fn new(folder: Option<PathBuf>, recipes: Option<PathBuf>, runner: &TaskRunner) -> Self {
         Self {
             state: CompareState::new(folder, recipes, runner),
         }
     }
 
-    /// What it knows.
+    /// Its state.
     pub fn state(&self) -> &CompareState {
         &self.state
     }
 
-    /// The same, to be changed without a person.
+    /// Its state, to be changed by a program.
     pub fn state_mut(&mut self) -> &mut CompareState {
         &mut self.state
     }

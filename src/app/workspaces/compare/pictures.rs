@@ -1,4 +1,4 @@
-//! The three pictures of a comparison: outlines over each other, signatures, correlations.
+//! The three pictures of a comparison: overlaid outlines, signatures, correlations.
 
 use egui::{
     Align2, Color32, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
@@ -28,7 +28,6 @@ const TITLE: f32 = 19.0;
 /// Captions of a picture narrower than this have two lines.
 const NARROW: f32 = 270.0;
 
-/// Draws all three, each into its rectangle.
 pub(super) fn ui(
     ui: &mut Ui,
     rects: [Rect; 3],
@@ -113,7 +112,7 @@ fn angle(radians: f64, units: UnitSystem) -> String {
     }
 }
 
-/// Without a comparison: what to do.
+/// Says what to do while there is no comparison.
 fn empty(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState, theme: &Theme) {
     let text = match (&compare.study, compare.running()) {
         (Some(study), _) => {
@@ -140,7 +139,7 @@ fn empty(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState, theme: &Theme) {
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &text));
 }
 
-/// A picture with its title and what it says in figures.
+/// A picture with a title and a caption of figures.
 struct Picture {
     painter: Painter,
     inner: Rect,

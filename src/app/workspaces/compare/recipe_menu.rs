@@ -1,4 +1,4 @@
-//! The name of the recipe on trial, what can be done with kept recipes, and what differs from the defaults.
+//! The name of the recipe on trial with the menu of kept recipes, and the parameters that differ from their defaults.
 
 use egui::{Button, Key, RichText, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
 
@@ -24,13 +24,12 @@ use crate::{
     },
 };
 
-/// Letters of a name that the panel has room for.
+/// A longer name is shortened to this many letters.
 const MAX_LETTERS: usize = 20;
 
-/// Least width of the line in which a name is written, logical pixels.
+/// Least width of the field for a name, logical pixels.
 const NARROWEST_NAME: f32 = 90.0;
 
-/// Draws all of it.
 pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,
@@ -147,7 +146,7 @@ fn menu(
     response.on_hover_text(full);
 }
 
-/// The name of a recipe, and whether it differs from what is kept under it.
+/// The name of a recipe, marked if its parameters differ from its file.
 pub(super) fn title_of(label: &RecipeLabel) -> String {
     if label.is_changed {
         text!("compare-recipe-modified", name = &label.name)
@@ -156,7 +155,7 @@ pub(super) fn title_of(label: &RecipeLabel) -> String {
     }
 }
 
-/// The line in which a name is written.
+/// The field for a name, with its buttons.
 fn name_ui(
     ui: &mut Ui,
     compare: &CompareState,
@@ -232,7 +231,7 @@ fn name_ui(
     }
 }
 
-/// How many parameters differ from their defaults and, if asked for, which.
+/// The number of parameters that differ from their defaults; unfolded, which.
 fn changes(
     ui: &mut Ui,
     compare: &CompareState,

@@ -1,4 +1,4 @@
-//! The recipe on trial: a control for every parameter, drawn from the table, and what comes of it.
+//! The recipe on trial: a control for every parameter of the table, and the verdict on the case in front.
 
 use egui::{
     Button, Color32, Frame, Margin, Panel, RichText, ScrollArea, Sense, Ui, Vec2, WidgetInfo, vec2,
@@ -22,7 +22,6 @@ use crate::{
     },
 };
 
-/// Draws the panel.
 pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,
@@ -113,7 +112,6 @@ fn group_ui(
         });
 }
 
-/// The control of a parameter, and what it asks of the recipe.
 fn control(
     ui: &mut Ui,
     parameter: &Parameter,
@@ -131,7 +129,7 @@ fn control(
     parameter_control::control(ui, parameter, recipe, default, theme, &mut changed);
 }
 
-/// What comes of it.
+/// The verdict on the case in front, and the button that uses the recipe.
 fn outcome(
     ui: &mut Ui,
     compare: &CompareState,

@@ -1,5 +1,5 @@
-//! What can be done with the recipes that are kept: opening one to try it, saving what was tried, renaming, removing,
-//! importing and exporting.
+//! Actions on the kept recipes: opening one to try it, saving the recipe on trial, renaming, deleting, importing and
+//! exporting.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -21,7 +21,7 @@ use crate::{
 };
 
 impl CompareState {
-    /// Does something with the kept recipes.
+    /// Carries out an action on the kept recipes.
     pub(super) fn apply_to_recipes(&mut self, action: RecipeAction, cx: &mut ShellContext<'_>) {
         let tried = Arc::clone(self.tried_recipe(cx.session));
         let name = tried.label.name.as_str();
@@ -86,7 +86,7 @@ impl CompareState {
         Ok(())
     }
 
-    /// Keeps the recipe on trial under this name, with the notes of the one that it was.
+    /// Saves the recipe on trial under this name, with its notes.
     fn save_recipe(
         &mut self,
         name: &str,
@@ -132,7 +132,7 @@ impl CompareState {
         let stem = path.file_stem().map(|stem| stem.to_string_lossy());
         let of_file = stem.and_then(|stem| PartName::proposed(&stem));
         let file = RecipeFile {
-            // The program's own name stays with its own parameters.
+            // The name of the built-in recipe stays with its parameters.
             name: match of_file {
                 Some(of_file) if name == BUILT_IN => of_file,
                 _ => PartName::new(name)?,
@@ -149,7 +149,7 @@ impl CompareState {
         Ok(())
     }
 
-    /// Tries a kept recipe on the case in front.
+    /// Puts a kept recipe on trial.
     fn open_recipe(&mut self, name: &str, cx: &mut ShellContext<'_>) {
         let parameters = match self.recipes.of_name(name) {
             Some(file) => Arc::new(file.recipe.clone()),
@@ -171,19 +171,19 @@ impl CompareState {
         self.put_on_trial(recipe, cx);
     }
 
-    /// This recipe is on trial, unless it is the one in use.
+    /// Puts this recipe on trial, unless it is the one in use.
     pub(super) fn put_on_trial(&mut self, recipe: NamedRecipe, cx: &ShellContext<'_>) {
         self.tried = (recipe != *cx.session.recipe).then(|| Arc::new(recipe));
     }
 
-    /// These parameters are on trial, under the name of those before.
+    /// Puts these parameters on trial under the same name as before.
     pub(super) fn try_parameters(&mut self, parameters: Recipe, cx: &ShellContext<'_>) {
         let name = &self.tried_recipe(cx.session).label.name;
         let recipe = self.recipes.named(name, Arc::new(parameters));
         self.put_on_trial(recipe, cx);
     }
 
-    /// Takes in what was done with the files.
+    /// Takes in the results of the task.
     pub(super) fn update_recipes(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.recipes.task.poll() {
             match event {
@@ -210,7 +210,7 @@ impl CompareState {
                 }
             }
         }
-        // The recipe on trial, and the one in use, may go by another name or differ from what is kept now.
+        // Recipe on trial and recipe in use may have another name now, or differ from their files.
         let in_use = Arc::clone(&cx.session.recipe);
         let mut names = [self.tried.as_ref(), Some(&in_use)].map(|recipe| {
             let recipe = recipe.unwrap_or(&in_use);
@@ -284,7 +284,7 @@ impl CompareState {
         }
     }
 
-    /// Keeps a recipe again that was removed.
+    /// Saves a removed recipe again.
     pub(super) fn put_recipe_back(
         &mut self,
         file: Box<RecipeFile>,

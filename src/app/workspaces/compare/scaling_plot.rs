@@ -1,4 +1,4 @@
-//! What ranking takes over a growing number of references, by one and by several workers: the paper's Fig. 7(a) and (b).
+//! Time of ranking over the number of references, with one and with several workers: the paper's Fig. 7(a) and (b).
 
 use egui::{Button, RichText, Sense, Ui, WidgetInfo, vec2};
 use egui_plot::{Line, LineStyle};
@@ -18,7 +18,7 @@ use crate::{
 
 /// Height of the plot.
 const HEIGHT: f32 = 190.0;
-/// Whole for one worker, ever finer for more.
+/// Solid for one worker, with shorter dashes for more.
 const STYLES: [LineStyle; 4] = [
     LineStyle::Solid,
     LineStyle::Dashed { length: 10.0 },
@@ -26,7 +26,6 @@ const STYLES: [LineStyle; 4] = [
     LineStyle::Dashed { length: 2.0 },
 ];
 
-/// Draws the fold's inside: a button, then the plot.
 pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,
@@ -50,7 +49,7 @@ pub(super) fn ui(
     ui.label(weak(words(scaling)));
 }
 
-/// The crossover in a sentence.
+/// Says from how many references on several workers are faster.
 fn words(scaling: &Scaling) -> String {
     let num_cores = scaling.num_cores;
     let cores = match scaling.workers.iter().filter(|w| **w > num_cores).min() {

@@ -1,12 +1,12 @@
-//! What the task is asked for, in which order: cases are kept and removed whatever else happens, a run is given up for
-//! another recipe, and the case in front is studied as soon as possible.
+//! The order of the task's jobs: a change of the kept cases is never cancelled, a run is cancelled when the recipe
+//! changes, and the case in front is studied as soon as possible.
 
 use std::{path::PathBuf, sync::Arc};
 
 use super::{
     state::{CompareState, Front},
-    study::{CameraKind, CaseScene, StudyRequest, study},
-    work::{self, CaseChange, CaseRun, CompareResult},
+    study::{CaseScene, StudyRequest, study},
+    work::{self, CaseEdit, CaseRun, CompareResult},
 };
 use crate::{
     app::{
@@ -28,19 +28,19 @@ pub(super) enum StudyNeed {
     No,
     /// Once a run is over.
     WhenFree,
-    /// At once: a run with a recipe that nobody wants any more is given up.
+    /// At once: a run with the recipe before is cancelled.
     Now,
 }
 
-/// What the task is asked for, besides studying the case in front.
+/// A job of the task besides studying the case in front.
 #[derive(Clone, Debug)]
 pub(super) enum Job {
-    /// Change the kept cases, and list them.
+    /// Change the kept cases, then list them.
     Cases {
         /// The folder; without one the user's own.
         folder: Option<PathBuf>,
-        /// What to do first.
-        change: CaseChange,
+        /// The change.
+        change: CaseEdit,
     },
     /// Run all kept cases.
     Run {
@@ -49,27 +49,27 @@ pub(super) enum Job {
         /// The recipe on trial.
         recipe: Arc<NamedRecipe>,
     },
-    /// Measure from how many references on several workers pay.
+    /// Measure from how many references on several workers are faster.
     Scaling,
-    /// Hold a run against an earlier one.
+    /// Compare a run with an earlier one.
     Earlier {
-        /// What that one has written.
+        /// The file of the earlier run.
         path: PathBuf,
         /// The run.
         run: Arc<CaseRun>,
     },
 }
 
-/// What may push a job out of the task.
+/// Kinds of jobs, by what may cancel them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum JobKind {
-    /// Whatever comes next; it has its turn again.
+    /// Any other job; it is studied again afterwards.
     Study,
-    /// Nothing: it is quick, and cases are never kept or removed by halves.
+    /// Nothing: it is quick, and a person relies on it.
     Cases,
     /// Another recipe.
     Run,
-    /// The same.
+    /// Another recipe.
     Scaling,
 }
 
@@ -84,7 +84,7 @@ impl Job {
 }
 
 impl CompareState {
-    /// What the task is at, if anything.
+    /// The kind of the running job, if any.
     fn job_at_work(&self) -> Option<JobKind> {
         self.running().and(self.job)
     }
@@ -94,12 +94,12 @@ impl CompareState {
         self.tried.as_ref().unwrap_or(&session.recipe)
     }
 
-    /// True while all kept cases are run.
+    /// True while the kept cases are run.
     pub fn is_running_cases(&self) -> bool {
         self.job_at_work() == Some(JobKind::Run)
     }
 
-    /// True while the study shown, if any, is not of what was asked for last; also after that was cancelled.
+    /// True if the study shown, if any, is not of the newest request; also after that was cancelled.
     pub fn is_study_old(&self) -> bool {
         !self.is_current || self.due != StudyNeed::No
     }
@@ -115,13 +115,13 @@ impl CompareState {
         !self.is_listed || has_more && is_free || self.has_new_scene(session)
     }
 
-    /// True while nothing is at work or waits to be, as far as it is in front.
+    /// True if no job runs, and none is due while the workspace is in front.
     pub(super) fn is_idle(&self, session: &Session) -> bool {
         let is_front = session.workspace == WorkspaceKind::Compare;
         self.running().is_none() && self.recipes.is_idle() && !(is_front && self.is_behind(session))
     }
 
-    /// True if another scene was inspected since.
+    /// True if there is a newer inspection.
     pub(super) fn has_new_scene(&self, session: &Session) -> bool {
         let number = |shown: &Option<Shown>| shown.as_ref().map(|shown| shown.generation);
         number(&session.shown) != number(&self.followed)
@@ -131,12 +131,12 @@ impl CompareState {
         self.queue.push_back((title, job));
     }
 
-    pub(super) fn change_cases(&mut self, title: String, change: CaseChange) {
+    pub(super) fn change_cases(&mut self, title: String, change: CaseEdit) {
         let folder = self.folder.clone();
         self.ask(title, Job::Cases { folder, change });
     }
 
-    /// Starts what is next, if it may begin.
+    /// Starts the next job, if the running one may be cancelled for it.
     pub(super) fn start_next(&mut self, cx: &ShellContext<'_>) {
         let at_work = self.job_at_work();
         match at_work {
@@ -179,18 +179,7 @@ impl CompareState {
                 folder: self.cases.as_ref()?.folder.clone(),
                 case: case.clone(),
             },
-            Front::Scene => {
-                let inspected = &session.shown.as_ref()?.inspected;
-                CaseScene::AtHand {
-                    scene: Arc::clone(&inspected.scene),
-                    title: inspected.origin.title(),
-                    camera: if inspected.origin.is_simulated() {
-                        CameraKind::Simulated
-                    } else {
-                        CameraKind::Real
-                    },
-                }
-            }
+            Front::Scene => CaseScene::Inspected(Arc::clone(&session.shown.as_ref()?.inspected)),
         };
         Some(StudyRequest {
             case,

@@ -1,4 +1,4 @@
-//! What scores are worth, beside the confusion matrix: how often they are right, and what a threshold on them costs.
+//! Plots of the score beside the confusion matrix: its calibration, and false accepts against refusals by threshold.
 
 use egui::{Align2, Sense, Ui, WidgetInfo, pos2, vec2};
 use egui_plot::{Line, LineStyle, PlotTransform, PlotUi, Points, VLine};
@@ -14,11 +14,10 @@ use crate::{
     cases::{Calibration, ThresholdCounts, TradeOff},
 };
 
-/// Width of the plot with what is written around it.
+/// Width of a plot with its labels.
 pub(super) const WIDTH: f32 = 238.0;
-/// Its height.
 const HEIGHT: f32 = 238.0;
-/// The curve of what is refused is in dashes, since colour must not be the only sign.
+/// The curve of refusals is dashed: colour must not be the only difference.
 const REFUSED: LineStyle = LineStyle::Dashed { length: 6.0 };
 
 /// A plot of shares from 0 to 1 both ways, with its caption.
@@ -53,16 +52,16 @@ fn square<'a>(
     shown
 }
 
-/// What a plot says in words.
+/// The texts of a plot.
 struct PlotText {
     title: String,
     caption: String,
-    /// All of it, for those who do not see it.
+    /// The plot in words, for screen readers.
     words: String,
     help: String,
 }
 
-/// Draws the share of right guesses over their score; on the diagonal a score says how often it is right.
+/// The share of right guesses over the score. On the diagonal the score is the probability that a guess is right.
 pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration, theme: &Theme) {
     let said = PlotText {
         title: text!("compare-calibration"),
@@ -96,7 +95,7 @@ pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration, theme: &Theme)
     }
 }
 
-/// Draws what every threshold on the score would accept wrongly, and what it would refuse.
+/// Shares of false accepts and of refusals over the threshold on the score.
 pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme: &Theme) {
     let TradeOff {
         num_cases,

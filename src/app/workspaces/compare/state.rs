@@ -1,4 +1,4 @@
-//! What the workspace knows, and what changes it.
+//! The state of the workspace, and the actions that change it.
 
 use std::{collections::VecDeque, path::PathBuf, sync::Arc};
 
@@ -7,7 +7,7 @@ use super::{
     kept_recipes::KeptRecipes,
     schedule::{Job, JobKind, StudyNeed},
     study::CaseStudy,
-    work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
+    work::{CaseDone, CaseEdit, CaseRun, CompareResult, RunChanges},
 };
 use crate::{
     app::{
@@ -24,50 +24,50 @@ use crate::{
     pipeline::{NamedRecipe, Recipe, RecipeFile, parameters::Parameter},
 };
 
-/// What the workspace knows.
+/// The state of the workspace.
 #[derive(Debug)]
 pub struct CompareState {
-    /// The folder of cases that was asked for; without one the user's own.
+    /// The chosen folder of cases; without one the user's own.
     pub folder: Option<PathBuf>,
     /// The case in front.
     pub front: Front,
-    /// What it truly is, once somebody said so.
+    /// Its truth, once chosen here or known from the history.
     pub truth: Option<Truth>,
-    /// The part to compare with, if somebody chose one.
+    /// The part to compare with, if one was chosen.
     pub against: Option<String>,
     /// The remark that the case is kept with.
     pub remark: String,
-    /// The recipe on trial; without one that in use.
+    /// The recipe on trial; without one it is the recipe in use.
     pub tried: Option<Arc<NamedRecipe>>,
-    /// The case under the glass; while another is prepared it is old.
+    /// The study of the case in front; out of date while the next is computed.
     pub study: Option<Arc<CaseStudy>>,
     /// The kept cases, once listed.
     pub cases: Option<Cases>,
-    /// What came out of them, the last time.
+    /// The last run over all kept cases.
     pub run: Option<Arc<CaseRun>>,
     /// The cell of the matrix whose cases are listed.
     pub cell: Option<Cell>,
-    /// What ranking takes by several workers, once measured.
+    /// Time of ranking with several workers, once measured.
     pub scaling: Option<Arc<Scaling>>,
-    /// What changed since an earlier run, listed instead of the matrix.
+    /// Changes since an earlier run, listed instead of the matrix.
     pub changes: Option<Arc<RunChanges>>,
-    /// What can be taken back.
+    /// The action that can be undone.
     pub undo: Option<Undo>,
     /// The kept recipes.
     pub recipes: KeptRecipes,
-    /// True while the study is of what was asked for last.
+    /// True if the study is of the newest request.
     pub(super) is_current: bool,
     pub(super) due: StudyNeed,
-    /// What comes next, each with its title.
+    /// Waiting jobs with their titles.
     pub(super) queue: VecDeque<(String, Job)>,
     pub(super) task: Task<CompareResult>,
-    /// What the task does, or did last.
+    /// The kind of the task's newest job.
     pub(super) job: Option<JobKind>,
     dialog: FileDialog<CompareFile>,
-    /// The inspected scene that was followed last.
+    /// The newest inspection that was taken notice of.
     pub(super) followed: Option<Shown>,
     pub(super) is_listed: bool,
-    /// What was said last of something done: the next takes its place.
+    /// The last notice of something done; the next one replaces it.
     said: Option<Notice>,
 }
 
@@ -90,31 +90,31 @@ pub struct Cases {
     pub list: Arc<[KeptCase]>,
 }
 
-/// What can be taken back.
+/// An action that can be undone.
 #[derive(Clone, Debug)]
 pub enum Undo {
     /// The removal of a case.
     Removal {
         /// Its name.
         name: String,
-        /// Where it lies.
+        /// Its path in the trash.
         trash: PathBuf,
     },
     /// The removal of a recipe.
     Recipe {
-        /// What it was.
+        /// Its contents.
         file: Box<RecipeFile>,
-        /// True if it was used where no recipe is named.
+        /// True if it was the default recipe.
         was_default: bool,
     },
-    /// The use of a recipe: the one before.
+    /// The use of a recipe; holds the one in use before.
     Use(Arc<NamedRecipe>),
-    /// The opening of a recipe: what was on trial and not saved.
+    /// The opening of a recipe; holds the unsaved one that was on trial.
     Trial(Arc<NamedRecipe>),
 }
 
 impl Undo {
-    /// What the button says.
+    /// Text of the button.
     pub fn title(&self) -> String {
         match self {
             Self::Removal { .. } => text!("compare-undo-removal"),
@@ -126,7 +126,7 @@ impl Undo {
 }
 
 impl CompareState {
-    /// With this folder of cases, without one the user's own; and this folder of recipes, without one none are kept.
+    /// `folder` holds the cases, by default the user's own; without `recipes` no recipe can be saved.
     pub fn new(folder: Option<PathBuf>, recipes: Option<PathBuf>, runner: &TaskRunner) -> Self {
         Self {
             folder,
@@ -155,12 +155,12 @@ impl CompareState {
         }
     }
 
-    /// What is at work, if anything.
+    /// The job that is running, if any.
     pub fn running(&self) -> Option<&Running> {
         self.task.running()
     }
 
-    /// Stops what is at work.
+    /// Cancels the running job.
     pub fn cancel(&mut self) {
         self.task.cancel();
     }
@@ -199,7 +199,7 @@ impl CompareState {
             }
             CompareAction::Earlier(path) => self.compare_with_earlier(path, cx),
             CompareAction::Remove(name) => {
-                self.change_cases(text!("compare-removing-case"), CaseChange::Remove(name));
+                self.change_cases(text!("compare-removing-case"), CaseEdit::Remove(name));
             }
             CompareAction::Set(key, value) => {
                 let set = |recipe: &mut Recipe| match Parameter::of_key(key) {
@@ -225,14 +225,14 @@ impl CompareState {
                 self.change_recipe(reset, cx);
             }
             CompareAction::Recipe(action) => self.apply_to_recipes(action, cx),
-            // The session does not have the recipe yet that what is next would be done with.
+            // The next job waits until the session has the other recipe.
             CompareAction::Use => return self.use_recipe(cx),
             CompareAction::Undo => return self.take_back(cx),
         }
         self.start_next(cx);
     }
 
-    /// Takes in what the task and the dialog report.
+    /// Takes in the results of tasks and the file dialog.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.task.poll() {
             match event {
@@ -261,6 +261,9 @@ impl CompareState {
     fn receive(&mut self, result: CompareResult, cx: &mut ShellContext<'_>) {
         match result {
             CompareResult::Studied(study) => {
+                if self.truth.is_none() {
+                    self.truth.clone_from(&study.truth);
+                }
                 self.study = Some(study);
                 self.is_current = true;
             }
@@ -317,7 +320,7 @@ impl CompareState {
         }
     }
 
-    /// Says that something was done, in place of what was said before.
+    /// Shows a notice of something done, in place of the one before.
     pub(super) fn say(&mut self, what: String, cx: &mut ShellContext<'_>) {
         let notice = Notice::done(what);
         if let Some(before) = self.said.replace(notice.clone()) {
@@ -326,13 +329,13 @@ impl CompareState {
         cx.notify(notice);
     }
 
-    /// The scene inspected last comes to the front.
+    /// Brings the scene that was inspected last to the front.
     fn front_scene(&mut self) {
         self.front = Front::Scene;
         self.forget();
     }
 
-    /// Another case has another truth.
+    /// Clears what was chosen for the case before.
     fn forget(&mut self) {
         self.truth = None;
         self.against = None;
@@ -342,7 +345,7 @@ impl CompareState {
     fn follow(&mut self, cx: &ShellContext<'_>) {
         if !self.is_listed {
             self.is_listed = true;
-            self.change_cases(text!("compare-listing-cases"), CaseChange::List);
+            self.change_cases(text!("compare-listing-cases"), CaseEdit::List);
         }
         if self.has_new_scene(cx.session) {
             let scene_of = |shown: &Option<Shown>| {
@@ -355,7 +358,7 @@ impl CompareState {
                 .is_none_or(|(before, now)| !Arc::ptr_eq(&before, &now));
             self.followed.clone_from(&cx.session.shown);
             if is_other {
-                // What was captured or opened now is what a person wants to see.
+                // A person wants to see what was captured or opened now.
                 self.front_scene();
             }
             self.due = self.due.max(StudyNeed::WhenFree);
@@ -373,7 +376,7 @@ impl CompareState {
             self.front_scene();
             self.due = StudyNeed::WhenFree;
         }
-        self.change_cases(text!("compare-listing-cases"), CaseChange::List);
+        self.change_cases(text!("compare-listing-cases"), CaseEdit::List);
     }
 
     fn open_case(&mut self, name: &str, cx: &mut ShellContext<'_>) {

@@ -1,11 +1,11 @@
-//! One case under the glass: inspected with the recipe on trial, and compared with one enrolled part.
+//! The study of a case: its inspection with the recipe on trial, and the comparison with one enrolled part.
 
 use std::sync::Arc;
 
 use super::comparison::OutlineComparison;
 use crate::{
     app::{
-        inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
+        inspection::{inspected::Inspected, library_cache::LibraryCache, unit_system::UnitSystem},
         language::{results, text},
         task::TaskError,
         user_error::UserError,
@@ -15,7 +15,6 @@ use crate::{
     pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Rejection, Verdict},
     stages::{
         rank::{MatchRanking, Matcher, Query, RankParams, rank},
-        scene::SceneCloud,
         signature::LiteralSignature,
     },
 };
@@ -23,89 +22,71 @@ use crate::{
 /// The scene of a case.
 #[derive(Clone, Debug)]
 pub enum CaseScene {
-    /// At hand.
-    AtHand {
-        /// The scene.
-        scene: Arc<SceneCloud>,
-        /// Where it came from, for people.
-        title: String,
-        /// Whether a camera was read.
-        camera: CameraKind,
-    },
-    /// To be read.
+    /// Of an inspection.
+    Inspected(Arc<Inspected>),
+    /// Of a kept case, which is read.
     Kept {
-        /// From here.
+        /// Its folder of cases.
         folder: CaseFolder,
         /// The case.
         case: Box<KeptCase>,
     },
 }
 
-/// Whether a camera was read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CameraKind {
-    /// It was.
-    Real,
-    /// It was simulated.
-    Simulated,
-}
-
-/// Inspect a case and compare it.
+/// What a study needs.
 #[derive(Clone, Debug)]
 pub struct StudyRequest {
     /// The case.
     pub case: CaseScene,
     /// The recipe on trial.
     pub recipe: Arc<NamedRecipe>,
-    /// What it truly is, if somebody said so.
+    /// Its truth, if chosen here; otherwise the history is asked.
     pub truth: Option<Truth>,
-    /// The part to compare with, if somebody chose one.
+    /// The part to compare with, if one was chosen.
     pub against: Option<String>,
 }
 
-/// What came out.
+/// What a study found.
 #[derive(Debug)]
 pub struct CaseStudy {
-    /// The scene.
-    pub scene: Arc<SceneCloud>,
-    /// Where it came from, for people.
-    pub title: String,
-    /// Whether a camera was read.
-    pub camera: CameraKind,
+    /// The inspection whose scene this is; `None` of a kept case.
+    pub inspected: Option<Arc<Inspected>>,
+    /// Its truth, as chosen here or labelled in the history.
+    pub truth: Option<Truth>,
     /// The recipe on trial.
     pub recipe: Arc<NamedRecipe>,
-    /// What was found with it.
+    /// The verdict by that recipe.
     pub found: FoundVerdict,
-    /// The found part's name for people.
+    /// Title of the found part.
     pub found_title: String,
-    /// Why it was refused, in figures.
+    /// Why it was refused, with figures.
     pub refused: Option<String>,
-    /// What to do if it was not accepted.
+    /// What to do about a refusal; empty if it was accepted.
     pub advice: String,
     /// Time of the inspection, milliseconds.
     pub time_ms: f64,
     /// Every part, the nearest of the matcher in use first.
     pub distances: Vec<PartDistance>,
-    /// The part compared with.
+    /// Name of the part that it is compared with.
     pub against: Option<String>,
-    /// The figures; without an outline there are none.
+    /// `None` if the scene has no outline.
     pub comparison: Option<OutlineComparison>,
 }
 
-/// How far a part is off, for both matchers.
+/// The distance of a part from the scene, by both matchers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartDistance {
-    /// Its name.
+    /// Enrolled name.
     pub part: String,
-    /// Its name for people.
+    /// Title of the part.
     pub title: String,
-    /// Root mean square distance of the outlines, metres: the default matcher's.
+    /// Default matcher: root mean square distance of the outlines, metres.
     pub outline: Option<f64>,
-    /// ‖A − C‖₁: the paper's.
+    /// Paper's matcher: ‖A − C‖₁.
     pub paper: f64,
-    /// Both as a share of the furthest part's.
+    /// Both divided by those of the furthest part.
     pub shares: [f32; 2],
-    /// Its score in the end, 0..1.
+    /// Score after the confirmation, 0..1.
     pub score: f64,
 }
 
@@ -127,14 +108,22 @@ impl CaseStudy {
     }
 }
 
-/// Inspects and compares.
+/// Inspects a case and compares it.
 pub fn study(
     request: &StudyRequest,
     library_cache: &LibraryCache,
     watch: &dyn ProgressObserver,
 ) -> Result<CaseStudy, TaskError> {
     let shelved = library_cache.get();
-    let (scene, title, camera) = opened(&request.case)?;
+    let (scene, inspected) = match &request.case {
+        CaseScene::Inspected(inspected) => {
+            (Arc::clone(&inspected.scene), Some(Arc::clone(inspected)))
+        }
+        CaseScene::Kept { folder, case } => {
+            let scene = folder.read_scene(case).map_err(|e| UserError::of(&e))?;
+            (Arc::new(scene), None)
+        }
+    };
     if watch.is_cancelled() {
         return Err(TaskError::Cancelled);
     }
@@ -144,15 +133,17 @@ pub fn study(
     let inspection = pipeline::run(&scene, library, &request.recipe, watch)?;
     let found = FoundVerdict::from(&inspection.verdict);
     let shown = &shelved.shown;
-    let title_of = |name: &str| {
-        let place = shown.place_of(name);
-        place.map_or_else(|| name.to_owned(), |place| shown.title(place).to_owned())
+    let title_of = |name: &str| shown.title_of(name).to_owned();
+    let known = || {
+        // Why the history cannot be read is reported by the History workspace.
+        let row = library_cache.history().part(inspected.as_ref()?.hung());
+        row.ok()??.label
     };
-    let against = against(request, &found, library);
+    let truth = request.truth.clone().or_else(known);
+    let against = against(request, truth.as_ref(), &found, library);
     let mut study = CaseStudy {
-        scene: Arc::clone(&scene),
-        title,
-        camera,
+        inspected,
+        truth,
         recipe: Arc::clone(&request.recipe),
         found_title: found.part.as_deref().map(title_of).unwrap_or_default(),
         refused: refused(&inspection.verdict, &title_of),
@@ -189,43 +180,28 @@ pub fn study(
     Ok(study)
 }
 
-fn opened(case: &CaseScene) -> Result<(Arc<SceneCloud>, String, CameraKind), UserError> {
-    match case {
-        CaseScene::AtHand {
-            scene,
-            title,
-            camera,
-        } => Ok((Arc::clone(scene), title.clone(), *camera)),
-        CaseScene::Kept { folder, case } => {
-            let scene = folder.read_scene(case).map_err(|e| UserError::of(&e))?;
-            let about = &case.meta.about;
-            let camera = if about.simulated {
-                CameraKind::Simulated
-            } else {
-                CameraKind::Real
-            };
-            Ok((Arc::new(scene), about.origin.clone(), camera))
-        }
-    }
-}
-
 /// The part chosen, else what it truly is where that differs from what was found, else what was found.
-fn against(request: &StudyRequest, found: &FoundVerdict, library: &Library) -> Option<String> {
+fn against(
+    request: &StudyRequest,
+    truth: Option<&Truth>,
+    found: &FoundVerdict,
+    library: &Library,
+) -> Option<String> {
     let is_enrolled = |name: &&str| library.references.iter().any(|r| r.name == **name);
     let chosen = request.against.as_deref().filter(is_enrolled);
-    let truth = request.truth.as_ref().and_then(Truth::part);
+    let truth = truth.and_then(Truth::part);
     let part = chosen
         .or(truth.filter(is_enrolled))
         .or(found.part.as_deref());
     part.map(str::to_owned)
 }
 
-/// A share or probability, to a hundredth.
+/// A share or probability with two decimals.
 fn fixed(value: f64) -> String {
     format!("{value:.2}")
 }
 
-/// The figure that decided.
+/// The reason of a refusal with the figure that decided.
 fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<String> {
     Some(match verdict {
         Verdict::Part { rejected, .. } => match rejected.as_ref()? {
@@ -376,26 +352,27 @@ fn distances(
 
 #[cfg(test)]
 mod tests {
+    use std::time::Instant;
+
     use super::*;
     use crate::{
-        app::inspection::source::{CellChoice, SceneSource},
+        app::inspection::{
+            inspected::{InspectRequest, inspect},
+            source::{CellChoice, SceneSource},
+        },
         kit::shipped_library,
         pipeline::{Recipe, Unwatched},
         simulate::{PartKind, Side},
     };
 
     fn request(choice: CellChoice) -> StudyRequest {
-        let captured = SceneSource::Cell { choice, number: 2 }
-            .take(&crate::app::inspection::camera::Camera::default(), &|| {
-                false
-            })
-            .expect("a scene");
+        let request = InspectRequest {
+            source: SceneSource::Cell { choice, number: 2 },
+            recipe: Arc::default(),
+        };
+        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched);
         StudyRequest {
-            case: CaseScene::AtHand {
-                scene: captured.scene,
-                title: captured.origin.title(),
-                camera: CameraKind::Simulated,
-            },
+            case: CaseScene::Inspected(Arc::new(inspected.expect("inspected"))),
             recipe: Arc::default(),
             truth: None,
             against: None,
@@ -424,6 +401,28 @@ mod tests {
         assert!(other.comparison.expect("an outline").l1 > comparison.l1);
         request.against = Some("trunk_lid".into());
         assert_eq!(studied(&request).against.as_deref(), Some("trunk_lid"));
+    }
+
+    #[test]
+    fn what_somebody_said_of_the_part_in_the_history_is_its_truth_until_another_is_chosen() {
+        let mut request = request(CellChoice::Part(PartKind::Fender, Side::Left));
+        let CaseScene::Inspected(inspected) = &request.case else {
+            panic!("not inspected");
+        };
+        let library_cache = LibraryCache::default();
+        let history = library_cache.history();
+        history.add(1, inspected.entry.clone(), Instant::now());
+        let studied = |request: &StudyRequest| study(request, &library_cache, &Unwatched);
+        assert_eq!(studied(&request).expect("studied").truth, None);
+        let grille = Truth::Part("grille".into());
+        let labelled = history.label_part(inspected.hung(), &grille, "");
+        assert!(labelled.expect("labelled").is_some());
+        let study = studied(&request).expect("studied");
+        assert_eq!(study.truth, Some(grille));
+        assert_eq!(study.against.as_deref(), Some("grille"));
+        request.truth = Some(Truth::NotEnrolled);
+        let study = studied(&request).expect("studied");
+        assert_eq!(study.truth, Some(Truth::NotEnrolled));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The recipe on trial, and what becomes of it.
+//! The recipe on trial: changing it, using it, and undo.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use super::{
     recipe_menu::title_of,
     schedule::StudyNeed,
     state::{CompareState, Undo},
-    work::CaseChange,
+    work::CaseEdit,
 };
 use crate::{
     app::{
@@ -18,7 +18,7 @@ use crate::{
 };
 
 impl CompareState {
-    /// Tries another recipe on the case in front at once.
+    /// Changes the recipe on trial and studies the case in front with it at once.
     pub(super) fn change_recipe(
         &mut self,
         change: impl FnOnce(&mut Recipe) -> Result<(), UserError>,
@@ -36,7 +36,7 @@ impl CompareState {
         }
     }
 
-    /// Inspects scenes with the recipe on trial from now on.
+    /// Makes the recipe on trial the one in use.
     pub(super) fn use_recipe(&mut self, cx: &mut ShellContext<'_>) {
         let Some(tried) = self.tried.take() else {
             return;
@@ -53,7 +53,7 @@ impl CompareState {
         match self.undo.take() {
             None => {}
             Some(Undo::Removal { name, trash }) => {
-                let change = CaseChange::Restore { name, from: trash };
+                let change = CaseEdit::Restore { name, from: trash };
                 self.change_cases(text!("compare-restoring-case"), change);
                 self.start_next(cx);
             }
@@ -66,7 +66,7 @@ impl CompareState {
                 self.start_next(cx);
             }
             Some(Undo::Use(before)) => {
-                // What was in use stays on trial.
+                // The recipe that was in use stays on trial.
                 self.tried
                     .get_or_insert_with(|| Arc::clone(&cx.session.recipe));
                 self.say(text!("compare-recipe-used-before"), cx);
@@ -76,7 +76,7 @@ impl CompareState {
     }
 }
 
-/// Has scenes inspected with this recipe, the one in front of the Inspect workspace first.
+/// Uses this recipe, and inspects the scene of the Inspect workspace with it.
 fn inspect_with(recipe: Arc<NamedRecipe>, cx: &mut ShellContext<'_>) {
     cx.send(Message::UseRecipe(recipe));
     cx.send(Message::InspectShown {

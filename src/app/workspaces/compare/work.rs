@@ -1,4 +1,4 @@
-//! What the workspace's thread does: studies a case, keeps cases, and runs all of them.
+//! The jobs of the workspace's task: changing the kept cases, running all of them, measuring, comparing runs.
 
 use std::{
     path::{Path, PathBuf},
@@ -7,10 +7,10 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::{matrix::Matrix, schedule::Job, study::CaseStudy};
+use super::{keeping::keep_case, matrix::Matrix, schedule::Job, study::CaseStudy};
 use crate::{
     app::{
-        inspection::library_cache::LibraryCache,
+        inspection::{inspected::Inspected, library_cache::LibraryCache},
         task::{TaskContext, TaskError},
         user_error::UserError,
     },
@@ -20,20 +20,21 @@ use crate::{
         Confusion, EarlierRun, KeptCase, RecordError, TradeOff,
     },
     files::file_name,
+    history::HistoryBuffer,
     pipeline::NamedRecipe,
-    stages::{rank::Matcher, scene::SceneCloud},
+    stages::rank::Matcher,
 };
 
-/// What is done with the kept cases.
+/// A change of the kept cases.
 #[derive(Clone, Debug)]
-pub enum CaseChange {
-    /// Nothing: only list them.
+pub enum CaseEdit {
+    /// None: only list them.
     List,
     /// Keep a case.
     Keep {
-        /// Its scene.
-        scene: Arc<SceneCloud>,
-        /// What is said of it.
+        /// The inspection of its scene.
+        inspected: Arc<Inspected>,
+        /// Its `case.toml`, but for the record of the scene.
         about: Box<CaseDescription>,
     },
     /// Remove the case of this name.
@@ -42,12 +43,12 @@ pub enum CaseChange {
     Restore {
         /// Its name.
         name: String,
-        /// Where it lies in the trash.
+        /// Its path in the trash.
         from: PathBuf,
     },
 }
 
-/// What was done with the kept cases.
+/// A change that was made.
 #[derive(Clone, Debug)]
 pub enum CaseDone {
     /// They were listed.
@@ -58,17 +59,17 @@ pub enum CaseDone {
     Removed {
         /// Its name.
         name: String,
-        /// Where it lies now.
+        /// Its path in the trash.
         trash: PathBuf,
     },
     /// One was put back.
     Restored(String),
 }
 
-/// What the task hands over.
+/// A result of the task.
 #[derive(Clone, Debug)]
 pub enum CompareResult {
-    /// A case under the glass.
+    /// The study of the case in front.
     Studied(Arc<CaseStudy>),
     /// The kept cases.
     Cases {
@@ -76,50 +77,50 @@ pub enum CompareResult {
         folder: CaseFolder,
         /// The cases.
         cases: Arc<[KeptCase]>,
-        /// What had to be set aside.
+        /// Damaged cases, and a history that does not take the label.
         troubles: Vec<UserError>,
-        /// What was done before.
+        /// The change before they were listed.
         done: CaseDone,
     },
-    /// What came out of the kept cases so far.
+    /// The run over all kept cases, so far.
     Ran(Arc<CaseRun>),
-    /// What ranking takes by several workers.
+    /// Time of ranking with several workers.
     Scaled(Arc<Scaling>),
-    /// What changed since an earlier run.
+    /// Changes since an earlier run.
     Changed(Arc<RunChanges>),
 }
 
-/// What changed since an earlier run.
+/// Changes since an earlier run.
 #[derive(Debug)]
 pub struct RunChanges {
     /// The earlier run's file name.
     pub file: String,
-    /// The changes.
+    /// Of each case.
     pub changes: Changes,
 }
 
-/// What came out of all kept cases.
+/// A run over all kept cases.
 #[derive(Debug)]
 pub struct CaseRun {
     /// The recipe.
     pub recipe: Arc<NamedRecipe>,
     /// One result per case that could be read.
     pub results: Vec<CaseResult>,
-    /// Those that could not.
+    /// The cases that could not be read.
     pub troubles: Vec<UserError>,
-    /// Cases there are.
+    /// Number of cases in the folder.
     pub total: usize,
-    /// The matrix.
+    /// Truth against answer.
     pub matrix: Matrix,
-    /// Scores against shares of right guesses.
+    /// Scores against the shares of right guesses.
     pub calibration: Calibration,
-    /// What a threshold on the score costs.
+    /// False accepts and refusals at every threshold on the score.
     pub trade_off: TradeOff,
     /// When the run ended; `None` while it goes on.
     pub ended: Option<Timestamp>,
 }
 
-/// Does what is asked.
+/// Runs a job.
 pub(super) fn run(
     job: Job,
     library_cache: &LibraryCache,
@@ -127,7 +128,8 @@ pub(super) fn run(
 ) -> Result<CompareResult, TaskError> {
     Ok(match job {
         Job::Cases { folder, change } => {
-            cases(folder.as_deref(), change).map_err(|error| UserError::of(&error))?
+            let history = library_cache.history();
+            cases(folder.as_deref(), change, history).map_err(|error| UserError::of(&error))?
         }
         Job::Run { folder, recipe } => run_cases(&folder, &recipe, library_cache, context)?,
         Job::Scaling => measure_scaling(context)?,
@@ -164,25 +166,35 @@ fn changes(path: &Path, run: &CaseRun) -> Result<RunChanges, RecordError> {
     })
 }
 
-fn cases(folder: Option<&Path>, change: CaseChange) -> Result<CompareResult, CaseError> {
+fn cases(
+    folder: Option<&Path>,
+    change: CaseEdit,
+    history: &HistoryBuffer,
+) -> Result<CompareResult, CaseError> {
+    let mut troubles = Vec::new();
     let folder = folder.map_or_else(CaseFolder::of_user, |path| Ok(CaseFolder::at(path)))?;
     let done = match change {
-        CaseChange::List => CaseDone::Listed,
-        CaseChange::Keep { scene, about } => CaseDone::Kept(Box::new(folder.keep(&scene, *about)?)),
-        CaseChange::Remove(name) => {
+        CaseEdit::List => CaseDone::Listed,
+        CaseEdit::Keep { inspected, about } => {
+            let (kept, trouble) = keep_case(&folder, &inspected, *about, history)?;
+            troubles.extend(trouble.map(|error| UserError::of(&error)));
+            CaseDone::Kept(Box::new(kept))
+        }
+        CaseEdit::Remove(name) => {
             let trash = folder.remove(&name)?;
             CaseDone::Removed { name, trash }
         }
-        CaseChange::Restore { name, from } => {
+        CaseEdit::Restore { name, from } => {
             folder.restore(&name, &from)?;
             CaseDone::Restored(name)
         }
     };
     let list = folder.list()?;
+    troubles.extend(list.problems.iter().map(UserError::of));
     Ok(CompareResult::Cases {
         folder,
         cases: list.cases.into(),
-        troubles: list.problems.iter().map(UserError::of).collect(),
+        troubles,
         done,
     })
 }

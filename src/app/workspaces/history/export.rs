@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::{
     app::{language::text, user_error::UserError},
     cases::{CaseFolder, PastCases, TruthFrom},
-    files::write_atomically,
-    history::{Filter, HistoryBuffer, HistoryError, write_head, write_row},
+    history::{Filter, HistoryBuffer, write_table},
 };
 
 /// Where inspections of the history are written to.
@@ -25,30 +24,14 @@ pub(super) fn write(
     history: &HistoryBuffer,
 ) -> Result<String, UserError> {
     match to {
-        PastExport::Csv(path) => write_table(filter, path, history),
+        PastExport::Csv(path) => {
+            let num = write_table(path, |row| history.each(filter, row))
+                .map_err(|error| UserError::of(&error))?;
+            let path = path.display().to_string();
+            Ok(text!("history-wrote", count = num, path = path))
+        }
         PastExport::Cases(folder) => write_cases(filter, folder, history),
     }
-}
-
-/// As `partsight history export --csv` does.
-fn write_table(filter: &Filter, path: &Path, history: &HistoryBuffer) -> Result<String, UserError> {
-    let mut table = Vec::new();
-    let mut num = 0_usize;
-    let in_memory = |error| HistoryError::Unwritable {
-        path: path.to_owned(),
-        source: error,
-    };
-    let listed = write_head(&mut table).map_err(in_memory).and_then(|()| {
-        history.each(filter, |record| {
-            num += 1;
-            write_row(&mut table, &record).map_err(in_memory)
-        })
-    });
-    listed.map_err(|error| UserError::of(&error))?;
-    write_atomically(path, |writer| writer.write_all(&table))
-        .map_err(|error| UserError::of(&error))?;
-    let path = path.display().to_string();
-    Ok(text!("history-wrote", count = num, path = path))
 }
 
 /// As `partsight history export --cases` does.
@@ -60,17 +43,8 @@ fn write_cases(
     let cases = CaseFolder::at(folder);
     let frames = history.frames_folder().unwrap_or_default();
     let mut kept = PastCases::new(&cases, &frames, TruthFrom::Label);
-    let mut failed = None;
-    let listed = history.each(filter, |record| {
-        if failed.is_none() {
-            failed = kept.take(&record).err();
-        }
-        Ok(())
-    });
-    listed.map_err(|error| UserError::of(&error))?;
-    if let Some(error) = failed {
-        return Err(UserError::of(&error));
-    }
+    let exported = history.each(filter, |record| kept.take(&record));
+    exported.map_err(|error| UserError::of(&error))?;
     if kept.num_kept == 0 {
         return Err(UserError {
             what: text!("history-no-cases", what = in_words(&kept)),

@@ -1,13 +1,16 @@
 //! What a person says of an inspection: a remark, and what it truly is.
 
-use egui::{ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{TextEdit, Ui, WidgetInfo, vec2};
 
 use super::HistoryAction;
 use crate::{
     app::{
         inspection::library_cache::LibraryView,
         language::text,
-        shell::session::Session,
+        shell::{
+            session::Session,
+            truth_menu::{truth_entries, truth_title},
+        },
         ui::{
             theme::{Theme, space},
             widgets::{heading, shortened},
@@ -76,45 +79,16 @@ impl Remark {
     }
 }
 
-/// What a truth is called where it is chosen.
-fn title_of(truth: Option<&Truth>, library: Option<&LibraryView>) -> String {
-    match truth {
-        None => text!("history-truth-not-set"),
-        Some(Truth::NotEnrolled) => text!("history-truth-not-enrolled"),
-        Some(Truth::Nothing) => text!("history-truth-nothing"),
-        Some(Truth::Part(name)) => {
-            let place = library.and_then(|library| library.place_of(name));
-            let title = library
-                .zip(place)
-                .map(|(library, place)| library.title(place));
-            title.unwrap_or(name).to_owned()
-        }
-    }
-}
-
 fn truth_menu(ui: &mut Ui, row: &Summary, session: &Session, actions: &mut Vec<HistoryAction>) {
-    let library = session.library.as_deref();
+    let unloaded = LibraryView::default();
+    let library = session.library.as_deref().unwrap_or(&unloaded);
     let chosen = row.label.as_ref();
-    let name = text!("history-actual-part");
-    let title = format!("{name} · {} ▼", shortened(&title_of(chosen, library), 24));
+    let title = shortened(&truth_title(chosen, library), 24);
+    let title = format!("{} · {title} ▼", text!("history-actual-part"));
     ui.menu_button(&title, |ui| {
-        ui.set_min_width(200.0);
-        ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
-            let parts = library.iter().flat_map(|library| &library.parts);
-            let parts = parts.map(|part| Some(Truth::Part(part.name.as_str().to_owned())));
-            let others = [None, Some(Truth::NotEnrolled), Some(Truth::Nothing)];
-            for truth in others.into_iter().chain(parts) {
-                let title = title_of(truth.as_ref(), library);
-                let response = ui.selectable_label(row.label == truth, &title);
-                response.widget_info(|| {
-                    let label = format!("{name}: {title}");
-                    WidgetInfo::labeled(egui::Role::Button, true, label)
-                });
-                if response.clicked() {
-                    actions.push(HistoryAction::Label(row.number, truth));
-                    ui.close();
-                }
-            }
+        let first = [None, Some(Truth::NotEnrolled), Some(Truth::Nothing)];
+        truth_entries(ui, chosen, &first, library, |truth| {
+            actions.push(HistoryAction::Label(row.number, truth));
         });
     });
 }

@@ -89,6 +89,7 @@ impl HistoryState {
                 }),
             },
             purpose: ReinspectionPurpose::Past,
+            hung: Some(past.record.summary.hung.clone()),
             trace: past.record.summary.trace.clone(),
         });
         self.remaking = Some(ReinspectionJob { past, purpose });

@@ -220,6 +220,7 @@ impl InspectState {
                     title: order.title(),
                     job: InspectJob::Scan(cx.session.scan_request(order)),
                     purpose: ReinspectionPurpose::Shots,
+                    hung: None,
                     trace: shown
                         .map(|shown| shown.inspected.trace().clone())
                         .unwrap_or_default(),

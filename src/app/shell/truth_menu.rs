@@ -1,0 +1,52 @@
+//! The entries of a menu in which a person chooses what a scene truly shows.
+
+use egui::{ScrollArea, Ui, WidgetInfo};
+
+use crate::{
+    app::{inspection::library_cache::LibraryView, language::text},
+    library::Truth,
+};
+
+/// What a truth is called where it is chosen; without one it is not set.
+pub(in crate::app) fn truth_title(truth: Option<&Truth>, library: &LibraryView) -> String {
+    match truth {
+        None => text!("shell-truth-not-set"),
+        Some(Truth::NotEnrolled) => text!("shell-truth-not-enrolled"),
+        Some(Truth::Nothing) => text!("shell-truth-nothing"),
+        Some(Truth::Part(name)) => library.title_of(name).to_owned(),
+    }
+}
+
+/// Draws the entries: `first`, so that they are in sight however many parts there are, then every enrolled part. `choose`
+/// gets the one that is pressed.
+pub(in crate::app) fn truth_entries(
+    ui: &mut Ui,
+    chosen: Option<&Truth>,
+    first: &[Option<Truth>],
+    library: &LibraryView,
+    mut choose: impl FnMut(Option<Truth>),
+) {
+    let mut entry = |ui: &mut Ui, truth: Option<Truth>| {
+        let title = truth_title(truth.as_ref(), library);
+        let response = ui.selectable_label(chosen == truth.as_ref(), &title);
+        // Other lists name the same parts.
+        response.widget_info(|| {
+            let label = text!("shell-actual-part", part = &title);
+            WidgetInfo::labeled(egui::Role::Button, true, label)
+        });
+        if response.clicked() {
+            choose(truth);
+            ui.close();
+        }
+    };
+    ui.set_min_width(220.0);
+    ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
+        for truth in first {
+            entry(ui, truth.clone());
+        }
+        ui.separator();
+        for part in &library.parts {
+            entry(ui, Some(Truth::Part(part.name.as_str().to_owned())));
+        }
+    });
+}
