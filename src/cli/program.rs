@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use jiff::Timestamp;
+use nalgebra::Point3;
 
 use super::{
     Outcome,
@@ -15,7 +16,7 @@ use crate::{
     library::PartName,
     robot::{
         RobotFrame, WrittenPose,
-        arm::{Arm, ArmError, PathCheck, PlacedArm},
+        arm::{Arm, ArmError, Obstacles, PathCheck, PlacedArm},
         program::{Program, ProgramFormat, ProgramSettings, check_reach, program_points},
         spray::CarriedPath,
     },
@@ -51,9 +52,46 @@ pub(super) struct ProgramOptions {
     /// Check that this arm reaches the path: a name, or a TOML file; needs --nozzle
     #[arg(long, value_name = "ARM", requires_all = ["program", "nozzle"])]
     arm: Option<String>,
+    #[command(flatten)]
+    clear_of: ObstacleChoice,
     /// Write the program in spite of a doubt about part, capture or reach; the program says which
     #[arg(long, requires = "program")]
     force: bool,
+}
+
+/// What gun and arm have to stay clear of, beside the part.
+#[derive(Debug, Args)]
+pub(super) struct ObstacleChoice {
+    /// Boxes of the cell and its floor that gun and arm must not run into: a TOML file. The part is checked without it
+    #[arg(long, value_name = "FILE", requires = "arm")]
+    obstacles: Option<PathBuf>,
+    /// How near gun and arm may come to part, boxes and floor, mm
+    #[arg(long, value_name = "MM", default_value_t = 20.0, requires = "arm")]
+    clearance: f64,
+    /// What the gun fills around the line from the flange to the nozzle's mouth, mm
+    #[arg(long, value_name = "MM", default_value_t = 50.0, requires = "arm")]
+    gun_radius: f64,
+}
+
+impl ObstacleChoice {
+    /// The arm among them.
+    pub(super) fn place(
+        &self,
+        arm: Arm,
+        robot_from_base: RigidTransform,
+        flange_from_nozzle: RigidTransform,
+    ) -> anyhow::Result<PlacedArm> {
+        let read = self.obstacles.as_deref().map(Obstacles::read);
+        let mut obstacles = read.transpose().advised()?.unwrap_or_default();
+        obstacles.clearance = self.clearance / 1000.0;
+        Ok(PlacedArm {
+            arm,
+            robot_from_base,
+            flange_from_nozzle,
+            gun_radius: self.gun_radius / 1000.0,
+            obstacles,
+        })
+    }
 }
 
 pub(super) fn parse_format(name: &str) -> Result<ProgramFormat, String> {
@@ -76,6 +114,8 @@ pub(super) struct ProgramFile {
 /// Whose program it is.
 pub(super) struct ProgramSubject<'a> {
     pub(super) part: &'a PartName,
+    /// What it was enrolled with, in its own frame.
+    pub(super) part_points: &'a [Point3<f32>],
     /// The capture; none for the standard position.
     pub(super) scene: Option<&'a str>,
     pub(super) camera_from_part: RigidTransform,
@@ -95,11 +135,11 @@ impl ProgramOptions {
         };
         let nozzle = self.nozzle.as_ref().map(|written| written.pose);
         let arm = self.arm.as_deref().map(Arm::named).transpose().advised()?;
-        let arm = arm.zip(nozzle).map(|(arm, flange_from_nozzle)| PlacedArm {
-            arm,
-            robot_from_base: RigidTransform::identity(),
-            flange_from_nozzle,
-        });
+        let standing = RigidTransform::identity();
+        let arm = arm
+            .zip(nozzle)
+            .map(|(arm, flange_from_nozzle)| self.clear_of.place(arm, standing, flange_from_nozzle))
+            .transpose()?;
         Ok(ProgramFile {
             file: file.to_owned(),
             format,
@@ -127,13 +167,15 @@ impl ProgramFile {
         mut doubts: Vec<String>,
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
-        let reach = self
-            .arm
-            .as_ref()
-            .map(|arm| Ok((arm, check_reach(arm, carried, frame, &self.settings)?)));
+        let robot_from_part = frame.robot_from_part(&subject.camera_from_part);
+        let reach = self.arm.as_ref().map(|arm| {
+            let arm = arm.clone().with_part(subject.part_points, &robot_from_part);
+            let reach = check_reach(&arm, carried, frame, &self.settings)?;
+            Ok((arm, reach))
+        });
         let reach: Result<_, ArmError> = reach.transpose();
         let reach = reach.advised()?;
-        let doubt = |(arm, reach): &(&PlacedArm, PathCheck)| reach.doubt(&arm.arm.name);
+        let doubt = |(arm, reach): &(PlacedArm, PathCheck)| reach.doubt(&arm.arm.name);
         doubts.extend(reach.as_ref().and_then(doubt));
         let points = program_points(carried, frame, reach.as_ref().map(|(_, reach)| reach));
         if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
@@ -153,7 +195,7 @@ impl ProgramFile {
             settings: &self.settings,
             part: subject.part.as_str(),
             scene: subject.scene,
-            robot_from_part: frame.robot_from_part(&subject.camera_from_part),
+            robot_from_part,
             calibration: &frame.name,
             is_simulated: subject.is_simulated,
             doubts: &doubts,

@@ -15,6 +15,7 @@ pub mod principal;
 pub mod raster;
 pub mod rays;
 pub mod rigid;
+pub mod segment;
 pub mod sixteen_numbers;
 pub mod surface_grid;
 pub mod voxel;

@@ -146,3 +146,61 @@ fn a_path_is_checked_against_an_arm() {
     assert_eq!(line["num_points"], 3);
     assert_eq!(line["num_reached"], 0);
 }
+
+#[test]
+fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
+    let shop = Workplace::new();
+    // The camera looks along x of the robot's base, which sees the door 1.7 m ahead.
+    let cell = "kuka 470 0 1350 -90 0 -90";
+    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+    hang(&shop, "front_door");
+    store_path(&shop);
+    let arm = ["--arm", "irb4600", "--nozzle", "kuka 0 0 250 0 -45 0"];
+    let check = ["path", "check", "front_door", "--json"];
+    let with = |code: i32, more: &[&str]| shop.coded(code, &[&check[..], &arm, more].concat());
+    let free = with(0, &[]).json();
+    assert_eq!(free["num_reached"], 3);
+    assert_eq!(free["num_collisions"], 0);
+    assert!(free["points"][0]["problem_kind"].is_null(), "{free}");
+    // A box around all that the arm could do; it stays where it is whatever the base.
+    shop.write(
+        "boxes.toml",
+        "[[box]]\nname = \"hall\"\ncentre_mm = [0, 0, 0]\nsize_mm = [20000, 20000, 20000]\n",
+    );
+    let boxes = ["--obstacles", "boxes.toml"];
+    let hit = with(1, &boxes).json();
+    assert_eq!(hit["num_reached"], 0);
+    assert_eq!(hit["num_collisions"], 3);
+    assert!(hit["base_shift_mm"].is_null(), "{hit}");
+    assert_eq!(hit["points"][0]["problem_kind"], "collision");
+    let words = hit["points"][0]["problem"].as_str().expect("a reason");
+    assert!(words.ends_with("is too near to the box hall"), "{words}");
+    // The door itself, where the gun has to stay farther from it than its mouth is.
+    let hit = with(1, &["--gun-radius", "1000", "--clearance", "200"]).json();
+    let words = hit["points"][0]["problem"].as_str().expect("a reason");
+    assert!(words.ends_with("is too near to the part"), "{words}");
+    // What is no obstacle is refused.
+    for (text, wanted) in [
+        ("# nothing\n", "neither a box nor a floor"),
+        ("floor_mm = nan\n", "floor_mm is NaN"),
+        ("[[box]]\nname = \"a\"\n", "centre_mm"),
+        ("height_mm = 3\n", "height_mm"),
+    ] {
+        shop.write("bad.toml", text);
+        let ran = with(2, &["--obstacles", "bad.toml"]);
+        let is_advised = ran.err.contains("to do: Give each [[box]]");
+        assert!(ran.err.contains(wanted) && is_advised, "{}", ran.err);
+    }
+    for bad in ["--clearance=nan", "--gun-radius=-5"] {
+        let ran = with(2, &[bad]);
+        assert!(ran.err.contains("to do: Correct it"), "{}", ran.err);
+    }
+    // A program knows the same obstacles.
+    let program = ["inspect", "door.pcd", "--program", "paint.src"];
+    shop.coded(2, &[&program[..], &boxes].concat());
+    let ran = shop.coded(1, &[&program[..], &arm, &boxes].concat());
+    assert!(ran.err.contains("would collide at"), "{}", ran.err);
+    assert!(!shop.path("paint.src").exists());
+    shop.coded(0, &[&program[..], &arm, &boxes, &["--force"]].concat());
+    assert!(shop.read("paint.src").contains("FORCED: ABB IRB 4600"));
+}

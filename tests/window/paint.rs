@@ -240,6 +240,20 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     // From where the calibration has it, it does not reach all.
     harness.get_by_label_contains("ABB IRB 4600-40/2.55 misses");
     press(&mut harness, "Show next");
+    // A box around everything that the arm could reach.
+    let boxes = folder.path().join("boxes.toml");
+    let text = "[[box]]\nname = \"lamp\"\ncentre_mm = [0, 0, 0]\nsize_mm = [9000, 9000, 9000]\n";
+    std::fs::write(&boxes, text).expect("written");
+    harness.get_by_label("Collisions");
+    act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
+        let chosen = PaintAction::Chosen(PaintFile::Obstacles, boxes);
+        paint.state_mut().apply(chosen, cx);
+    });
+    harness.get_by_label_contains("too near to lamp");
+    press(&mut harness, "Obstacles: boxes.toml");
+    press(&mut harness, "Only the part");
+    assert_eq!(session(&harness).obstacles, None);
+    harness.get_by_label("Obstacles: Only the part");
     let file = folder.path().join("paint.mod");
     let export = |harness: &mut WindowHarness| {
         let to = file.clone();

@@ -113,14 +113,20 @@ paint-robot = Roboterprogramm
 paint-arm = Arm: { $arm }
 paint-arm-hint = Der Arm, dessen Reichweite geprüft wird
 paint-no-arm = Kein Arm: Reichweite ungeprüft
-paint-arm-file = Aus einer Datei…
+paint-from-file = Aus einer Datei…
 paint-arm-title = Einen Arm öffnen
 paint-nozzle = Düse am Flansch
 paint-nozzle-hint = Wo die Düsenöffnung am Flansch sitzt, z in Strahlrichtung: eine Konvention und sechs Zahlen oder die 16 Zahlen einer Matrix
+paint-no-obstacles = Nur das Teil
+paint-obstacles = Hindernisse: { $file }
+paint-obstacles-hint = Woran Pistole und Arm außer dem Teil nicht stoßen dürfen: Quader der Zelle und ihr Boden, aus einer TOML-Datei
+paint-obstacles-title = Quader der Zelle öffnen
 paint-more-robot = Werkzeug, Pistole und Geschwindigkeit
 paint-tool = Werkzeug auf der Steuerung
 paint-tool-hint = Eine Nummer bei KUKA, FANUC und Yaskawa, ein Name bei ABB und Doosan
 paint-gun-output = Ausgang, der die Pistole öffnet
+paint-gun-radius = Radius der Pistole
+paint-clearance = Abstand von Pistole und Arm
 paint-program-speed = Geschwindigkeit, wo die Bahn keine hat
 paint-approach = An- und Rückzug
 paint-blend = Überschleifradius
@@ -133,6 +139,34 @@ paint-joint-limit = Achse { $joint } über ihrer Grenze
 paint-near-singularity = nahe einer Singularität
 paint-joint-too-fast = Achse { $joint } zu langsam
 paint-arm-folds-over = der Arm müsste umschlagen
+paint-collisions = Kollisionen
+paint-num-collisions =
+    { $count ->
+        [0] keine
+        [one] { $count } Punkt
+       *[other] { $count } Punkte
+    }
+paint-near-part =
+    { $body ->
+        [gun] Pistole zu nah am Teil
+        [wrist] Handgelenk zu nah am Teil
+        [forearm] Unterarm zu nah am Teil
+       *[upper-arm] Oberarm zu nah am Teil
+    }
+paint-near-floor =
+    { $body ->
+        [gun] Pistole zu nah am Boden
+        [wrist] Handgelenk zu nah am Boden
+        [forearm] Unterarm zu nah am Boden
+       *[upper-arm] Oberarm zu nah am Boden
+    }
+paint-near-box =
+    { $body ->
+        [gun] Pistole zu nah an { $name }
+        [wrist] Handgelenk zu nah an { $name }
+        [forearm] Unterarm zu nah an { $name }
+       *[upper-arm] Oberarm zu nah an { $name }
+    }
 paint-show-unreached = Nächsten zeigen
 paint-rail-at = Bei { $at } mm seiner Schiene würde er { $count } erreichen
 paint-base-moved = Mit dem Fuß um { $by } mm versetzt würde er { $count } erreichen

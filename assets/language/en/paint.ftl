@@ -113,14 +113,20 @@ paint-robot = Robot program
 paint-arm = Arm: { $arm }
 paint-arm-hint = The arm whose reach is checked
 paint-no-arm = No arm: reach is not checked
-paint-arm-file = From a file…
+paint-from-file = From a file…
 paint-arm-title = Open an arm
 paint-nozzle = Nozzle on the flange
 paint-nozzle-hint = Where the nozzle's mouth is on the flange, z the way it points: a convention and six numbers, or the 16 numbers of a matrix
+paint-no-obstacles = Only the part
+paint-obstacles = Obstacles: { $file }
+paint-obstacles-hint = What gun and arm must not run into beside the part: boxes of the cell and its floor, from a TOML file
+paint-obstacles-title = Open the boxes of the cell
 paint-more-robot = Tool, gun and speed
 paint-tool = Tool on the controller
 paint-tool-hint = A number for KUKA, FANUC and Yaskawa, a name for ABB and Doosan
 paint-gun-output = Output that opens the gun
+paint-gun-radius = Radius of the gun
+paint-clearance = Clearance of gun and arm
 paint-program-speed = Speed where the path has none
 paint-approach = Approach and retreat
 paint-blend = Blending radius
@@ -133,6 +139,34 @@ paint-joint-limit = joint { $joint } beyond its limit
 paint-near-singularity = near a singularity
 paint-joint-too-fast = joint { $joint } too slow
 paint-arm-folds-over = the arm would fold over
+paint-collisions = Collisions
+paint-num-collisions =
+    { $count ->
+        [0] none
+        [one] { $count } point
+       *[other] { $count } points
+    }
+paint-near-part =
+    { $body ->
+        [gun] gun too near to the part
+        [wrist] wrist too near to the part
+        [forearm] forearm too near to the part
+       *[upper-arm] upper arm too near to the part
+    }
+paint-near-floor =
+    { $body ->
+        [gun] gun too near to the floor
+        [wrist] wrist too near to the floor
+        [forearm] forearm too near to the floor
+       *[upper-arm] upper arm too near to the floor
+    }
+paint-near-box =
+    { $body ->
+        [gun] gun too near to { $name }
+        [wrist] wrist too near to { $name }
+        [forearm] forearm too near to { $name }
+       *[upper-arm] upper arm too near to { $name }
+    }
 paint-show-unreached = Show next
 paint-rail-at = At { $at } mm of its rail it would reach { $count }
 paint-base-moved = With its base moved by { $by } mm it would reach { $count }

@@ -113,14 +113,20 @@ paint-robot = Programa del robot
 paint-arm = Brazo: { $arm }
 paint-arm-hint = El brazo cuyo alcance se comprueba
 paint-no-arm = Sin brazo: no se comprueba el alcance
-paint-arm-file = De un archivo…
+paint-from-file = De un archivo…
 paint-arm-title = Abrir un brazo
 paint-nozzle = Boquilla en la brida
 paint-nozzle-hint = Dónde está la boquilla en la brida, z hacia donde apunta: una convención y seis números, o los 16 números de una matriz
+paint-no-obstacles = Solo la pieza
+paint-obstacles = Obstáculos: { $file }
+paint-obstacles-hint = Con qué no deben chocar la pistola y el brazo además de la pieza: cajas de la celda y su suelo, de un archivo TOML
+paint-obstacles-title = Abrir las cajas de la celda
 paint-more-robot = Herramienta, pistola y velocidad
 paint-tool = Herramienta en el controlador
 paint-tool-hint = Un número en KUKA, FANUC y Yaskawa, un nombre en ABB y Doosan
 paint-gun-output = Salida que abre la pistola
+paint-gun-radius = Radio de la pistola
+paint-clearance = Distancia de seguridad
 paint-program-speed = Velocidad donde la trayectoria no la fija
 paint-approach = Aproximación y retirada
 paint-blend = Radio de redondeo
@@ -133,6 +139,34 @@ paint-joint-limit = eje { $joint } más allá de su límite
 paint-near-singularity = cerca de una singularidad
 paint-joint-too-fast = eje { $joint } demasiado lento
 paint-arm-folds-over = el brazo tendría que voltearse
+paint-collisions = Colisiones
+paint-num-collisions =
+    { $count ->
+        [0] ninguna
+        [one] { $count } punto
+       *[other] { $count } puntos
+    }
+paint-near-part =
+    { $body ->
+        [gun] pistola demasiado cerca de la pieza
+        [wrist] muñeca demasiado cerca de la pieza
+        [forearm] antebrazo demasiado cerca de la pieza
+       *[upper-arm] brazo superior demasiado cerca de la pieza
+    }
+paint-near-floor =
+    { $body ->
+        [gun] pistola demasiado cerca del suelo
+        [wrist] muñeca demasiado cerca del suelo
+        [forearm] antebrazo demasiado cerca del suelo
+       *[upper-arm] brazo superior demasiado cerca del suelo
+    }
+paint-near-box =
+    { $body ->
+        [gun] pistola demasiado cerca de { $name }
+        [wrist] muñeca demasiado cerca de { $name }
+        [forearm] antebrazo demasiado cerca de { $name }
+       *[upper-arm] brazo superior demasiado cerca de { $name }
+    }
 paint-show-unreached = Mostrar el siguiente
 paint-rail-at = A { $at } mm de su carril alcanzaría { $count }
 paint-base-moved = Con la base desplazada { $by } mm alcanzaría { $count }

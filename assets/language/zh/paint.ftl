@@ -113,14 +113,20 @@ paint-robot = 机器人程序
 paint-arm = 机械臂：{ $arm }
 paint-arm-hint = 检查可达范围的机械臂
 paint-no-arm = 无机械臂：不检查可达范围
-paint-arm-file = 从文件…
+paint-from-file = 从文件…
 paint-arm-title = 打开机械臂
 paint-nozzle = 喷嘴在法兰上的位置
 paint-nozzle-hint = 喷嘴口在法兰上的位置，z 为喷射方向：约定名加六个数，或矩阵的 16 个数
+paint-no-obstacles = 仅零件
+paint-obstacles = 障碍物：{ $file }
+paint-obstacles-hint = 除零件外喷枪和机械臂不能碰到的东西：工位中的长方体和地面，来自 TOML 文件
+paint-obstacles-title = 打开工位中的长方体
 paint-more-robot = 工具、喷枪与速度
 paint-tool = 控制器上的工具
 paint-tool-hint = KUKA、FANUC 和 Yaskawa 用编号，ABB 和 Doosan 用名称
 paint-gun-output = 打开喷枪的输出
+paint-gun-radius = 喷枪半径
+paint-clearance = 喷枪和机械臂的安全距离
 paint-program-speed = 轨迹未给出时的速度
 paint-approach = 接近与退出距离
 paint-blend = 过渡半径
@@ -133,6 +139,33 @@ paint-joint-limit = 关节 { $joint } 超出限位
 paint-near-singularity = 接近奇异点
 paint-joint-too-fast = 关节 { $joint } 太慢
 paint-arm-folds-over = 机械臂需要翻转
+paint-collisions = 碰撞
+paint-num-collisions =
+    { $count ->
+        [0] 无
+       *[other] { $count } 个点
+    }
+paint-near-part =
+    { $body ->
+        [gun] 喷枪离零件太近
+        [wrist] 手腕离零件太近
+        [forearm] 前臂离零件太近
+       *[upper-arm] 上臂离零件太近
+    }
+paint-near-floor =
+    { $body ->
+        [gun] 喷枪离地面太近
+        [wrist] 手腕离地面太近
+        [forearm] 前臂离地面太近
+       *[upper-arm] 上臂离地面太近
+    }
+paint-near-box =
+    { $body ->
+        [gun] 喷枪离 { $name } 太近
+        [wrist] 手腕离 { $name } 太近
+        [forearm] 前臂离 { $name } 太近
+       *[upper-arm] 上臂离 { $name } 太近
+    }
 paint-show-unreached = 显示下一个
 paint-rail-at = 导轨在 { $at } mm 时可达 { $count } 个点
 paint-base-moved = 底座移动 { $by } mm 后可达 { $count } 个点

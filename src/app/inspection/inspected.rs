@@ -93,6 +93,8 @@ pub struct Inspected {
     pub stand_off: Option<Result<StandOff, StandOffError>>,
     /// The part's stored spray path, carried to where it hangs now; `None` where none is stored or nothing accepted.
     pub spray: Option<CarriedPath>,
+    /// What the part of that path was enrolled with, part space, metres; empty without a path.
+    pub part_points: Vec<Point3<f32>>,
     /// What the 3-D view shows.
     pub view: SceneFigure,
     /// Of a frame among others: what they say together.
@@ -324,6 +326,8 @@ impl FinishedInspection {
             let camera_from_part = pose.camera_from_part();
             Some(carry(path, &camera_from_part, seen, &recipe.stand_off))
         });
+        let carried_onto = best.filter(|_| spray.is_some());
+        let part_points = carried_onto.map_or_else(Vec::new, |best| best.cloud.points.clone());
         let view = SceneFigure::of(&SceneFigureInput {
             scene: &scene,
             scan: scan.as_ref().map(|found| &found.fused.figure),
@@ -378,6 +382,7 @@ impl FinishedInspection {
             middle,
             stand_off,
             spray,
+            part_points,
             view,
             followed,
             scan,

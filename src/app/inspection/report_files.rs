@@ -7,6 +7,7 @@ use std::{
 
 use image::{DynamicImage, ImageFormat};
 use jiff::Timestamp;
+use nalgebra::Point3;
 
 use super::{inspected::Inspected, source::Origin};
 use crate::{
@@ -77,6 +78,7 @@ pub(in crate::app) fn spray_path(
     if let (Ok(_), Some(pose)) = (ProgramFormat::of(path), pose) {
         let subject = ProgramSubject {
             part: part.name.as_str(),
+            part_points: &inspected.part_points,
             scene: Some(&scene_name(&inspected.origin).display().to_string()),
             camera_from_part: pose.camera_from_part(),
             is_simulated,
@@ -129,6 +131,8 @@ pub(in crate::app) struct ProgramTarget {
 /// Whose program it is.
 pub(in crate::app) struct ProgramSubject<'a> {
     pub part: &'a str,
+    /// What it was enrolled with, in its own frame.
+    pub part_points: &'a [Point3<f32>],
     /// The capture; none for the standard position.
     pub scene: Option<&'a str>,
     pub camera_from_part: RigidTransform,
@@ -136,7 +140,8 @@ pub(in crate::app) struct ProgramSubject<'a> {
 }
 
 /// Writes a carried path as a program for the robot's controller in the language that the file's name ends in; says what
-/// was written. An earlier program of that name is removed first, and nothing is written that the arm does not reach.
+/// was written. An earlier program of that name is removed first, and nothing is written of a path that the arm does not
+/// reach without a collision.
 pub(in crate::app) fn program(
     path: &Path,
     carried: &CarriedPath,
@@ -147,9 +152,11 @@ pub(in crate::app) fn program(
     let format = ProgramFormat::of(path).map_err(|error| UserError::of(&error))?;
     remove_previous_program(path).map_err(|error| UserError::of(&error))?;
     let ProgramTarget { settings, arm } = target;
-    let reach = match arm {
+    let robot_from_part = robot.robot_from_part(&subject.camera_from_part);
+    let reach = match arm.clone() {
         Some(arm) => {
-            let reach = check_reach(arm, carried, robot, settings);
+            let arm = arm.with_part(subject.part_points, &robot_from_part);
+            let reach = check_reach(&arm, carried, robot, settings);
             Some((arm, reach.map_err(|error| UserError::of(&error))?))
         }
         None => None,
@@ -173,7 +180,7 @@ pub(in crate::app) fn program(
         settings,
         part: subject.part,
         scene: subject.scene,
-        robot_from_part: robot.robot_from_part(&subject.camera_from_part),
+        robot_from_part,
         calibration: &robot.name,
         is_simulated: subject.is_simulated,
         doubts: &[],

@@ -1,4 +1,4 @@
-//! The arm, the nozzle and the gun that robot programs are written for.
+//! The arm, the nozzle and the gun that robot programs are written for, and what they have to stay clear of.
 
 use std::path::Path;
 
@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::file_dialog::FileFilter;
 use crate::{
     app::{inspection::report_files::ProgramTarget, language::text, user_error::UserError},
+    files::file_name,
     geometry::rigid::RigidTransform,
     robot::{
         Convention,
-        arm::{Arm, PlacedArm},
+        arm::{Arm, GUN_RADIUS, Obstacles, PlacedArm},
         parse_written_pose,
         program::{PROGRAM_ENDINGS, ProgramFormat, ProgramSettings},
     },
@@ -25,6 +26,12 @@ pub struct ProgramSetup {
     pub arm: Option<String>,
     /// Where the nozzle is on the flange, as a person wrote it: `kuka X Y Z A B C`, or the 16 numbers of a matrix.
     pub nozzle: String,
+    /// The boxes of the cell and its floor, as a TOML file; none: only the part is an obstacle.
+    pub obstacles: Option<String>,
+    /// How near gun and arm may come to part, boxes and floor, 0..500 mm.
+    pub clearance_mm: f64,
+    /// What the gun fills around the line from the flange to the nozzle's mouth, 0..500 mm.
+    pub gun_radius_mm: f64,
     /// The tool on the controller; empty: the controller's first.
     pub tool: String,
     /// Number of the digital output that opens the gun.
@@ -43,6 +50,9 @@ impl Default for ProgramSetup {
         Self {
             arm: None,
             nozzle: String::new(),
+            obstacles: None,
+            clearance_mm: 1000.0 * Obstacles::default().clearance,
+            gun_radius_mm: 1000.0 * GUN_RADIUS,
             tool: String::new(),
             gun_output: settings.gun_output,
             speed_mm_s: 1000.0 * settings.speed,
@@ -56,11 +66,27 @@ impl ProgramSetup {
     /// What the arm is called; that of a file by the file.
     pub fn arm_title(&self) -> Option<String> {
         let arm = self.arm.as_deref()?;
-        let file = Path::new(arm).file_name();
         Some(match Arm::named(arm) {
             Ok(arm) => arm.name,
-            Err(_) => file.map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+            Err(_) => file_name(Path::new(arm)),
         })
+    }
+
+    /// What the file of boxes is called.
+    pub fn obstacles_title(&self) -> Option<String> {
+        let file = self.obstacles.as_deref()?;
+        Some(file_name(Path::new(file)))
+    }
+
+    /// Boxes and floor of the cell.
+    fn boxes(&self) -> Result<Obstacles, UserError> {
+        let file = self.obstacles.as_deref().map(Path::new);
+        let read = file.map(Obstacles::read).transpose();
+        let mut obstacles = read
+            .map_err(|error| UserError::of(&error))?
+            .unwrap_or_default();
+        obstacles.clearance = self.clearance_mm / 1000.0;
+        Ok(obstacles)
     }
 
     /// Where the nozzle is on the flange; none where nothing was written.
@@ -73,7 +99,8 @@ impl ProgramSetup {
         Ok(Some(written.pose))
     }
 
-    /// Tool and gun of a program, and the arm whose reach is checked: its base is where the calibration has the robot's.
+    /// Tool and gun of a program, and the arm whose reach is checked: its base is where the calibration has the robot's. The
+    /// part is not among its obstacles yet.
     pub(in crate::app) fn target(&self) -> Result<ProgramTarget, UserError> {
         let tool = self.tool.trim();
         let flange_from_nozzle = self.flange_from_nozzle()?;
@@ -89,6 +116,8 @@ impl ProgramSetup {
                 arm: Arm::named(name).map_err(|error| UserError::of(&error))?,
                 robot_from_base: RigidTransform::identity(),
                 flange_from_nozzle,
+                gun_radius: self.gun_radius_mm / 1000.0,
+                obstacles: self.boxes()?,
             }),
         };
         let settings = ProgramSettings {

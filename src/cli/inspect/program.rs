@@ -110,6 +110,7 @@ impl CapturedProgram {
         }
         let subject = ProgramSubject {
             part: name,
+            part_points: &seen.library.references[first.reference].cloud.points,
             scene: Some(seen.scene),
             camera_from_part,
             is_simulated: *is_simulated || is_scene_simulated,

@@ -9,19 +9,20 @@ use crate::{
         calibrate::CalibrationChoice,
         console::{Advised as _, Console, advised_error},
         input::parse_robot_pose,
+        program::ObstacleChoice,
     },
     geometry::rigid::RigidTransform,
     library::PartName,
     robot::{
         WrittenPose,
-        arm::{Arm, CheckParams, PlacedArm, suggest_base, suggest_rail},
+        arm::{Arm, CheckParams, PointProblem, suggest_base, suggest_rail},
         program::{ProgramSettings, arm_points, check_reach},
         spray::carry,
     },
     stages::{reference::ReferenceParams, stand_off::StandOffParams},
 };
 
-/// Check that an arm reaches the stored path of a part in its standard position
+/// Check that an arm reaches the stored path of a part in its standard position, and runs into nothing
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
     /// Name of the part
@@ -35,6 +36,8 @@ pub(super) struct CheckArgs {
     /// The arm's base in the frame of the calibration; without it they are the same
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     base: Option<WrittenPose>,
+    #[command(flatten)]
+    clear_of: ObstacleChoice,
     /// Speed of the nozzle where the path sets none, mm/s
     #[arg(long, value_name = "MM/S", default_value_t = 250.0)]
     speed: f64,
@@ -79,11 +82,11 @@ pub(super) fn run(
         ..ProgramSettings::default()
     };
     let points = arm_points(&carried, &frame, settings.speed);
-    let placed = PlacedArm {
-        arm,
-        robot_from_base: args.base.as_ref().map_or(standard, |base| base.pose),
-        flange_from_nozzle: args.nozzle.pose,
-    };
+    let robot_from_base = args.base.as_ref().map_or(standard, |base| base.pose);
+    let placed = args
+        .clear_of
+        .place(arm, robot_from_base, args.nozzle.pose)?
+        .with_part(&reference.cloud.points, &frame.robot_from_part(&standard));
     let params = CheckParams::default();
     let found = check_reach(&placed, &carried, &frame, &settings).advised()?;
     let (num, all) = (found.num_reached(), points.len());
@@ -95,14 +98,20 @@ pub(super) fn run(
     if args.json {
         let listed = found.points.iter().enumerate().map(|(i, point)| {
             let joints = point.joints.map(|joints| joints.map(f64::to_degrees));
-            let problem = point.problem.map(|problem| problem.describe());
-            json!({"index": i + 1, "joints_deg": joints, "turn_deg": point.turn.to_degrees(), "problem": problem})
+            json!({
+                "index": i + 1,
+                "joints_deg": joints,
+                "turn_deg": point.turn.to_degrees(),
+                "problem": point.problem.as_ref().map(PointProblem::describe),
+                "problem_kind": point.problem.as_ref().map(PointProblem::kind),
+            })
         });
         let line = json!({
             "part": name.as_str(),
             "arm": placed.arm.name,
             "num_points": all,
             "num_reached": num,
+            "num_collisions": found.num_collisions(),
             "base_shift_mm": base.map(|place| place.shift.map(|x| 1000.0 * x)),
             "rail_mm": rail.map(|place| 1000.0 * place.shift[0]),
             "points": listed.collect::<Vec<_>>(),

@@ -1,12 +1,10 @@
 //! A path held against an arm.
 
-use std::f64::consts::TAU;
-
-use nalgebra::UnitQuaternion;
-
 use super::{
     ArmError, PlacedArm,
+    chain::{Candidate, angle_of, candidates_of, free_chain, move_time, turned, turns_of},
     kinematics::{Joints, Singularity, Solver},
+    obstacles::{Body, Obstacle},
 };
 use crate::geometry::rigid::{RigidTransform, is_finite};
 
@@ -40,7 +38,7 @@ impl Default for CheckParams {
 }
 
 /// Why a point is no good.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum PointProblem {
     /// The arm is too short, or its wrist too near to its own base.
     OutOfReach,
@@ -62,6 +60,13 @@ pub enum PointProblem {
     },
     /// On the way from the point before, the arm would have to fold over.
     ConfigurationChange,
+    /// Gun or arm come nearer to something than the clearance, at the point or on the way from the point before.
+    Collision {
+        /// What comes too near.
+        body: Body,
+        /// To what.
+        obstacle: Obstacle,
+    },
 }
 
 impl PointProblem {
@@ -80,12 +85,32 @@ impl PointProblem {
                 )
             }
             Self::ConfigurationChange => "the arm would have to fold over".into(),
+            Self::Collision { body, obstacle } => {
+                let body = body.name();
+                match obstacle {
+                    Obstacle::Part => format!("the {body} is too near to the part"),
+                    Obstacle::Floor => format!("the {body} is too near to the floor"),
+                    Obstacle::Box(name) => format!("the {body} is too near to the box {name}"),
+                }
+            }
+        }
+    }
+
+    /// Which kind it is, for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::OutOfReach => "out_of_reach",
+            Self::JointLimit { .. } => "joint_limit",
+            Self::NearSingularity(_) => "near_singularity",
+            Self::TooFast { .. } => "too_fast",
+            Self::ConfigurationChange => "configuration_change",
+            Self::Collision { .. } => "collision",
         }
     }
 }
 
 /// One point of a check.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PointCheck {
     /// The joints there; none if it is out of reach or beyond a limit.
     pub joints: Option<Joints>,
@@ -111,31 +136,30 @@ impl PathCheck {
             .count()
     }
 
+    /// Points at which, or on the way to which, gun or arm come too near to something. The way to a point that is out of
+    /// reach is not known.
+    pub fn num_collisions(&self) -> usize {
+        let problems = self.points.iter().map(|point| &point.problem);
+        problems
+            .filter(|problem| matches!(problem, Some(PointProblem::Collision { .. })))
+            .count()
+    }
+
     /// Why no program should be written for this arm, in words; none if it reaches every point.
     pub fn doubt(&self, arm: &str) -> Option<String> {
         let (num, all) = (self.num_reached(), self.points.len());
-        (num < all).then(|| format!("{arm} reaches {num} of {all} points"))
+        let collisions = match self.num_collisions() {
+            0 => String::new(),
+            num => format!(" and would collide at {num}"),
+        };
+        (num < all).then(|| format!("{arm} reaches {num} of {all} points{collisions}"))
     }
 }
 
 /// Straight moves are followed in steps of at most this, metres and radians.
 const STEP: [f64; 2] = [0.05, 0.175];
-/// Costs as much as this many seconds of joint motion: a singularity nearby, and a turn by one step.
-const SINGULAR_COST: f64 = 2.0;
-const TURN_COST: f64 = 0.02;
-/// A way that no joint manages costs this much and more.
-const JUMP_COST: f64 = 1e4;
 /// Two solutions are the same within this, radians.
 const SAME: f64 = 1e-4;
-
-/// One way to stand at a point.
-#[derive(Clone, Copy)]
-struct Candidate {
-    joints: Joints,
-    turn: usize,
-    /// Of the point alone.
-    cost: f64,
-}
 
 /// Every point of the path with the joints that reach it, or why none do. The points of a path without a problem are
 /// reached one after the other by straight moves at their speed.
@@ -146,11 +170,11 @@ pub fn check_path(
 ) -> Result<PathCheck, ArmError> {
     refuse_bad(placed, points, params)?;
     let solver = Solver::new(placed, params.rail);
-    let candidates: Vec<Vec<Candidate>> = points
+    let mut candidates: Vec<Vec<Candidate>> = points
         .iter()
         .map(|point| candidates_of(&solver, point, params.num_turns))
         .collect();
-    let chosen = best_chain(placed, points, &candidates, params.num_turns);
+    let chosen = free_chain(&solver, points, &mut candidates, params.num_turns);
     let mut checked: Vec<PointCheck> = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
         let Some(candidate) = chosen[i].map(|index| candidates[i][index]) else {
@@ -172,11 +196,17 @@ pub fn check_path(
             ))
         });
         let to = (turned(point, turn), candidate.joints);
-        let moved = before.and_then(|from| way_problem(&solver, from, to));
+        // What would break something comes first.
+        let here = if candidate.is_collision == Some(true) {
+            solver.collision(&candidate.joints)
+        } else {
+            None
+        };
+        let problem = here.or_else(|| before.and_then(|from| way_problem(&solver, from, to)));
         checked.push(PointCheck {
             joints: Some(candidate.joints),
             turn,
-            problem: moved.or(singular.map(PointProblem::NearSingularity)),
+            problem: problem.or(singular.map(PointProblem::NearSingularity)),
         });
     }
     Ok(PathCheck { points: checked })
@@ -200,6 +230,17 @@ pub(super) fn refuse_bad(
     if !params.rail.is_finite() {
         return not_finite("the position of the rail".into());
     }
+    for (what, value) in [
+        ("the radius of the gun", placed.gun_radius),
+        ("the clearance", placed.obstacles.clearance),
+    ] {
+        if !(0.0..=1.0).contains(&value) {
+            return Err(ArmError::Value {
+                what: what.into(),
+                value: 1000.0 * value,
+            });
+        }
+    }
     for (i, point) in points.iter().enumerate() {
         let is_speed = point.speed > 0.0 && point.speed < 100.0;
         if !(is_finite(&point.robot_from_nozzle) && is_speed) {
@@ -207,142 +248,6 @@ pub(super) fn refuse_bad(
         }
     }
     Ok(())
-}
-
-/// Angle of a step about z, radians within ±π; the steps are even.
-fn angle_of(turn: usize, num_turns: usize) -> f64 {
-    let angle = TAU * turn as f64 / num_turns as f64;
-    if angle > std::f64::consts::PI {
-        angle - TAU
-    } else {
-        angle
-    }
-}
-
-/// Steps between two turns, the shorter way round.
-fn turns_apart(a: usize, b: usize, num_turns: usize) -> usize {
-    let apart = a.abs_diff(b);
-    apart.min(num_turns.max(1).saturating_sub(apart))
-}
-
-fn turned(point: &ArmPoint, angle: f64) -> RigidTransform {
-    point.robot_from_nozzle * UnitQuaternion::from_euler_angles(0.0, 0.0, angle)
-}
-
-/// The turns that are tried at a point.
-fn turns_of(point: &ArmPoint, num_turns: usize) -> std::ops::Range<usize> {
-    0..if point.is_turn_free {
-        num_turns.max(1)
-    } else {
-        1
-    }
-}
-
-fn candidates_of(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> Vec<Candidate> {
-    let mut all = Vec::new();
-    for turn in turns_of(point, num_turns) {
-        let pose = turned(point, angle_of(turn, num_turns));
-        for solution in solver.solutions(&pose, None) {
-            let is_singular = solver.singularity(&solution).is_some();
-            // Turning away from the path's own orientation gains nothing by itself.
-            let away = turn.min(num_turns - turn) as f64;
-            let cost = 0.1 * TURN_COST * away + if is_singular { SINGULAR_COST } else { 0.0 };
-            all.extend(
-                solver
-                    .within_limits(&solution)
-                    .into_iter()
-                    .map(|joints| Candidate { joints, turn, cost }),
-            );
-        }
-    }
-    all
-}
-
-/// Seconds that the slowest joint needs from one to the other, and that joint.
-fn joint_time(placed: &PlacedArm, from: &Joints, to: &Joints) -> (f64, usize) {
-    let mut worst = (0.0, 0);
-    for i in 0..6 {
-        let time = (to[i] - from[i]).abs() / placed.arm.speeds[i];
-        if time > worst.0 {
-            worst = (time, i);
-        }
-    }
-    worst
-}
-
-/// Seconds that a move takes: a turn on the spot takes as long as the joints want.
-fn move_time(from: &RigidTransform, to: &RigidTransform, speed: f64) -> Option<f64> {
-    /// Nothing moves by less, metres.
-    const STANDS: f64 = 1e-4;
-    let distance = (to.translation.vector - from.translation.vector).norm();
-    (distance > STANDS).then(|| distance / speed)
-}
-
-/// The cheapest chain of candidates; none where there is no candidate, behind which a new chain begins.
-fn best_chain(
-    placed: &PlacedArm,
-    points: &[ArmPoint],
-    candidates: &[Vec<Candidate>],
-    num_turns: usize,
-) -> Vec<Option<usize>> {
-    // Of every candidate the cost so far and the candidate of the point before.
-    let mut chains: Vec<Vec<(f64, Option<usize>)>> = Vec::with_capacity(points.len());
-    for (i, here) in candidates.iter().enumerate() {
-        let before = i
-            .checked_sub(1)
-            .map(|before| (&candidates[before], &chains[before]));
-        let row = here.iter().map(|candidate| {
-            let Some((former, costs)) = before.filter(|(former, _)| !former.is_empty()) else {
-                return (candidate.cost, None);
-            };
-            let (from, to) = (
-                &points[i - 1].robot_from_nozzle,
-                &points[i].robot_from_nozzle,
-            );
-            let allowed = move_time(from, to, points[i - 1].speed);
-            let step = |previous: &Candidate| {
-                let apart = turns_apart(previous.turn, candidate.turn, num_turns);
-                let (time, _) = joint_time(placed, &previous.joints, &candidate.joints);
-                let is_jump = allowed.map_or(time > 1.0, |allowed| time > allowed);
-                time + TURN_COST * apart as f64 + if is_jump { JUMP_COST } else { 0.0 }
-            };
-            let cheapest = |is_near: bool| {
-                let mut best = (f64::INFINITY, None);
-                for (k, (previous, (cost, _))) in former.iter().zip(costs).enumerate() {
-                    let is_out = turns_apart(previous.turn, candidate.turn, num_turns) > 1;
-                    if *cost >= best.0 || (is_near && is_out) {
-                        continue;
-                    }
-                    let cost = cost + step(previous);
-                    if cost < best.0 {
-                        best = (cost, Some(k));
-                    }
-                }
-                best
-            };
-            // A nozzle that turns farther at once is only looked at where nothing else goes on.
-            let near = cheapest(true);
-            let best = if near.1.is_some() {
-                near
-            } else {
-                cheapest(false)
-            };
-            (best.0 + candidate.cost, best.1)
-        });
-        let row = row.collect();
-        chains.push(row);
-    }
-    let mut chosen = vec![None; points.len()];
-    let mut next: Option<usize> = None;
-    for (i, row) in chains.iter().enumerate().rev() {
-        let cheapest = || {
-            let costs = row.iter().enumerate();
-            costs.min_by(|a, b| a.1.0.total_cmp(&b.1.0)).map(|(k, _)| k)
-        };
-        chosen[i] = next.or_else(cheapest);
-        next = chosen[i].and_then(|k| row[k].1);
-    }
-    chosen
 }
 
 /// Follows a straight move from one chosen solution towards the next, and says what is wrong with it.
@@ -356,6 +261,7 @@ fn way_problem(
     let num = (distance / STEP[0]).max(angle / STEP[1]).ceil().max(1.0);
     let allowed = move_time(&from, &to, speed).map(|time| time / num);
     let mut at = start;
+    let mut trouble = None;
     for k in 1..=num as usize {
         let near = if k == num as usize {
             end
@@ -372,36 +278,47 @@ fn way_problem(
             let solutions = solver.solutions(&pose, Some(&at)).into_iter();
             let nearest = solutions.min_by(|a, b| off(a).total_cmp(&off(b)));
             let Some(nearest) = nearest else {
-                return Some(PointProblem::OutOfReach);
+                return trouble.or(Some(PointProblem::OutOfReach));
             };
+            // It comes before whatever else is wrong. The ends of the way are points, which are tested.
+            if let Some(collision) = solver.collision(&nearest) {
+                return Some(collision);
+            }
             nearest
         };
-        if let Some((joint, angle)) = outside(solver, &near) {
-            return Some(PointProblem::JointLimit {
-                joint: joint + 1,
-                angle,
-            });
-        }
-        for i in 0..6 {
-            let moved = (near[i] - at[i]).abs();
-            let time = allowed.unwrap_or(f64::INFINITY);
-            if moved / time <= solver.arm.speeds[i] || moved < SAME {
-                continue;
-            }
-            return Some(
-                if solver.configuration(&near) == solver.configuration(&at) {
-                    PointProblem::TooFast {
-                        joint: i + 1,
-                        speed: moved / time,
-                    }
-                } else {
-                    PointProblem::ConfigurationChange
-                },
-            );
-        }
+        trouble = trouble.or_else(|| step_problem(solver, &at, &near, allowed));
         at = near;
     }
-    None
+    trouble
+}
+
+/// What is wrong with a short step from one solution to the next, which may take so many seconds, or as many as it wants.
+fn step_problem(
+    solver: &Solver<'_>,
+    at: &Joints,
+    near: &Joints,
+    allowed: Option<f64>,
+) -> Option<PointProblem> {
+    if let Some((joint, angle)) = outside(solver, near) {
+        return Some(PointProblem::JointLimit {
+            joint: joint + 1,
+            angle,
+        });
+    }
+    let time = allowed.unwrap_or(f64::INFINITY);
+    let is_too_fast = |i: &usize| {
+        let moved = (near[*i] - at[*i]).abs();
+        moved / time > solver.arm.speeds[*i] && moved >= SAME
+    };
+    let i = (0..6).find(is_too_fast)?;
+    Some(if solver.configuration(near) == solver.configuration(at) {
+        PointProblem::TooFast {
+            joint: i + 1,
+            speed: (near[i] - at[i]).abs() / time,
+        }
+    } else {
+        PointProblem::ConfigurationChange
+    })
 }
 
 /// The first joint outside its limits, as it stands.
@@ -422,7 +339,7 @@ fn why_not(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> PointProb
             };
             let [low, high] = solver.arm.limits[joint];
             let excess = (low - angle).max(angle - high);
-            if nearest.is_none_or(|(least, _)| excess < least) {
+            if nearest.as_ref().is_none_or(|(least, _)| excess < *least) {
                 let joint = joint + 1;
                 nearest = Some((excess, PointProblem::JointLimit { joint, angle }));
             }
@@ -431,13 +348,16 @@ fn why_not(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> PointProb
     nearest.map_or(PointProblem::OutOfReach, |(_, problem)| problem)
 }
 
-/// Whether a point is reached at all, at any turn.
+/// Whether a point is reached at all, at any turn, without a collision.
 pub(super) fn is_reached(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> bool {
-    turns_of(point, num_turns).any(|turn| {
-        let solutions = solver.solutions(&turned(point, angle_of(turn, num_turns)), None);
-        let mut within = solutions.iter().filter(|joints| {
+    /// Where the first few collide the others usually do as well, and hundreds of places are asked for.
+    const NUM_TESTED: usize = 6;
+    let poses = turns_of(point, num_turns).map(|turn| turned(point, angle_of(turn, num_turns)));
+    let solutions = poses.flat_map(|pose| solver.solutions(&pose, None));
+    let mut within = solutions
+        .filter(|joints| {
             solver.beyond_limit(joints).is_none() && solver.singularity(joints).is_none()
-        });
-        within.next().is_some()
-    })
+        })
+        .take(NUM_TESTED);
+    within.any(|joints| !solver.collides(&joints))
 }

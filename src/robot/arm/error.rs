@@ -33,6 +33,14 @@ pub enum ArmError {
         /// What is wrong.
         message: String,
     },
+    /// The file lists no boxes of a cell.
+    #[error("{}: {}", path.display(), message.trim_end())]
+    Obstacles {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
     /// Limits that leave nothing between them.
     #[error("joint {joint} is limited to {low:.1} to {high:.1} degrees")]
     Limits {
@@ -82,7 +90,10 @@ impl Advice for ArmError {
                 "Check the path in the maker's simulator before the arm runs it".into()
             }
             Self::Text { .. } => {
-                "Give name, lengths_mm, offsets_deg, signs, limits_deg, speeds_deg_s and, if needed, base_height_mm and rail".into()
+                "Give name, lengths_mm, offsets_deg, signs, limits_deg, speeds_deg_s and, if needed, base_height_mm, radii_mm and rail".into()
+            }
+            Self::Obstacles { .. } => {
+                "Give each [[box]] a name, centre_mm, size_mm above 0 and, if it is turned, angles_deg; and floor_mm if there is a floor".into()
             }
             Self::Limits { .. } => "Give the lower limit first, then the upper one, in degrees".into(),
             Self::Rail { .. } => "Give from_mm below to_mm".into(),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use rs_opw_kinematics::{
     glam::{DQuat, DVec3},
     kinematic_traits::{Kinematics as _, Pose},
@@ -10,8 +10,11 @@ use rs_opw_kinematics::{
     parameters::opw_kinematics::Parameters,
 };
 
-use super::{Arm, PlacedArm};
-use crate::geometry::rigid::RigidTransform;
+use super::{
+    Arm, PlacedArm, PointProblem,
+    obstacles::{Body, Capsule, Obstacles},
+};
+use crate::geometry::{rigid::RigidTransform, segment::Segment};
 
 /// Angles of the six joints, radians.
 pub type Joints = [f64; 6];
@@ -45,12 +48,16 @@ const NEAR_AXIS: f64 = 0.03;
 /// What a solution must reproduce, metres and radians.
 const EXACT: f64 = 1e-6;
 
-/// The inverse kinematics of an arm.
+/// The inverse kinematics of an arm, and what it would run into.
 pub(super) struct Solver<'a> {
     pub(super) arm: &'a Arm,
+    obstacles: &'a Obstacles,
     opw: OPWKinematics,
     base_from_robot: RigidTransform,
     nozzle_from_flange: RigidTransform,
+    /// Where the axis of the gun ends, on the flange: its round end touches the nozzle's mouth.
+    gun_end: Point3<f64>,
+    gun_radius: f64,
 }
 
 impl<'a> Solver<'a> {
@@ -73,21 +80,63 @@ impl<'a> Solver<'a> {
         let foot = Translation3::new(0.0, 0.0, -arm.base_height);
         let robot_from_foot =
             Translation3::from(arm.rail_shift(rail)) * placed.robot_from_base * foot;
+        let mouth = placed.flange_from_nozzle.translation.vector;
+        // A gun that is wider than long is a ball.
+        let gun_radius = placed.gun_radius.min(mouth.norm() / 2.0);
+        let way = mouth.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
         Self {
             arm,
+            obstacles: &placed.obstacles,
             opw,
             base_from_robot: robot_from_foot.inverse(),
             nozzle_from_flange: placed.flange_from_nozzle.inverse(),
+            gun_end: Point3::from(mouth - way * gun_radius),
+            gun_radius,
         }
     }
 
     /// The nozzle, in the frame of the path.
     pub(super) fn forward(&self, joints: &Joints) -> Option<RigidTransform> {
-        let pose = self.opw.try_forward(joints).ok()?;
-        let (t, q) = (pose.translation, pose.rotation);
-        let turn = UnitQuaternion::from_quaternion(Quaternion::new(q.w, q.x, q.y, q.z));
-        let foot_from_flange = Isometry3::from_parts(Translation3::new(t.x, t.y, t.z), turn);
+        let foot_from_flange = isometry(&self.opw.try_forward(joints).ok()?);
         Some(self.base_from_robot.inverse() * foot_from_flange * self.nozzle_from_flange.inverse())
+    }
+
+    /// Gun and arm with these joints, which are finite. Elbow and forearm are one body of two capsules.
+    pub(super) fn bodies(&self, joints: &Joints) -> [Capsule; 5] {
+        let robot_from_foot = self.base_from_robot.inverse();
+        // Joints 1 to 3, the forearm behind the step of the elbow, the middle of the wrist, the flange.
+        let poses = self.opw.forward_with_joint_poses(joints);
+        let poses = poses.map(|pose| robot_from_foot * isometry(&pose));
+        let [_, shoulder, elbow, forearm, wrist, flange] =
+            poses.map(|pose| Point3::from(pose.translation.vector));
+        let [upper_arm, forearm_radius, wrist_radius] = self.arm.radii;
+        let gun_end = poses[5] * self.gun_end;
+        let capsule = |body, from, to, radius| Capsule {
+            body,
+            axis: Segment { from, to },
+            radius,
+        };
+        [
+            capsule(Body::Gun, flange, gun_end, self.gun_radius),
+            capsule(Body::Wrist, wrist, flange, wrist_radius),
+            capsule(Body::Forearm, forearm, wrist, forearm_radius),
+            capsule(Body::Forearm, elbow, forearm, forearm_radius),
+            capsule(Body::UpperArm, shoulder, elbow, upper_arm),
+        ]
+    }
+
+    /// Whether gun or arm are too near to something.
+    pub(super) fn collides(&self, joints: &Joints) -> bool {
+        !self.obstacles.is_empty() && self.obstacles.is_hit_by(&self.bodies(joints))
+    }
+
+    /// The same, with what to what; it takes longer.
+    pub(super) fn collision(&self, joints: &Joints) -> Option<PointProblem> {
+        if self.obstacles.is_empty() {
+            return None;
+        }
+        let (body, obstacle) = self.obstacles.worst(&self.bodies(joints))?;
+        Some(PointProblem::Collision { body, obstacle })
     }
 
     /// Every solution within a turn either way, whatever the limits; `near` fixes what a singularity leaves open.
@@ -184,4 +233,10 @@ impl<'a> Solver<'a> {
             .find(|(is_near, _)| *is_near)
             .map(|(_, which)| which)
     }
+}
+
+fn isometry(pose: &Pose) -> RigidTransform {
+    let (t, q) = (pose.translation, pose.rotation);
+    let turn = UnitQuaternion::from_quaternion(Quaternion::new(q.w, q.x, q.y, q.z));
+    Isometry3::from_parts(Translation3::new(t.x, t.y, t.z), turn)
 }

@@ -7,19 +7,23 @@
 //! picks those that move the joints least in time. A round jet leaves the turn about the nozzle open: it is tried in steps of
 //! 15°. Straight moves longer than 50 mm are followed in between.
 //!
-//! Known limits: no accelerations and no collisions. The rail stands still while the gun moves. Joint 3 of FANUC arms is
-//! coupled to joint 2 on the controller; here it is the angle against the upper arm, and so is its limit.
+//! Gun and arm have to stay clear of [`Obstacles`] at every point and on the way to it.
+//!
+//! Known limits: no accelerations. The rail stands still while the gun moves. Joint 3 of FANUC arms is coupled to joint 2 on
+//! the controller; here it is the angle against the upper arm, and so is its limit.
 
+mod chain;
 mod check;
 mod error;
 mod file;
 mod kinematics;
 mod models;
+mod obstacles;
 mod place;
 #[cfg(test)]
 mod tests;
 
-use nalgebra::{Unit, Vector3};
+use nalgebra::{Point3, Unit, Vector3};
 
 use crate::geometry::rigid::RigidTransform;
 
@@ -28,6 +32,7 @@ pub use self::{
     error::ArmError,
     kinematics::{Joints, Singularity},
     models::ARM_NAMES,
+    obstacles::{Body, Obstacle, Obstacles},
     place::{PlaceSuggestion, suggest_base, suggest_rail},
 };
 
@@ -48,6 +53,8 @@ pub struct Arm {
     speeds: [f64; 6],
     /// How far the controller's base frame is above the foot, metres.
     base_height: f64,
+    /// What upper arm, forearm and wrist fill around their axes, metres.
+    radii: [f64; 3],
     /// The rail that it stands on.
     pub rail: Option<Rail>,
 }
@@ -62,7 +69,7 @@ pub struct Rail {
 }
 
 /// An arm as it stands in the cell.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct PlacedArm {
     /// The arm.
     pub arm: Arm,
@@ -70,6 +77,24 @@ pub struct PlacedArm {
     pub robot_from_base: RigidTransform,
     /// Where the nozzle is on the flange.
     pub flange_from_nozzle: RigidTransform,
+    /// What the gun fills around the line from the flange to the nozzle's mouth, metres, 0..1.
+    pub gun_radius: f64,
+    /// What gun and arm must not run into.
+    pub obstacles: Obstacles,
+}
+
+/// Radius of a gun with its hoses where nobody says another, metres.
+pub const GUN_RADIUS: f64 = 0.05;
+
+impl PlacedArm {
+    /// The same beside a part: its points, in the part's frame.
+    #[must_use]
+    pub fn with_part(self, points: &[Point3<f32>], robot_from_part: &RigidTransform) -> Self {
+        Self {
+            obstacles: self.obstacles.with_part(points, robot_from_part),
+            ..self
+        }
+    }
 }
 
 impl Arm {
@@ -123,6 +148,17 @@ impl Arm {
                 return Err(ArmError::Value {
                     what: name.into(),
                     value: value * 1000.0,
+                });
+            }
+        }
+        for (name, radius) in ["upper arm", "forearm", "wrist"]
+            .into_iter()
+            .zip(self.radii)
+        {
+            if !(0.0..=1.0).contains(&radius) {
+                return Err(ArmError::Value {
+                    what: format!("the radius of the {name}"),
+                    value: radius * 1000.0,
                 });
             }
         }

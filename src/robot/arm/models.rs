@@ -3,7 +3,8 @@
 //! Lengths, signs and offsets are those of ROS-Industrial's `opw_parameters_*.yaml` (Apache 2.0 and BSD): `kuka_kr6_support`,
 //! `fanuc_m20ia_support`, `abb_irb2600_support`, `abb_irb4600_support`, `motoman_gp25_support`; limits and speeds those of
 //! the URDF beside them, of the IRB 2600 those of ABB's *Product specification IRB 2600*, because joint 2 of its URDF has
-//! its limits the other way round.
+//! its limits the other way round. What upper arm, forearm and wrist fill around their axes is published nowhere: the radii are
+//! our estimate from the proportions of the makers' drawings, on the wide side.
 
 use std::path::Path;
 
@@ -18,6 +19,7 @@ const fn arm_of(
     signs: [i8; 6],
     limits_deg: [[f64; 2]; 6],
     speeds_deg: [f64; 6],
+    radii_mm: [f64; 3],
 ) -> Numbers {
     Numbers {
         lengths,
@@ -25,6 +27,7 @@ const fn arm_of(
         signs,
         limits_deg,
         speeds_deg,
+        radii_mm,
     }
 }
 
@@ -34,6 +37,7 @@ struct Numbers {
     signs: [i8; 6],
     limits_deg: [[f64; 2]; 6],
     speeds_deg: [f64; 6],
+    radii_mm: [f64; 3],
 }
 
 const KR6_R900: Numbers = arm_of(
@@ -49,6 +53,7 @@ const KR6_R900: Numbers = arm_of(
         [-350.0, 350.0],
     ],
     [360.0, 300.0, 360.0, 450.0, 450.0, 540.0],
+    [90.0, 80.0, 55.0],
 );
 
 const M_20IA: Numbers = arm_of(
@@ -64,6 +69,7 @@ const M_20IA: Numbers = arm_of(
         [-270.0, 270.0],
     ],
     [195.0, 175.0, 180.0, 360.0, 360.0, 550.0],
+    [140.0, 130.0, 85.0],
 );
 
 const IRB2600: Numbers = arm_of(
@@ -79,6 +85,7 @@ const IRB2600: Numbers = arm_of(
         [-400.0, 400.0],
     ],
     [175.0, 175.0, 175.0, 360.0, 360.0, 500.0],
+    [140.0, 125.0, 80.0],
 );
 
 const IRB4600: Numbers = arm_of(
@@ -94,6 +101,7 @@ const IRB4600: Numbers = arm_of(
         [-400.0, 400.0],
     ],
     [175.0, 175.0, 175.0, 250.0, 250.0, 360.0],
+    [200.0, 170.0, 110.0],
 );
 
 const GP25: Numbers = arm_of(
@@ -109,6 +117,7 @@ const GP25: Numbers = arm_of(
         [-455.0, 455.0],
     ],
     [210.0, 210.0, 265.0, 420.0, 420.0, 885.0],
+    [140.0, 125.0, 80.0],
 );
 
 impl Arm {
@@ -131,6 +140,7 @@ impl Arm {
             limits: numbers.limits_deg.map(|limits| limits.map(f64::to_radians)),
             speeds: numbers.speeds_deg.map(f64::to_radians),
             base_height,
+            radii: numbers.radii_mm.map(|radius| radius / 1000.0),
             rail: None,
         }
         .checked()

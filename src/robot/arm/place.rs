@@ -1,4 +1,4 @@
-//! Where an arm would reach more of a path.
+//! Where an arm would reach more of a path. Obstacles stay where they are, and what collides is not reached.
 
 use nalgebra::Translation3;
 

@@ -1,6 +1,9 @@
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::{
+    f64::consts::{FRAC_PI_2, PI},
+    fmt::Write as _,
+};
 
-use nalgebra::{Isometry3, Matrix4, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix4, Point3, Translation3, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
@@ -106,6 +109,18 @@ impl Chain {
         let (origin, [r, p, y]) = self.flange;
         at * shift(origin) * Matrix4::from_euler_angles(r, p, y)
     }
+
+    /// Where a joint is, from 1.
+    fn joint(&self, angles: &Joints, number: usize) -> Point3<f64> {
+        let mut at = Matrix4::new_translation(&Vector3::new(0.0, 0.0, -self.base_height));
+        let mut place = Point3::origin();
+        for ((origin, axis), angle) in self.joints.iter().zip(angles).take(number) {
+            at *= Matrix4::new_translation(&Vector3::from(*origin));
+            place = at.transform_point(&Point3::origin());
+            at *= Matrix4::new_rotation(Vector3::from(*axis) * *angle);
+        }
+        place
+    }
 }
 
 fn placed(name: &str) -> PlacedArm {
@@ -113,6 +128,8 @@ fn placed(name: &str) -> PlacedArm {
         arm: Arm::named(name).expect("known"),
         robot_from_base: RigidTransform::identity(),
         flange_from_nozzle: RigidTransform::identity(),
+        gun_radius: GUN_RADIUS,
+        obstacles: Obstacles::default(),
     }
 }
 
@@ -177,6 +194,40 @@ fn every_solution_reproduces_its_pose_and_one_is_the_one_it_came_from() {
     }
 }
 
+#[test]
+fn gun_and_arm_are_capsules_from_joint_to_joint_up_to_the_mouth() {
+    let mut random = Pcg64::seed_from_u64(3);
+    for chain in chains() {
+        let placed = with_gun(chain.name);
+        let solver = Solver::new(&placed, 0.0);
+        for _ in 0..100 {
+            let joints = any_joints(&mut random, &placed.arm);
+            let [gun, wrist, forearm, step, upper_arm] = solver.bodies(&joints);
+            let flange = chain.forward(&joints).transform_point(&Point3::origin());
+            let joint = |number| chain.joint(&joints, number);
+            for (at, wanted) in [
+                (upper_arm.axis.from, joint(2)),
+                (upper_arm.axis.to, joint(3)),
+                (step.axis.from, joint(3)),
+                (step.axis.to, joint(4)),
+                (forearm.axis.from, joint(4)),
+                (forearm.axis.to, joint(5)),
+                (wrist.axis.from, joint(5)),
+                (wrist.axis.to, flange),
+                (gun.axis.from, flange),
+            ] {
+                assert!((at - wanted).norm() < 1e-9, "{}: {at}", chain.name);
+            }
+            // Its round end touches the mouth from behind.
+            let mouth = solver.forward(&joints).expect("finite").translation.vector;
+            let mouth = Point3::from(mouth);
+            assert!(((mouth - gun.axis.to).norm() - GUN_RADIUS).abs() < 1e-9);
+            let length = (mouth - flange).norm();
+            assert!((gun.axis.length() + GUN_RADIUS - length).abs() < 1e-9);
+        }
+    }
+}
+
 /// A row of points ahead of the arm, the nozzle pointing ahead.
 fn row(arm: &PlacedArm, num: usize, length: f64) -> Vec<ArmPoint> {
     let ahead = 0.7 * arm.arm.reach() + 0.25;
@@ -203,7 +254,7 @@ fn a_row_ahead_of_every_arm_is_reached_without_a_jump() {
         let placed = with_gun(name);
         let points = row(&placed, 60, 0.3);
         let found = check(&placed, &points);
-        let problems: Vec<_> = found.points.iter().map(|point| point.problem).collect();
+        let problems: Vec<_> = found.points.iter().map(|point| &point.problem).collect();
         assert_eq!(found.num_reached(), 60, "{name}: {problems:?}");
         let solver = Solver::new(&placed, 0.0);
         for (point, wanted) in found.points.iter().zip(&points) {
@@ -237,7 +288,7 @@ fn each_reason_is_named() {
     narrow.arm.limits[0] = [-0.17, 0.17];
     let mut left = row(&narrow, 1, 0.0);
     left[0].robot_from_nozzle = Translation3::new(-0.2, 0.8, 0.0) * left[0].robot_from_nozzle;
-    let problem = check(&narrow, &left).points[0].problem;
+    let problem = check(&narrow, &left).points[0].problem.clone();
     assert!(
         matches!(problem, Some(PointProblem::JointLimit { joint: 1, .. })),
         "{problem:?}"
@@ -248,7 +299,7 @@ fn each_reason_is_named() {
     for point in &mut fast {
         point.speed = 50.0;
     }
-    let problem = check(&placed, &fast).points[10].problem;
+    let problem = check(&placed, &fast).points[10].problem.clone();
     let Some(PointProblem::TooFast { speed, joint }) = problem else {
         panic!("{problem:?}");
     };
@@ -267,7 +318,7 @@ fn each_reason_is_named() {
         speed: 0.3,
         is_turn_free: false,
     };
-    let problem = check(&bare, &[point]).points[0].problem;
+    let problem = check(&bare, &[point]).points[0].problem.clone();
     assert_eq!(
         problem,
         Some(PointProblem::NearSingularity(Singularity::Wrist))
@@ -317,6 +368,150 @@ fn a_round_jet_reaches_more_because_the_nozzle_may_turn() {
         let shift = at.translation.vector - wanted.robot_from_nozzle.translation.vector;
         assert!(shift.norm() < 1e-6);
     }
+}
+
+/// The same arm among boxes: name, middle and edge, metres.
+fn among(placed: &PlacedArm, boxes: &[(&str, Point3<f64>, f64)]) -> PlacedArm {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("boxes.toml");
+    let mut text = String::new();
+    for (name, at, edge) in boxes {
+        let [x, y, z] = [at.x, at.y, at.z].map(|x| 1000.0 * x);
+        let edge = 1000.0 * edge;
+        writeln!(text, "[[box]]\nname = \"{name}\"").expect("written");
+        writeln!(text, "centre_mm = [{x:.6}, {y:.6}, {z:.6}]").expect("written");
+        writeln!(text, "size_mm = [{edge:.3}, {edge:.3}, {edge:.3}]").expect("written");
+    }
+    std::fs::write(&path, text).expect("written");
+    PlacedArm {
+        obstacles: Obstacles::read(&path).expect("boxes"),
+        ..placed.clone()
+    }
+}
+
+/// Where the axis of the gun ends with these joints, farther from the wrist than that is wide.
+fn end_of_gun(placed: &PlacedArm, joints: &Joints) -> Point3<f64> {
+    let [gun, ..] = Solver::new(placed, 0.0).bodies(joints);
+    gun.axis.to
+}
+
+/// The elbow with these joints.
+fn elbow(placed: &PlacedArm, joints: &Joints) -> Point3<f64> {
+    let [.., upper_arm] = Solver::new(placed, 0.0).bodies(joints);
+    upper_arm.axis.to
+}
+
+fn gun_at(name: &str) -> PointProblem {
+    PointProblem::Collision {
+        body: Body::Gun,
+        obstacle: Obstacle::Box(name.into()),
+    }
+}
+
+#[test]
+fn a_box_beside_the_gun_is_run_into_as_far_as_gun_and_clearance_reach() {
+    let placed = with_gun("irb2600");
+    let points = row(&placed, 60, 0.3);
+    let free = check(&placed, &points);
+    assert_eq!(free.num_collisions(), 0);
+    let end = end_of_gun(&placed, &free.points[30].joints.expect("reached"));
+    let blocked = among(&placed, &[("post", end, 0.02)]);
+    let found = check(&blocked, &points);
+    for (checked, point) in found.points.iter().zip(&points) {
+        // The gun's own 50 mm, 20 of clearance and half the box.
+        let aside = (point.robot_from_nozzle.translation.vector.y - end.y).abs();
+        if (aside - 0.08).abs() < 1e-3 {
+            continue;
+        }
+        let wanted = (aside < 0.08).then(|| gun_at("post"));
+        assert_eq!(checked.problem, wanted, "{aside}");
+    }
+    assert_eq!(found.num_reached() + found.num_collisions(), 60);
+    let doubt = found.doubt("arm").expect("collides");
+    assert!(doubt.contains(&format!("would collide at {}", found.num_collisions())));
+    let problem = gun_at("post");
+    assert_eq!(problem.describe(), "the gun is too near to the box post");
+    assert_eq!(problem.kind(), "collision");
+    // A wider clearance finds more.
+    let mut wider = blocked.clone();
+    wider.obstacles.clearance = 0.06;
+    assert!(check(&wider, &points).num_collisions() > found.num_collisions() + 10);
+    // The order of the boxes changes nothing.
+    let twin = ("twin", end, 0.02);
+    let post = ("post", end, 0.02);
+    assert_eq!(
+        check(&among(&placed, &[post, twin]), &points),
+        check(&among(&placed, &[twin, post]), &points)
+    );
+}
+
+#[test]
+fn what_lies_between_two_points_is_run_into_on_the_way() {
+    let placed = with_gun("irb2600");
+    // Half a metre to the left.
+    let points = row(&placed, 2, 1.0);
+    let free = check(&placed, &points);
+    assert_eq!(free.num_reached(), 2, "{free:?}");
+    let begins = end_of_gun(&placed, &free.points[0].joints.expect("reached"));
+    let half_way = begins + Vector3::new(0.0, 0.25, 0.0);
+    let found = check(&among(&placed, &[("post", half_way, 0.02)]), &points);
+    assert_eq!(found.points[0].problem, None);
+    assert_eq!(found.points[1].problem, Some(gun_at("post")));
+    // A second behind both is none.
+    let aside = begins - Vector3::new(0.0, 0.25, 0.0);
+    let found = check(&among(&placed, &[("post", aside, 0.02)]), &points);
+    assert_eq!(found.num_reached(), 2, "{found:?}");
+}
+
+#[test]
+fn a_free_configuration_is_preferred_to_one_that_collides() {
+    let mut placed = with_gun("irb2600");
+    // All eight configurations are within the limits.
+    placed.arm.limits = [[-4.0, 4.0]; 6];
+    let points = row(&placed, 60, 0.3);
+    let free = check(&placed, &points);
+    assert_eq!(free.num_reached(), 60, "{free:?}");
+    let former = free.points[30].joints.expect("reached");
+    let blocked = among(&placed, &[("lamp", elbow(&placed, &former), 0.1)]);
+    let solver = Solver::new(&blocked, 0.0);
+    assert!(free.points.iter().all(|point| {
+        let joints = point.joints.expect("reached");
+        solver.collides(&joints)
+    }));
+    let found = check(&blocked, &points);
+    assert_eq!(found.num_reached(), 60, "{found:?}");
+    let joints = found.points[30].joints.expect("reached");
+    assert_ne!(solver.configuration(&joints), solver.configuration(&former));
+
+    // With none left the point is reached, but says what is in the way.
+    let mut bound = with_gun("irb2600");
+    bound.arm.limits[0] = [-1.0, 1.0];
+    let only = check(&bound, &points).points[30].joints.expect("reached");
+    let bound = among(&bound, &[("lamp", elbow(&bound, &only), 0.1)]);
+    let found = check(&bound, &points);
+    assert_eq!(found.num_collisions(), 60, "{found:?}");
+    assert!(found.points.iter().all(|point| point.joints.is_some()));
+}
+
+#[test]
+fn a_place_is_suggested_where_less_is_run_into() {
+    let mut placed = with_gun("irb2600");
+    placed.arm.limits[0] = [-1.0, 1.0];
+    let points = row(&placed, 60, 0.3);
+    let params = CheckParams::default();
+    let joints = check(&placed, &points).points[30].joints.expect("reached");
+    let blocked = among(&placed, &[("lamp", elbow(&placed, &joints), 0.1)]);
+    let num = check(&blocked, &points).num_reached();
+    let base = suggest_base(&blocked, &points, &params, num).expect("searched");
+    let base = base.expect("a better one");
+    assert!(base.num_reached > 30, "{base:?}");
+    let [x, y, z] = base.shift;
+    let there = PlacedArm {
+        robot_from_base: Translation3::new(x, y, z).into(),
+        ..blocked
+    };
+    let found = check(&there, &points);
+    assert_eq!(found.num_reached(), base.num_reached);
 }
 
 #[test]
@@ -373,6 +568,16 @@ fn bad_arms_and_paths_are_refused_with_advice() {
     let mut base = placed.clone();
     base.robot_from_base.translation.vector.z = f64::INFINITY;
     assert!(refused(check_path(&base, &points, &params).expect_err("base")).contains("base"));
+    for bad in [f64::NAN, -0.001, 1.1] {
+        let mut wide = placed.clone();
+        wide.gun_radius = bad;
+        let error = refused(check_path(&wide, &points, &params).expect_err("radius"));
+        assert!(error.contains("radius of the gun"), "{error}");
+        let mut near = placed.clone();
+        near.obstacles.clearance = bad;
+        let error = refused(check_path(&near, &points, &params).expect_err("clearance"));
+        assert!(error.contains("clearance"), "{error}");
+    }
 }
 
 #[test]
@@ -385,7 +590,8 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
         signs = [1, 1, -1, -1, -1, -1]\n\
         limits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]\n\
         speeds_deg_s = [210, 210, 265, 420, 420, 885]\n\
-        base_height_mm = 505\n";
+        base_height_mm = 505\n\
+        radii_mm = [140, 125, 80]\n";
     let read = |text: &str| {
         std::fs::write(&path, text).expect("written");
         Arm::named(path.to_str().expect("a path"))
@@ -399,6 +605,11 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
         },
         listed
     );
+    // Without radii those of the reach count: 0.76 m and 0.795 m with a step of 0.2 m.
+    let bare = read(&text.replace("radii_mm = [140, 125, 80]\n", "")).expect("an arm");
+    let wanted = [0.158, 0.1422, 0.0948];
+    let off = bare.radii.iter().zip(wanted).map(|(a, b)| (a - b).abs());
+    assert!(off.fold(0.0, f64::max) < 1e-3, "{:?}", bare.radii);
     let rail = "[rail]\ndirection = [0, 2, 0]\nfrom_mm = -2000\nto_mm = 1500\n";
     let found = read(&format!("{text}{rail}")).expect("an arm").rail;
     let wanted = Rail {
@@ -414,6 +625,8 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
         ("505, 760", "nan, 760", "c1"),
         ("-90, 0", "-900, 0", "offset of joint 3"),
         ("signs", "sings", "sings"),
+        ("140, 125", "140, -1", "radius of the forearm"),
+        ("140, 125", "nan, 125", "radius of the upper arm"),
         ("[150, ", "[", "7"),
     ] {
         let error = read(&text.replace(old, new)).expect_err(new);

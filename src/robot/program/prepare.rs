@@ -10,7 +10,7 @@ use nalgebra::{Translation3, UnitQuaternion};
 use super::{ProgramPoint, ProgramSettings};
 use crate::robot::{
     RobotFrame,
-    arm::{ArmError, ArmPoint, CheckParams, PathCheck, PlacedArm, check_path},
+    arm::{ArmError, ArmPoint, CheckParams, PathCheck, PlacedArm, PointProblem, check_path},
     spray::CarriedPath,
 };
 
@@ -40,8 +40,8 @@ pub fn arm_points(carried: &CarriedPath, frame: &RobotFrame, speed: f64) -> Vec<
     points.collect()
 }
 
-/// Whether an arm reaches a carried path. The program comes from an approach point and moves away at the end: what is wrong
-/// there counts for the first and the last point.
+/// Whether an arm reaches a carried path, clear of its obstacles. The program comes from an approach point and moves away at
+/// the end: what is wrong there counts for the first and the last point.
 pub fn check_reach(
     arm: &PlacedArm,
     carried: &CarriedPath,
@@ -63,12 +63,21 @@ pub fn check_reach(
     let retreat = check.points.pop();
     let approach = check.points.remove(0);
     if let (Some(last), Some(retreat)) = (check.points.last_mut(), retreat) {
-        last.problem = last.problem.or(retreat.problem);
+        last.problem = graver(last.problem.take(), retreat.problem);
     }
     if let Some(first) = check.points.first_mut() {
-        first.problem = first.problem.or(approach.problem);
+        first.problem = graver(first.problem.take(), approach.problem);
     }
     Ok(check)
+}
+
+/// Of two problems the one that counts: a collision before all others.
+fn graver(own: Option<PointProblem>, other: Option<PointProblem>) -> Option<PointProblem> {
+    if matches!(other, Some(PointProblem::Collision { .. })) {
+        other
+    } else {
+        own.or(other)
+    }
 }
 
 /// The points of a program. `reach` turns the nozzle of a round jet about its axis as the arm reaches it.
@@ -94,13 +103,13 @@ pub fn program_points(
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+    use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
     use super::*;
     use crate::{
         geometry::rigid::RigidTransform,
         robot::{
-            arm::Arm,
+            arm::{Arm, Body, GUN_RADIUS, Obstacle, Obstacles},
             spray::{BandStatus, CarriedPoint},
         },
         units::Metres,
@@ -127,18 +136,26 @@ mod tests {
         }
     }
 
-    #[test]
-    fn the_way_to_the_path_and_from_it_has_to_be_reached_as_well() {
+    /// An arm that reaches the line, and where it is calibrated.
+    fn cell() -> (PlacedArm, RobotFrame) {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -0.8);
         let arm = PlacedArm {
             arm: Arm::named("irb4600").expect("known"),
             robot_from_base: RigidTransform::identity(),
             flange_from_nozzle: Isometry3::from_parts(Translation3::new(0.0, 0.0, 0.25), turn),
+            gun_radius: GUN_RADIUS,
+            obstacles: Obstacles::default(),
         };
         let frame = RobotFrame {
             robot_from_camera: RigidTransform::identity(),
             name: "cell".into(),
         };
+        (arm, frame)
+    }
+
+    #[test]
+    fn the_way_to_the_path_and_from_it_has_to_be_reached_as_well() {
+        let (arm, frame) = cell();
         let mut settings = ProgramSettings::default();
         let near = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
         assert_eq!(near.doubt("arm"), None, "{near:?}");
@@ -153,5 +170,43 @@ mod tests {
         );
         let none = CarriedPath { points: Vec::new() };
         assert!(check_reach(&arm, &none, &frame, &settings).is_err());
+    }
+
+    #[test]
+    fn a_part_in_the_way_of_the_gun_is_a_collision_also_on_the_way_to_the_path() {
+        let (arm, frame) = cell();
+        let checked = |points: &[Point3<f32>], x: f64, approach: f64| {
+            let robot_from_part = Translation3::new(x, 0.0, 1.2).into();
+            let arm = arm.clone().with_part(points, &robot_from_part);
+            let settings = ProgramSettings {
+                approach: Metres(approach),
+                ..ProgramSettings::default()
+            };
+            check_reach(&arm, &line(1.2), &frame, &settings).expect("checked")
+        };
+        // A plate of 1 m, a point every 10 mm, square to the jet.
+        let side = |i: u16| 0.01 * f32::from(i) - 0.5;
+        let plate = (0..=100).flat_map(|i| (0..=100).map(move |k| [side(i), side(k)]));
+        let plate: Vec<Point3<f32>> = plate.map(|[y, z]| Point3::new(0.0, y, z)).collect();
+        // 150 mm before the mouth, as a part hangs.
+        assert_eq!(checked(&plate, 1.75, 0.1).doubt("arm"), None);
+        // 50 mm behind it.
+        let through = checked(&plate, 1.55, 0.1);
+        let wanted = "arm reaches 0 of 5 points and would collide at 5";
+        assert_eq!(through.doubt("arm").as_deref(), Some(wanted));
+        let wanted = PointProblem::Collision {
+            body: Body::Gun,
+            obstacle: Obstacle::Part,
+        };
+        assert_eq!(through.points[2].problem, Some(wanted));
+        // A bolt where the program begins, 300 mm behind the first point.
+        let bolt: Vec<Point3<f32>> = (-1_i16..=1)
+            .map(|i| Point3::new(0.0, 0.01 * f32::from(i) - 0.1, -0.02))
+            .collect();
+        let begun = checked(&bolt, 1.26, 0.3);
+        let problems: Vec<bool> = begun.points.iter().map(|p| p.problem.is_some()).collect();
+        assert_eq!(problems, [true, false, false, false, false], "{begun:?}");
+        assert_eq!(begun.num_collisions(), 1);
+        assert_eq!(checked(&bolt, 1.26, 0.1).doubt("arm"), None);
     }
 }

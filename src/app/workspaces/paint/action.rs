@@ -89,6 +89,8 @@ pub enum PaintFile {
     Program,
     /// The arm, as a TOML file.
     Arm,
+    /// Boxes and floor of the cell, as a TOML file.
+    Obstacles,
 }
 
 impl PaintFile {
@@ -102,6 +104,11 @@ impl PaintFile {
             },
             Self::Arm => FileRequest {
                 title: text!("paint-arm-title"),
+                filters: vec![("TOML".into(), &["toml"]), all_files()],
+                choice: FileChoice::File,
+            },
+            Self::Obstacles => FileRequest {
+                title: text!("paint-obstacles-title"),
                 filters: vec![("TOML".into(), &["toml"]), all_files()],
                 choice: FileChoice::File,
             },

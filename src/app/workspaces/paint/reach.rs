@@ -1,4 +1,4 @@
-//! Which points of the path the robot's arm reaches, and the program for its controller.
+//! Which points of the path the robot's arm reaches without a collision, and the program for its controller.
 
 use std::{
     path::{Path, PathBuf},
@@ -6,6 +6,7 @@ use std::{
 };
 
 use glam::Vec3;
+use nalgebra::Point3;
 
 use super::{
     state::PaintState,
@@ -31,7 +32,10 @@ use crate::{
     geometry::rigid::RigidTransform,
     robot::{
         RobotFrame,
-        arm::{CheckParams, PathCheck, PlaceSuggestion, PointProblem, suggest_base, suggest_rail},
+        arm::{
+            Body, CheckParams, Obstacle, Obstacles, PathCheck, PlaceSuggestion, PointProblem,
+            suggest_base, suggest_rail,
+        },
         program::{arm_points, check_reach},
         spray::{CarriedPath, carry},
     },
@@ -64,7 +68,7 @@ pub struct Reach {
     pub base: Option<PlaceSuggestion>,
     /// Where on its rail it would.
     pub rail: Option<PlaceSuggestion>,
-    /// The path where it is not reached.
+    /// The path where it is not reached, and the boxes of the cell.
     pub(super) lines: LineSet,
 }
 
@@ -72,8 +76,9 @@ impl Reach {
     /// Why points are not reached, the most frequent reason first, and of how many points.
     pub fn reasons(&self) -> Vec<(String, usize)> {
         let mut reasons: Vec<(String, usize)> = Vec::new();
-        for problem in self.check.points.iter().filter_map(|point| point.problem) {
-            let reason = reason(&problem);
+        let problems = self.check.points.iter().map(|point| &point.problem);
+        for problem in problems.flatten() {
+            let reason = reason(problem);
             match reasons.iter_mut().find(|(known, _)| *known == reason) {
                 Some((_, count)) => *count += 1,
                 None => reasons.push((reason, 1)),
@@ -91,6 +96,19 @@ fn reason(problem: &PointProblem) -> String {
         PointProblem::NearSingularity(_) => text!("paint-near-singularity"),
         PointProblem::TooFast { joint, .. } => text!("paint-joint-too-fast", joint = *joint),
         PointProblem::ConfigurationChange => text!("paint-arm-folds-over"),
+        PointProblem::Collision { body, obstacle } => {
+            let body = match body {
+                Body::Gun => "gun",
+                Body::Wrist => "wrist",
+                Body::Forearm => "forearm",
+                Body::UpperArm => "upper-arm",
+            };
+            match obstacle {
+                Obstacle::Part => text!("paint-near-part", body = body),
+                Obstacle::Floor => text!("paint-near-floor", body = body),
+                Obstacle::Box(name) => text!("paint-near-box", body = body, name = name),
+            }
+        }
     }
 }
 
@@ -171,11 +189,17 @@ impl PaintState {
     }
 }
 
-/// The path in the part's standard position.
-fn carried(
+/// A path in its part's standard position.
+struct StandardPath {
+    carried: CarriedPath,
+    part_points: Vec<Point3<f32>>,
+    is_simulated: bool,
+}
+
+fn in_standard_position(
     planned: &Planned,
     library_cache: &LibraryCache,
-) -> Result<(CarriedPath, bool), UserError> {
+) -> Result<StandardPath, UserError> {
     let loaded = library_cache.get();
     let (place, reference) = enrolled(&loaded, &planned.part)?;
     let carried = carry(
@@ -184,7 +208,11 @@ fn carried(
         &reference.cloud,
         &StandOffParams::default(),
     );
-    Ok((carried, loaded.shown.parts[place].simulated))
+    Ok(StandardPath {
+        carried,
+        part_points: reference.cloud.points.clone(),
+        is_simulated: loaded.shown.parts[place].simulated,
+    })
 }
 
 /// Which points are reached, and then from where more would be.
@@ -198,16 +226,20 @@ fn found(
     let Some(arm) = arm else {
         return Err(TaskError::Cancelled);
     };
-    let (carried, _) = carried(planned, library_cache)?;
+    let path = in_standard_position(planned, library_cache)?;
     context.check()?;
-    let points = arm_points(&carried, &request.robot, settings.speed);
+    let robot_from_part = request.robot.robot_from_part(&RigidTransform::identity());
+    let arm = arm.with_part(&path.part_points, &robot_from_part);
+    let points = arm_points(&path.carried, &request.robot, settings.speed);
     let params = CheckParams::default();
     let failed = |error| UserError::of(&error);
-    let check = check_reach(&arm, &carried, &request.robot, &settings).map_err(failed)?;
+    let check = check_reach(&arm, &path.carried, &request.robot, &settings).map_err(failed)?;
     let num = check.num_reached();
+    let mut lines = unreached(planned, &check);
+    lines.extend(outlines(&arm.obstacles, &robot_from_part));
     let mut reach = Reach {
         arm: arm.arm.name.clone(),
-        lines: unreached(planned, &check),
+        lines: LineSet::new(lines),
         check,
         base: None,
         rail: None,
@@ -227,7 +259,7 @@ fn found(
 const HALF: f32 = 0.01;
 
 /// A line from each point that is not reached to the next, and a short one where that is reached.
-fn unreached(planned: &Planned, check: &PathCheck) -> LineSet {
+fn unreached(planned: &Planned, check: &PathCheck) -> Vec<Line> {
     let is_bad = |i: usize| check.points.get(i).is_some_and(|p| p.problem.is_some());
     let at = |i: usize| aim(&planned.path, i, &planned.coat);
     let bad = (0..check.points.len()).filter(|i| is_bad(*i));
@@ -239,7 +271,23 @@ fn unreached(planned: &Planned, check: &PathCheck) -> LineSet {
         };
         Line::new(stretch, Role::AxisX).with_width(4.0)
     });
-    LineSet::new(lines.collect::<Vec<_>>())
+    lines.collect()
+}
+
+/// The edges of the boxes of the cell, in the part's frame.
+fn outlines(obstacles: &Obstacles, robot_from_part: &RigidTransform) -> Vec<Line> {
+    let part_from_robot = robot_from_part.inverse();
+    let edges_of = |corners: [Point3<f64>; 8]| {
+        let corners = corners.map(|corner| {
+            let at = (part_from_robot * corner).cast::<f32>();
+            Vec3::new(at.x, at.y, at.z)
+        });
+        let pairs = (0..8).flat_map(|i| [1, 2, 4].map(|bit| [i, i | bit]));
+        let edges = pairs.filter(|[i, k]| i < k);
+        let lines = edges.map(|ends| Line::new(ends.map(|i| corners[i]), Role::Rest));
+        lines.collect::<Vec<_>>()
+    };
+    obstacles.boxes().flat_map(edges_of).collect()
 }
 
 /// Writes the program of a path in the part's standard position; says what was written.
@@ -250,12 +298,13 @@ pub(super) fn write_program(
     robot: &RobotFrame,
     library_cache: &LibraryCache,
 ) -> Result<String, UserError> {
-    let (carried, is_simulated) = carried(planned, library_cache)?;
+    let path = in_standard_position(planned, library_cache)?;
     let subject = ProgramSubject {
         part: planned.part.as_str(),
+        part_points: &path.part_points,
         scene: None,
         camera_from_part: RigidTransform::identity(),
-        is_simulated,
+        is_simulated: path.is_simulated,
     };
-    report_files::program(file, &carried, robot, &setup.target()?, &subject)
+    report_files::program(file, &path.carried, robot, &setup.target()?, &subject)
 }

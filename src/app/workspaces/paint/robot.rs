@@ -1,4 +1,5 @@
-//! The section on the robot: arm, nozzle and gun of its programs, and which points of the path it reaches.
+//! The section on the robot: arm, nozzle and gun of its programs, what they stay clear of, and which points of the path the
+//! arm reaches.
 
 use egui::{Button, DragValue, Label, RichText, TextEdit, Ui, WidgetInfo, vec2};
 
@@ -15,7 +16,7 @@ use crate::{
         ui::{
             parameter_control::fold,
             theme::{Theme, space},
-            widgets::{grouped, heading, labelled, shortened},
+            widgets::{grouped, heading, labelled, row, shortened},
         },
     },
     robot::arm::{ARM_NAMES, Arm},
@@ -38,6 +39,7 @@ pub(super) fn ui(
     let label = text!("paint-nozzle");
     field(ui, theme, &label, &mut setup.nozzle, "kuka 0 0 250 0 45 0")
         .on_hover_text(text!("paint-nozzle-hint"));
+    obstacles_ui(ui, &mut setup, actions);
     fold(ui, text!("paint-more-robot"), theme.weak_text)
         .id_salt("robot")
         .show_unindented(ui, |ui| {
@@ -54,6 +56,10 @@ pub(super) fn ui(
             let mut output = f64::from(setup.gun_output);
             number(text!("paint-gun-output"), &mut output, 0.0..=9999.0, "");
             setup.gun_output = output.round() as u16;
+            let radius = &mut setup.gun_radius_mm;
+            number(text!("paint-gun-radius"), radius, 0.0..=500.0, "mm");
+            let clearance = &mut setup.clearance_mm;
+            number(text!("paint-clearance"), clearance, 0.0..=500.0, "mm");
             let speed = &mut setup.speed_mm_s;
             number(text!("paint-program-speed"), speed, 1.0..=2000.0, "mm/s");
             let approach = &mut setup.approach_mm;
@@ -100,7 +106,7 @@ fn arm_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>)
             }
         }
         ui.separator();
-        if ui.button(text!("paint-arm-file")).clicked() {
+        if ui.button(text!("paint-from-file")).clicked() {
             actions.push(PaintAction::Ask(PaintFile::Arm));
             ui.close();
         }
@@ -109,6 +115,30 @@ fn arm_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>)
     let response = menu.response;
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
     response.on_hover_text(text!("paint-arm-hint"));
+}
+
+fn obstacles_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>) {
+    let file = setup.obstacles_title();
+    let title = file.unwrap_or_else(|| text!("paint-no-obstacles"));
+    let menu = ui.menu_button(format!("{} ▼", shortened(&title, TITLE)), |ui| {
+        let is_none = setup.obstacles.is_none();
+        if ui
+            .selectable_label(is_none, text!("paint-no-obstacles"))
+            .clicked()
+        {
+            setup.obstacles = None;
+            ui.close();
+        }
+        ui.separator();
+        if ui.button(text!("paint-from-file")).clicked() {
+            actions.push(PaintAction::Ask(PaintFile::Obstacles));
+            ui.close();
+        }
+    });
+    let label = text!("paint-obstacles", file = title);
+    let response = menu.response;
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
+    response.on_hover_text(text!("paint-obstacles-hint"));
 }
 
 /// A line of text below its name.
@@ -141,6 +171,7 @@ pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session, theme:
 
 /// Why points are not reached, and from where more would be.
 fn reasons(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAction>) {
+    collisions_ui(ui, reach, theme);
     if reach.check.num_reached() == reach.check.points.len() {
         return;
     }
@@ -162,4 +193,10 @@ fn reasons(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAct
         let words = text!("paint-base-moved", by = by.join(" "), count = count);
         note(ui, &words, theme.weak_text);
     }
+}
+
+fn collisions_ui(ui: &mut Ui, reach: &Reach, theme: &Theme) {
+    let count = reach.check.num_collisions();
+    let value = text!("paint-num-collisions", count = count);
+    row(ui, theme, &text!("paint-collisions"), &value);
 }

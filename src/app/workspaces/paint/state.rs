@@ -240,6 +240,12 @@ impl PaintState {
                     ..cx.session.program.clone()
                 }));
             }
+            PaintAction::Chosen(PaintFile::Obstacles, file) => {
+                cx.send(Message::UseProgramSetup(ProgramSetup {
+                    obstacles: Some(file.display().to_string()),
+                    ..cx.session.program.clone()
+                }));
+            }
             PaintAction::SetUp(setup) => cx.send(Message::UseProgramSetup(setup)),
             PaintAction::ShowUnreached => self.show_unreached(cx.session),
             PaintAction::Scrub(time) => {

@@ -5,7 +5,7 @@ use crate::{
     app::{
         inspection::{camera::Camera, library_cache::LibraryCache},
         shell::context::TestShell,
-        ui::parameter_control::ParameterChange,
+        ui::{parameter_control::ParameterChange, viewport::Role},
         workspaces::paint::RegionUse,
     },
     geometry::rigid::from_euler_zyx,
@@ -341,6 +341,43 @@ fn what_the_arm_does_not_reach_is_named_shown_and_never_exported() {
             .last()
             .is_some_and(|n| n.contains("No program was written"))
     );
+}
+
+#[test]
+fn boxes_of_the_cell_are_kept_clear_of_named_and_drawn() {
+    let mut bench = Bench::new();
+    bench.calibrate(1.2);
+    let edges = |reach: &Reach| {
+        let lines = reach.lines.lines().iter();
+        lines.filter(|line| line.role == Role::Rest).count()
+    };
+    let reach = bench.reached();
+    assert_eq!((reach.check.num_collisions(), edges(&reach)), (0, 0));
+    // Before the part, where the gun is.
+    let file = bench.data.path().join("boxes.toml");
+    let text =
+        "[[box]]\nname = \"hanger\"\ncentre_mm = [1000, 0, 1200]\nsize_mm = [300, 2000, 2000]\n";
+    std::fs::write(&file, text).expect("written");
+    bench.shell.session.program.obstacles = Some(file.display().to_string());
+    bench.settle();
+    let reach = bench.reached();
+    assert!(reach.check.num_collisions() > 0);
+    let mut reasons = reach.reasons().into_iter();
+    assert!(reasons.any(|(reason, _)| reason.ends_with("too near to hanger")));
+    assert_eq!(edges(&reach), 12);
+    let program = bench.data.path().join("paint.src");
+    bench.run(PaintAction::Chosen(PaintFile::Program, program.clone()));
+    assert!(!program.exists());
+    // Neither a file that is no good nor one that is gone is taken for an empty cell.
+    let empty = bench.data.path().join("empty.toml");
+    std::fs::write(&empty, "").expect("written");
+    for file in [empty, bench.data.path().join("none.toml")] {
+        bench.shell.session.program.obstacles = Some(file.display().to_string());
+        bench.settle();
+        let reach = bench.paint.reach(&bench.shell.session).expect("an answer");
+        let error = reach.as_ref().expect_err("no boxes");
+        assert!(!error.advice.is_empty(), "{error:?}");
+    }
 }
 
 #[test]

@@ -1,0 +1,215 @@
+//! A straight segment in space: how near it comes to a box and to a cloud.
+
+use nalgebra::{Point3, Vector3};
+
+use super::{nearest::KdTree, rigid::RigidTransform};
+
+/// A straight segment, metres. One of no length is a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Where it begins.
+    pub from: Point3<f64>,
+    /// Where it ends.
+    pub to: Point3<f64>,
+}
+
+/// Least step along a segment beside a cloud, metres. A point at the distance d then seems at most STEP² / 8d too far away:
+/// 0.1 mm at 100 mm.
+const STEP: f64 = 0.01;
+
+impl Segment {
+    /// Its length, metres.
+    pub fn length(&self) -> f64 {
+        (self.to - self.from).norm()
+    }
+
+    /// The same segment in another frame.
+    #[must_use]
+    pub fn moved(&self, transform: &RigidTransform) -> Self {
+        Self {
+            from: transform * self.from,
+            to: transform * self.to,
+        }
+    }
+
+    /// Its distance to the box about the origin that reaches to `half` along each axis, metres; 0 where they meet.
+    pub fn distance_to_box(&self, half: &Vector3<f64>) -> f64 {
+        let (from, way) = (self.from.coords, self.to - self.from);
+        // From the nearest point of the box.
+        let off = |share: f64| {
+            let at = from + way * share;
+            at - at.zip_map(half, |x, half| x.clamp(-half, half))
+        };
+        // Half the slope of the squared distance. A box is convex, so the slope never falls; and it is straight between
+        // the shares at which the segment passes a plane of a face.
+        let slope = |share: f64| off(share).dot(&way);
+        let mut before = slope(0.0);
+        if before >= 0.0 {
+            return off(0.0).norm();
+        }
+        let mut shares: [f64; 8] = std::array::from_fn(|k| match k {
+            6 => 0.0,
+            7 => 1.0,
+            k => {
+                let axis = k / 2;
+                let face = if k.is_multiple_of(2) {
+                    -half[axis]
+                } else {
+                    half[axis]
+                };
+                let share = (face - from[axis]) / way[axis];
+                // Not within the segment, or along the plane.
+                if share > 0.0 && share < 1.0 {
+                    share
+                } else {
+                    0.0
+                }
+            }
+        });
+        shares.sort_by(f64::total_cmp);
+        for pair in shares.windows(2) {
+            let after = slope(pair[1]);
+            if after >= 0.0 {
+                let share = pair[0] + (pair[1] - pair[0]) * before / (before - after);
+                return off(share).norm();
+            }
+            before = after;
+        }
+        off(1.0).norm()
+    }
+
+    /// Its distance to the nearest point of a cloud, metres, if that is below `within`.
+    ///
+    /// It is walked along from its beginning. Where the nearest point is at the distance d, none comes nearer than the best
+    /// so far on the next d - best of the way, so a segment far from the cloud takes one search.
+    pub fn distance_to_cloud(&self, cloud: &KdTree, within: f64) -> Option<f64> {
+        let length = self.length();
+        let mut best = within;
+        let mut walked = 0.0;
+        loop {
+            let share = if length > 0.0 { walked / length } else { 0.0 };
+            let here = self.from + (self.to - self.from) * share;
+            let rest = length - walked;
+            // What is farther is not reached on the rest of the way either.
+            let radius = best + rest;
+            let Some(found) = cloud.nearest(&here.cast(), (radius * radius) as f32) else {
+                break;
+            };
+            let distance = f64::from(found.distance_sq).sqrt();
+            best = best.min(distance);
+            if rest <= 0.0 {
+                break;
+            }
+            walked = (walked + (distance - best).max(STEP)).min(length);
+        }
+        (best < within).then_some(best)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt as _, SeedableRng as _};
+    use rand_pcg::Pcg64;
+
+    use super::*;
+
+    fn segment(from: [f64; 3], to: [f64; 3]) -> Segment {
+        Segment {
+            from: Point3::from(from),
+            to: Point3::from(to),
+        }
+    }
+
+    fn any_point(random: &mut Pcg64, range: f64) -> [f64; 3] {
+        std::array::from_fn(|_| random.random_range(-range..range))
+    }
+
+    #[test]
+    fn distances_to_a_box_are_those_to_its_faces_edges_and_corners() {
+        let half = Vector3::new(1.0, 2.0, 3.0);
+        for (from, to, wanted) in [
+            // Beside a face, along it and towards it.
+            ([1.5, -9.0, 0.0], [1.5, 9.0, 0.0], 0.5),
+            ([4.0, 0.0, 0.0], [1.25, 0.5, 0.5], 0.25),
+            // Past an edge in z, crossing over it.
+            ([4.0, 3.0, 0.0], [2.0, 5.0, 0.0], 2.0_f64.sqrt() * 2.0),
+            // A point beyond a corner, and one that is no way at all from it.
+            ([2.0, 4.0, 5.0], [2.0, 4.0, 5.0], 3.0),
+            // Away from it.
+            ([1.0, 2.0, 4.0], [5.0, 6.0, 9.0], 1.0),
+            // Through it, out of it and within it.
+            ([-5.0, 0.0, 0.0], [5.0, 0.1, 0.2], 0.0),
+            ([0.5, 0.0, 0.0], [9.0, 0.0, 0.0], 0.0),
+            ([0.5, 0.5, 0.5], [-0.5, -0.5, 1.0], 0.0),
+        ] {
+            for segment in [segment(from, to), segment(to, from)] {
+                let found = segment.distance_to_box(&half);
+                assert!((found - wanted).abs() < 1e-12, "{segment:?}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_box_is_as_near_as_the_nearest_of_many_places_on_the_segment() {
+        let mut random = Pcg64::seed_from_u64(3);
+        let half = Vector3::new(0.3, 0.1, 0.5);
+        for _ in 0..500 {
+            let any = segment(any_point(&mut random, 1.0), any_point(&mut random, 1.0));
+            let places = (0..=2000).map(|i| any.from + (any.to - any.from) * f64::from(i) / 2000.0);
+            let slow = places.map(|at| {
+                let off = at.coords.abs() - half;
+                off.map(|x| x.max(0.0)).norm()
+            });
+            let slow = slow.fold(f64::INFINITY, f64::min);
+            let found = any.distance_to_box(&half);
+            assert!(found <= slow + 1e-12, "{any:?}: {found}, {slow}");
+            assert!(found > slow - any.length() / 4000.0 - 1e-12, "{any:?}");
+        }
+    }
+
+    fn slow_distance(points: &[Point3<f32>], segment: &Segment) -> f64 {
+        let way = segment.to - segment.from;
+        let distances = points.iter().map(|p| {
+            let off = p.cast::<f64>() - segment.from;
+            let share = (off.dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
+            (off - way * share).norm()
+        });
+        distances.fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn a_cloud_is_as_near_as_its_nearest_point() {
+        let mut random = Pcg64::seed_from_u64(4);
+        let points: Vec<Point3<f32>> = (0..400)
+            .map(|_| Point3::from(any_point(&mut random, 0.5)).cast())
+            .collect();
+        let tree = KdTree::new(&points);
+        let mut num_near = 0;
+        for _ in 0..500 {
+            let any = segment(any_point(&mut random, 1.5), any_point(&mut random, 1.5));
+            let slow = slow_distance(&points, &any);
+            let too_far = (slow * slow + STEP * STEP / 4.0).sqrt() + 1e-5;
+            match any.distance_to_cloud(&tree, 0.1) {
+                Some(found) => {
+                    num_near += 1;
+                    assert!(found > slow - 1e-5 && found < too_far, "{found} {slow}");
+                }
+                None => assert!(too_far > 0.1, "{slow}"),
+            }
+        }
+        assert!((50..450).contains(&num_near), "{num_near}");
+    }
+
+    #[test]
+    fn a_segment_without_length_is_a_point_and_no_cloud_is_near_nothing() {
+        let at = segment([0.0, 0.0, 0.2], [0.0, 0.0, 0.2]);
+        let points = [Point3::origin(), Point3::new(f32::NAN, 0.0, 0.2)];
+        let tree = KdTree::new(&points);
+        let found = at.distance_to_cloud(&tree, 1.0).expect("near");
+        assert!((found - 0.2).abs() < 1e-6);
+        assert_eq!(at.distance_to_cloud(&tree, 0.19), None);
+        let empty = KdTree::new(&[]);
+        assert_eq!(at.distance_to_cloud(&empty, f64::INFINITY), None);
+        assert!((at.distance_to_box(&Vector3::repeat(0.1)) - 0.1).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,231 @@
+//! What joints an arm may take at each point of a path, and the cheapest chain of them.
+
+use std::f64::consts::TAU;
+
+use nalgebra::UnitQuaternion;
+
+use super::{
+    Arm,
+    check::ArmPoint,
+    kinematics::{Joints, Solver},
+};
+use crate::geometry::rigid::RigidTransform;
+
+/// Costs as much as this many seconds of joint motion: a singularity nearby, and a turn by one step.
+const SINGULAR_COST: f64 = 2.0;
+const TURN_COST: f64 = 0.02;
+/// A way that no joint manages costs this much and more.
+const JUMP_COST: f64 = 1e4;
+/// What collides costs more than a hundred jumps: as if beyond a limit, it is only chosen where none is free.
+const COLLISION_COST: f64 = 1e6;
+/// Chains that are chosen before every candidate is tested for collisions.
+const LAZY_ROUNDS: usize = 3;
+
+/// One way to stand at a point.
+#[derive(Clone, Copy)]
+pub(super) struct Candidate {
+    pub(super) joints: Joints,
+    pub(super) turn: usize,
+    /// Of the point alone.
+    cost: f64,
+    /// Whether it collides; none if it was not tested yet.
+    pub(super) is_collision: Option<bool>,
+}
+
+impl Candidate {
+    /// Whether it collides; tested once, and from then on part of its cost.
+    fn collides(&mut self, solver: &Solver<'_>) -> bool {
+        if let Some(known) = self.is_collision {
+            return known;
+        }
+        let collides = solver.collides(&self.joints);
+        if collides {
+            self.cost += COLLISION_COST;
+        }
+        self.is_collision = Some(collides);
+        collides
+    }
+}
+
+/// Angle of a step about z, radians within ±π; the steps are even.
+pub(super) fn angle_of(turn: usize, num_turns: usize) -> f64 {
+    let angle = TAU * turn as f64 / num_turns as f64;
+    if angle > std::f64::consts::PI {
+        angle - TAU
+    } else {
+        angle
+    }
+}
+
+/// Steps between two turns, the shorter way round.
+fn turns_apart(a: usize, b: usize, num_turns: usize) -> usize {
+    let apart = a.abs_diff(b);
+    apart.min(num_turns.max(1).saturating_sub(apart))
+}
+
+pub(super) fn turned(point: &ArmPoint, angle: f64) -> RigidTransform {
+    point.robot_from_nozzle * UnitQuaternion::from_euler_angles(0.0, 0.0, angle)
+}
+
+/// The turns that are tried at a point.
+pub(super) fn turns_of(point: &ArmPoint, num_turns: usize) -> std::ops::Range<usize> {
+    0..if point.is_turn_free {
+        num_turns.max(1)
+    } else {
+        1
+    }
+}
+
+pub(super) fn candidates_of(
+    solver: &Solver<'_>,
+    point: &ArmPoint,
+    num_turns: usize,
+) -> Vec<Candidate> {
+    let mut all = Vec::new();
+    for turn in turns_of(point, num_turns) {
+        let pose = turned(point, angle_of(turn, num_turns));
+        for solution in solver.solutions(&pose, None) {
+            let is_singular = solver.singularity(&solution).is_some();
+            // Turning away from the path's own orientation gains nothing by itself.
+            let away = turn.min(num_turns - turn) as f64;
+            let cost = 0.1 * TURN_COST * away + if is_singular { SINGULAR_COST } else { 0.0 };
+            all.extend(
+                solver
+                    .within_limits(&solution)
+                    .into_iter()
+                    .map(|joints| Candidate {
+                        joints,
+                        turn,
+                        cost,
+                        is_collision: None,
+                    }),
+            );
+        }
+    }
+    all
+}
+
+/// Seconds that the slowest joint needs from one to the other, and that joint.
+fn joint_time(arm: &Arm, from: &Joints, to: &Joints) -> (f64, usize) {
+    let mut worst = (0.0, 0);
+    for i in 0..6 {
+        let time = (to[i] - from[i]).abs() / arm.speeds[i];
+        if time > worst.0 {
+            worst = (time, i);
+        }
+    }
+    worst
+}
+
+/// Seconds that a move takes: a turn on the spot takes as long as the joints want.
+pub(super) fn move_time(from: &RigidTransform, to: &RigidTransform, speed: f64) -> Option<f64> {
+    /// Nothing moves by less, metres.
+    const STANDS: f64 = 1e-4;
+    let distance = (to.translation.vector - from.translation.vector).norm();
+    (distance > STANDS).then(|| distance / speed)
+}
+
+/// The cheapest chain of candidates with their collisions; each that it holds has been tested.
+///
+/// A point under a round jet has up to 24 turns × 8 configurations, more with whole turns of joints. To test one means to
+/// place five capsules and search the part's points along some of them, about as much work as finding it; and hardly any is
+/// ever used. So only what the chain holds is tested, after R. Bohlin, L. E. Kavraki, "Path Planning Using Lazy PRM", ICRA
+/// 2000: an untested candidate costs as little as a free one, so a chain stays the cheapest if all that it holds prove free.
+/// Where one is not, every candidate of its point is tested and another chain chosen. A path without collisions takes one
+/// test per point; one that collides nearly everywhere takes [`LAZY_ROUNDS`] chains more and a test of each candidate.
+pub(super) fn free_chain(
+    solver: &Solver<'_>,
+    points: &[ArmPoint],
+    candidates: &mut [Vec<Candidate>],
+    num_turns: usize,
+) -> Vec<Option<usize>> {
+    for _ in 0..LAZY_ROUNDS {
+        let chosen = best_chain(solver.arm, points, candidates, num_turns);
+        let mut is_final = true;
+        for (here, chosen) in candidates.iter_mut().zip(&chosen) {
+            let chosen = chosen.and_then(|index| here.get_mut(index));
+            let untested = chosen.filter(|candidate| candidate.is_collision.is_none());
+            if untested.is_some_and(|candidate| candidate.collides(solver)) {
+                is_final = false;
+                for candidate in here {
+                    candidate.collides(solver);
+                }
+            }
+        }
+        if is_final {
+            return chosen;
+        }
+    }
+    for candidate in candidates.iter_mut().flatten() {
+        candidate.collides(solver);
+    }
+    best_chain(solver.arm, points, candidates, num_turns)
+}
+
+/// The cheapest chain of candidates; none where there is no candidate, behind which a new chain begins.
+fn best_chain(
+    arm: &Arm,
+    points: &[ArmPoint],
+    candidates: &[Vec<Candidate>],
+    num_turns: usize,
+) -> Vec<Option<usize>> {
+    // Of every candidate the cost so far and the candidate of the point before.
+    let mut chains: Vec<Vec<(f64, Option<usize>)>> = Vec::with_capacity(points.len());
+    for (i, here) in candidates.iter().enumerate() {
+        let before = i
+            .checked_sub(1)
+            .map(|before| (&candidates[before], &chains[before]));
+        let row = here.iter().map(|candidate| {
+            let Some((former, costs)) = before.filter(|(former, _)| !former.is_empty()) else {
+                return (candidate.cost, None);
+            };
+            let (from, to) = (
+                &points[i - 1].robot_from_nozzle,
+                &points[i].robot_from_nozzle,
+            );
+            let allowed = move_time(from, to, points[i - 1].speed);
+            let step = |previous: &Candidate| {
+                let apart = turns_apart(previous.turn, candidate.turn, num_turns);
+                let (time, _) = joint_time(arm, &previous.joints, &candidate.joints);
+                let is_jump = allowed.map_or(time > 1.0, |allowed| time > allowed);
+                time + TURN_COST * apart as f64 + if is_jump { JUMP_COST } else { 0.0 }
+            };
+            let cheapest = |is_near: bool| {
+                let mut best = (f64::INFINITY, None);
+                for (k, (previous, (cost, _))) in former.iter().zip(costs).enumerate() {
+                    let is_out = turns_apart(previous.turn, candidate.turn, num_turns) > 1;
+                    if *cost >= best.0 || (is_near && is_out) {
+                        continue;
+                    }
+                    let cost = cost + step(previous);
+                    if cost < best.0 {
+                        best = (cost, Some(k));
+                    }
+                }
+                best
+            };
+            // A nozzle that turns farther at once is only looked at where nothing else goes on without a collision.
+            let near = cheapest(true);
+            let is_free = |k: usize| former[k].is_collision != Some(true);
+            let best = if near.1.is_some_and(is_free) {
+                near
+            } else {
+                cheapest(false)
+            };
+            (best.0 + candidate.cost, best.1)
+        });
+        let row = row.collect();
+        chains.push(row);
+    }
+    let mut chosen = vec![None; points.len()];
+    let mut next: Option<usize> = None;
+    for (i, row) in chains.iter().enumerate().rev() {
+        let cheapest = || {
+            let costs = row.iter().enumerate();
+            costs.min_by(|a, b| a.1.0.total_cmp(&b.1.0)).map(|(k, _)| k)
+        };
+        chosen[i] = next.or_else(cheapest);
+        next = chosen[i].and_then(|k| row[k].1);
+    }
+    chosen
+}

@@ -1,0 +1,477 @@
+//! What gun and arm must not run into: the part, boxes of the cell and its floor.
+//!
+//! Upper arm, forearm, wrist and gun are capsules: all points within a radius of a straight segment. The part is the points
+//! that it was enrolled with, each standing for the surface up to their spacing around it. Boxes and floor stay where they
+//! are in the robot's base frame:
+//!
+//! ```toml
+//! floor_mm = -600                  # height of the floor; none without it
+//! [[box]]
+//! name = "hanger"
+//! centre_mm = [1200, 0, 1900]
+//! size_mm = [1500, 100, 100]
+//! angles_deg = [0, 0, 30]          # about x, y and z of the base, R = Rz·Ry·Rx; 0 without them
+//! ```
+//!
+//! Known limits: hoses, cables and what the arm carries besides the gun are no bodies, nor are its foot, which stands still,
+//! and its counterweights. The side of the part that was not enrolled is not there, and neither is a stand or a wall unless a
+//! box stands for it. The arm is not checked against itself.
+
+use std::{path::Path, sync::Arc};
+
+use nalgebra::{Point3, Translation3, Vector3};
+use serde::Deserialize;
+
+use super::ArmError;
+use crate::{
+    files::read_text,
+    geometry::{
+        cloud::PointCloud,
+        nearest::{KdTree, median_spacing},
+        rigid::{RigidTransform, from_euler_zyx},
+        segment::Segment,
+    },
+};
+
+/// A larger file lists no boxes of a cell.
+const MAX_BYTES: u64 = 1 << 20;
+/// Every candidate may be tested against all boxes; no cell has as many.
+const MAX_BOXES: usize = 200;
+/// Letters of a box's name.
+const MAX_NAME: usize = 60;
+/// No cell is as large, millimetres.
+const LARGEST: f64 = 100_000.0;
+
+/// A body of gun or arm.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Body {
+    /// From the flange to the nozzle's mouth.
+    Gun,
+    /// From the middle of the wrist to the flange.
+    Wrist,
+    /// From joint 3 to the middle of the wrist.
+    Forearm,
+    /// From joint 2 to joint 3.
+    UpperArm,
+}
+
+impl Body {
+    /// For people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Gun => "gun",
+            Self::Wrist => "wrist",
+            Self::Forearm => "forearm",
+            Self::UpperArm => "upper arm",
+        }
+    }
+}
+
+/// Something that is in the way.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Obstacle {
+    /// The part that is painted.
+    Part,
+    /// The floor of the cell.
+    Floor,
+    /// A box of the cell, by its name.
+    Box(String),
+}
+
+/// All points within `radius` metres of the axis, in the frame of the path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Capsule {
+    pub(super) body: Body,
+    pub(super) axis: Segment,
+    pub(super) radius: f64,
+}
+
+/// What gun and arm must not run into, in the frame of the path.
+#[derive(Clone, Debug)]
+pub struct Obstacles {
+    /// Nearer than this is too near, metres, 0..1.
+    pub clearance: f64,
+    boxes: Vec<CellBox>,
+    /// Height of the floor, metres.
+    floor: Option<f64>,
+    part: Option<Arc<PartPoints>>,
+}
+
+#[derive(Clone, Debug)]
+struct CellBox {
+    name: String,
+    box_from_robot: RigidTransform,
+    half: Vector3<f64>,
+}
+
+/// The points of the part, from the middle of their extent.
+#[derive(Debug)]
+struct PartPoints {
+    tree: KdTree,
+    half: Vector3<f64>,
+    spacing: f64,
+    middle_from_robot: RigidTransform,
+}
+
+/// The file's content.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Text {
+    floor_mm: Option<f64>,
+    #[serde(default, rename = "box")]
+    boxes: Vec<BoxText>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BoxText {
+    name: String,
+    centre_mm: [f64; 3],
+    size_mm: [f64; 3],
+    #[serde(default)]
+    angles_deg: [f64; 3],
+}
+
+impl Default for Obstacles {
+    /// None, with a clearance of 20 mm.
+    fn default() -> Self {
+        Self {
+            clearance: 0.02,
+            boxes: Vec::new(),
+            floor: None,
+            part: None,
+        }
+    }
+}
+
+impl Obstacles {
+    /// Reads the boxes of a cell and its floor.
+    pub fn read(path: &Path) -> Result<Self, ArmError> {
+        let wrong = |message: String| ArmError::Obstacles {
+            path: path.to_owned(),
+            message,
+        };
+        let text: Text = toml::from_str(&read_text(path, MAX_BYTES)?)
+            .map_err(|error| wrong(error.message().to_owned()))?;
+        if text.boxes.len() > MAX_BOXES {
+            let num = text.boxes.len();
+            return Err(wrong(format!("{num} boxes, expected at most {MAX_BOXES}")));
+        }
+        if text.boxes.is_empty() && text.floor_mm.is_none() {
+            return Err(wrong("neither a box nor a floor".into()));
+        }
+        if let Some(floor) = text.floor_mm
+            && !(floor.abs() <= LARGEST)
+        {
+            return Err(wrong(format!("floor_mm is {floor}")));
+        }
+        let boxes = text.boxes.into_iter().enumerate().map(|(i, text)| {
+            text.checked()
+                .map_err(|message| wrong(format!("box {}: {message}", i + 1)))
+        });
+        Ok(Self {
+            boxes: boxes.collect::<Result<_, _>>()?,
+            floor: text.floor_mm.map(|floor| floor / 1000.0),
+            ..Self::default()
+        })
+    }
+
+    /// The same with the part's points, in the part's frame; those that are not finite do not count.
+    #[must_use]
+    pub fn with_part(self, points: &[Point3<f32>], robot_from_part: &RigidTransform) -> Self {
+        Self {
+            part: PartPoints::new(points, robot_from_part).map(Arc::new),
+            ..self
+        }
+    }
+
+    /// The corners of each box. Two are joined by an edge if their numbers differ in one bit.
+    pub fn boxes(&self) -> impl Iterator<Item = [Point3<f64>; 8]> {
+        self.boxes.iter().map(|one| {
+            let robot_from_box = one.box_from_robot.inverse();
+            std::array::from_fn(|i| {
+                let sides = [0, 1, 2].map(|axis| if (i >> axis) & 1 == 0 { -1.0 } else { 1.0 });
+                let corner = Vector3::from(sides).component_mul(&one.half);
+                robot_from_box * Point3::from(corner)
+            })
+        })
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.boxes.is_empty() && self.floor.is_none() && self.part.is_none()
+    }
+
+    /// Every body that is too near to something, and by how much: the room between them less the clearance, metres.
+    fn pairs(&self, bodies: &[Capsule]) -> impl Iterator<Item = (f64, Body, Obstacle)> {
+        bodies.iter().flat_map(move |capsule| {
+            let Capsule { body, axis, radius } = *capsule;
+            let within = radius + self.clearance;
+            let part = self.part.iter().filter_map(move |part| {
+                let distance = part.distance(&axis, within)?;
+                Some((distance - within, body, Obstacle::Part))
+            });
+            let floor = self.floor.iter().filter_map(move |floor| {
+                let room = axis.from.z.min(axis.to.z) - floor - within;
+                (room < 0.0).then_some((room, body, Obstacle::Floor))
+            });
+            let boxes = self.boxes.iter().filter_map(move |one| {
+                let distance = one.distance(&axis, within)?;
+                Some((distance - within, body, Obstacle::Box(one.name.clone())))
+            });
+            part.chain(floor).chain(boxes)
+        })
+    }
+
+    /// Whether any body is too near to something: stops at the first.
+    pub(super) fn is_hit_by(&self, bodies: &[Capsule]) -> bool {
+        self.pairs(bodies).next().is_some()
+    }
+
+    /// The body that is too near to something, and to what: of several the pair with the least room, whatever their order.
+    pub(super) fn worst(&self, bodies: &[Capsule]) -> Option<(Body, Obstacle)> {
+        let worst = self.pairs(bodies).min_by(|a, b| {
+            let room = a.0.total_cmp(&b.0);
+            room.then_with(|| (a.1, &a.2).cmp(&(b.1, &b.2)))
+        });
+        worst.map(|(_, body, obstacle)| (body, obstacle))
+    }
+}
+
+impl BoxText {
+    fn checked(self) -> Result<CellBox, String> {
+        let name = self.name.trim();
+        let is_name = !name.is_empty() && !name.contains(char::is_control);
+        if !is_name || name.chars().count() > MAX_NAME {
+            return Err(format!("its name has not 1 to {MAX_NAME} letters"));
+        }
+        let wrong = |what: &str, values: [f64; 3]| Err(format!("{what} of {name} is {values:?}"));
+        if !self.centre_mm.iter().all(|x| x.abs() <= LARGEST) {
+            return wrong("centre_mm", self.centre_mm);
+        }
+        if !self.size_mm.iter().all(|x| *x > 0.0 && *x <= LARGEST) {
+            return wrong("size_mm", self.size_mm);
+        }
+        if !self.angles_deg.iter().all(|x| x.abs() <= 360.0) {
+            return wrong("angles_deg", self.angles_deg);
+        }
+        let [x, y, z] = self.centre_mm.map(|x| x / 1000.0);
+        let [rx, ry, rz] = self.angles_deg.map(f64::to_radians);
+        Ok(CellBox {
+            name: name.to_owned(),
+            box_from_robot: from_euler_zyx([rx, ry, rz, x, y, z]).inverse(),
+            half: Vector3::from(self.size_mm) / 2000.0,
+        })
+    }
+}
+
+impl CellBox {
+    /// The distance of a segment to its surface, if below `within`; 0 inside.
+    fn distance(&self, axis: &Segment, within: f64) -> Option<f64> {
+        let axis = axis.moved(&self.box_from_robot);
+        // The spheres around both are apart: most boxes of a cell are far from most bodies.
+        let middle = nalgebra::center(&axis.from, &axis.to).coords.norm();
+        if middle - self.half.norm() - axis.length() / 2.0 >= within {
+            return None;
+        }
+        let distance = axis.distance_to_box(&self.half);
+        (distance < within).then_some(distance)
+    }
+}
+
+impl PartPoints {
+    fn new(points: &[Point3<f32>], robot_from_part: &RigidTransform) -> Option<Self> {
+        let cloud = PointCloud::from_points(points.iter().copied());
+        let (low, high) = cloud.bounds()?;
+        let middle = nalgebra::center(&low, &high);
+        let about_middle: Vec<Point3<f32>> =
+            cloud.points.iter().map(|p| p - middle.coords).collect();
+        let tree = KdTree::new(&about_middle);
+        let part_from_middle = Translation3::from(middle.coords.cast::<f64>());
+        Some(Self {
+            spacing: median_spacing(&about_middle, &tree),
+            tree,
+            half: (high - low).cast::<f64>() / 2.0,
+            middle_from_robot: (robot_from_part * part_from_middle).inverse(),
+        })
+    }
+
+    /// The distance of a segment to its surface, if below `within`: that to the nearest point less the points' spacing.
+    fn distance(&self, axis: &Segment, within: f64) -> Option<f64> {
+        let axis = axis.moved(&self.middle_from_robot);
+        let within = within + self.spacing;
+        // Beside the box around all points no point needs to be looked for.
+        if axis.distance_to_box(&self.half) >= within {
+            return None;
+        }
+        let distance = axis.distance_to_cloud(&self.tree, within)?;
+        Some(distance - self.spacing)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Advice as _;
+
+    fn capsule(body: Body, from: [f64; 3], to: [f64; 3], radius: f64) -> Capsule {
+        Capsule {
+            body,
+            axis: Segment {
+                from: Point3::from(from),
+                to: Point3::from(to),
+            },
+            radius,
+        }
+    }
+
+    /// A box of 400 × 200 × 200 mm, 1 m ahead and turned about z by a right angle.
+    fn one_box(name: &str) -> CellBox {
+        let text = BoxText {
+            name: name.into(),
+            centre_mm: [1000.0, 0.0, 0.0],
+            size_mm: [400.0, 200.0, 200.0],
+            angles_deg: [0.0, 0.0, 90.0],
+        };
+        text.checked().expect("a box")
+    }
+
+    #[test]
+    fn a_body_is_too_near_within_its_radius_and_the_clearance() {
+        let boxed = |names: [&str; 2]| Obstacles {
+            boxes: names.map(one_box).to_vec(),
+            ..Obstacles::default()
+        };
+        let obstacles = boxed(["post", "post"]);
+        // Its face is at 900 mm: 50 + 20 mm before it.
+        for (x, is_hit) in [(0.829, false), (0.831, true), (1.0, true), (1.171, false)] {
+            let gun = [capsule(Body::Gun, [x, -1.0, 0.0], [x, 1.0, 0.0], 0.05)];
+            assert_eq!(obstacles.is_hit_by(&gun), is_hit, "{x}");
+            let wanted = is_hit.then(|| (Body::Gun, Obstacle::Box("post".into())));
+            assert_eq!(obstacles.worst(&gun), wanted);
+        }
+        // Along y it reaches to 200 mm.
+        for (y, is_hit) in [(0.271, false), (0.269, true)] {
+            let gun = [capsule(Body::Gun, [0.0, y, 0.0], [2.0, y, 0.0], 0.05)];
+            assert_eq!(obstacles.is_hit_by(&gun), is_hit, "{y}");
+        }
+        // The worst is named, in whatever order: the wrist is as near but thinner.
+        let bodies = [
+            capsule(Body::Wrist, [0.85, 0.0, 0.0], [0.85, 0.0, 0.0], 0.04),
+            capsule(Body::Forearm, [0.85, 0.0, 0.0], [0.85, 0.0, 0.0], 0.05),
+        ];
+        let backwards = [bodies[1], bodies[0]];
+        for obstacles in [boxed(["a", "b"]), boxed(["b", "a"])] {
+            for bodies in [bodies, backwards] {
+                let wanted = (Body::Forearm, Obstacle::Box("a".into()));
+                assert_eq!(obstacles.worst(&bodies), Some(wanted));
+            }
+        }
+    }
+
+    #[test]
+    fn a_floor_is_below_everything() {
+        let obstacles = Obstacles {
+            floor: Some(-0.5),
+            ..Obstacles::default()
+        };
+        for (z, is_hit) in [(-0.39, false), (-0.41, true), (-9.0, true)] {
+            let arm = [capsule(Body::Wrist, [7.0, 0.0, 1.0], [7.0, 3.0, z], 0.08)];
+            let wanted = is_hit.then_some((Body::Wrist, Obstacle::Floor));
+            assert_eq!(obstacles.worst(&arm), wanted, "{z}");
+        }
+    }
+
+    /// A sheet of points every 10 mm, 2 m ahead of the robot and square to its x axis.
+    fn sheet() -> Obstacles {
+        let side = |i: u16| 0.01 * f32::from(i) - 0.3;
+        let points = (0..=60).flat_map(|i| (0..=60).map(move |k| [side(i), side(k)]));
+        let mut points: Vec<Point3<f32>> = points.map(|[y, z]| Point3::new(0.0, y, z)).collect();
+        points.push(Point3::new(f32::NAN, 0.0, 0.0));
+        let robot_from_part = from_euler_zyx([0.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
+        Obstacles::default().with_part(&points, &robot_from_part)
+    }
+
+    #[test]
+    fn a_gun_through_the_points_of_a_part_is_found_and_one_before_them_is_free() {
+        let obstacles = sheet();
+        let wanted = Some((Body::Gun, Obstacle::Part));
+        let gun = |from: f64, to: f64| {
+            // Between the points.
+            let at = |x: f64| [x, 0.005, 0.005];
+            obstacles.worst(&[capsule(Body::Gun, at(from), at(to), 0.05)])
+        };
+        // 50 mm of the gun, 20 of clearance, 10 of spacing.
+        assert_eq!(gun(1.0, 1.9), None);
+        assert_eq!(gun(1.0, 1.93), wanted);
+        assert_eq!(gun(1.0, 3.0), wanted);
+        assert_eq!(gun(3.0, 1.0), wanted);
+        assert_eq!(gun(2.1, 3.0), None);
+        let beside = capsule(Body::Gun, [1.0, 0.385, 0.0], [3.0, 0.385, 0.0], 0.05);
+        assert_eq!(obstacles.worst(&[beside]), None);
+        let nothing = Obstacles::default().with_part(&[], &RigidTransform::identity());
+        assert!(nothing.is_empty() && !obstacles.is_empty());
+    }
+
+    #[test]
+    fn the_corners_of_a_box_are_where_it_is() {
+        let obstacles = Obstacles {
+            boxes: vec![one_box("post")],
+            ..Obstacles::default()
+        };
+        let corners = obstacles.boxes().next().expect("a box");
+        for (i, corner) in corners.iter().enumerate() {
+            let off = (corner - Point3::new(1.0, 0.0, 0.0)).abs();
+            assert!((off - Vector3::new(0.1, 0.2, 0.1)).norm() < 1e-12);
+            let edges = [1, 2, 4].map(|bit| (corner - corners[i ^ bit]).norm());
+            assert!((edges.iter().sum::<f64>() - 0.8).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_file_of_boxes_is_read_and_a_bad_one_refused_with_advice() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("boxes.toml");
+        let read = |text: &str| {
+            std::fs::write(&path, text).expect("written");
+            Obstacles::read(&path)
+        };
+        let text = "floor_mm = -600\n\
+            [[box]]\nname = \"post\"\ncentre_mm = [1000, 0, 0]\nsize_mm = [400, 200, 200.0]\n\
+            angles_deg = [0, 0, 90]\n\
+            [[box]]\nname = \"cabin\"\ncentre_mm = [0, -2000, 0]\nsize_mm = [9, 9, 9]\n";
+        let found = read(text).expect("boxes");
+        assert_eq!((found.floor, found.boxes.len()), (Some(-0.6), 2));
+        let gun = [capsule(Body::Gun, [0.84, 0.0, 0.0], [0.84, 0.0, 0.0], 0.05)];
+        assert_eq!(
+            found.worst(&gun),
+            Some((Body::Gun, Obstacle::Box("post".into())))
+        );
+        let refused = |error: ArmError| {
+            assert!(error.advice().contains("centre_mm"), "{}", error.advice());
+            error.to_string()
+        };
+        for (old, new, wanted) in [
+            ("-600", "nan", "floor_mm"),
+            ("-600", "1e9", "floor_mm"),
+            ("[1000, 0, 0]", "[nan, 0, 0]", "box 1: centre_mm of post"),
+            ("[1000, 0, 0]", "[0, inf, 0]", "box 1: centre_mm of post"),
+            ("[9, 9, 9]", "[9, 0, 9]", "box 2: size_mm of cabin"),
+            ("[9, 9, 9]", "[9, -9, 9]", "box 2: size_mm of cabin"),
+            ("[9, 9, 9]", "[9, 9]", "3"),
+            ("[0, 0, 90]", "[0, 0, 9000]", "box 1: angles_deg"),
+            ("\"cabin\"", "\" \"", "box 2: its name"),
+            ("\"cabin\"", "\"a\\u001b[2J\"", "box 2: its name"),
+            ("angles_deg", "angles", "angles"),
+            ("[[box]]", "[[boxes]]", "boxes"),
+            ("[[box]]", "[[", ""),
+        ] {
+            let error = refused(read(&text.replace(old, new)).expect_err(new));
+            assert!(error.contains(wanted), "{new}: {error}");
+        }
+        assert!(refused(read("").expect_err("empty")).contains("neither a box nor a floor"));
+        let many = "[[box]]\nname = \"a\"\ncentre_mm = [1, 2, 3]\nsize_mm = [1, 2, 3]\n";
+        let many = refused(read(&many.repeat(10_000)).expect_err("too many"));
+        assert!(many.contains("10000 boxes, expected at most 200"), "{many}");
+        assert!(Obstacles::read(&folder.path().join("none.toml")).is_err());
+    }
+}
