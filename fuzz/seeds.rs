@@ -1,10 +1,6 @@
 //! Small files to begin with, made by the program's own writers: `seeds FOLDER` fills `FOLDER/<target>`.
 
-use std::{
-    env, fs,
-    path::{Path, PathBuf},
-    time::Duration,
-};
+use std::{env, fs, path::Path, time::Duration};
 
 use nalgebra::Point3;
 use partsight::{
@@ -14,6 +10,7 @@ use partsight::{
     files::write_depth_png,
     geometry::rigid::row_major,
     open_source,
+    paint::built_in_coat,
     pipeline::RecipeFile,
     robot::calibration::{CameraPlace, CellCalibration, Origin},
     save_cloud, simulated_frame,
@@ -30,8 +27,13 @@ const GLTF: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0
     "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
     "buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}]}"#;
 
-fn main() -> Outcome {
-    let root = PathBuf::from(env::args_os().nth(1).ok_or("which folder?")?);
+pub(crate) fn main() -> Outcome {
+    let root = env::args_os().nth(1).ok_or("which folder?")?;
+    fill(Path::new(&root))
+}
+
+/// Writes the seeds of each target into a folder of its own.
+pub(crate) fn fill(root: &Path) -> Outcome {
     for (target, fill) in [
         ("open", open as fn(&Path) -> Outcome),
         ("texts", texts),
@@ -158,6 +160,10 @@ fn texts(folder: &Path) -> Outcome {
         ("pairs-json", r#"{"robot":"kuka","camera":"rotation-vector","pairs":[{"name":"p1","robot":[1450.5,-310,890.5,10,20,30],"camera":[0.1,-0.03,1.2,0,0,0.5]}]}"#.to_owned()),
         ("arm", "# robot: fanuc\ncapture, X, Y, Z, W, P, R\na.pcd, 1000, 0, 0, 0, 0, 90\n".to_owned()),
         ("frame-poses", format!(r#"{{"frames":{{"a.png":{{"world_from_camera":{numbers}}},"b.png":{{"robot_from_flange":{numbers}}}}}}}"#)),
+        ("coat", built_in_coat("primer").ok_or("no primer")?.text()),
+        ("stripe", "offset_mm,thickness_um\n-50,3\n0,40\n50,3\n".to_owned()),
+        ("arm-model", "name = \"Cell 3\"\nlengths_mm = [150, -200, 0, 505, 760, 795, 100]\noffsets_deg = [0, 0, -90, 0, 0, 180]\nsigns = [1, 1, -1, -1, -1, -1]\nlimits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]\nspeeds_deg_s = [210, 210, 265, 420, 420, 885]\n[rail]\ndirection = [0, 1, 0]\nfrom_mm = -2000\nto_mm = 2000\n".to_owned()),
+        ("obstacles", "floor_mm = -600\n[[box]]\nname = \"hanger\"\ncentre_mm = [1200, 0, 1900]\nsize_mm = [1500, 100, 100]\nangles_deg = [0, 0, 30]\n".to_owned()),
         ("sequence", "# timestamp filename\n1305031102.160400 depth/0.png\n".to_owned()),
     ] {
         fs::write(folder.join(name), text)?;

@@ -1,0 +1,103 @@
+//! What the fuzz targets do with their bytes. `cargo test` runs them on the seeds, so that they go on building.
+
+use std::{
+    fs::{self, File},
+    path::Path,
+    sync::OnceLock,
+    time::SystemTime,
+};
+
+use nalgebra::Point3;
+use partsight::{
+    Grid, Library, LibraryFolder, PointCloud, Recipe, SprayPath, Unwatched, Verdict,
+    capture::Replay,
+    files::{DepthCamera, FileError, open_bytes},
+    paint::{Coat, read_stripe},
+    pipeline::{RecipeFile, Unrecognisable},
+    robot::{
+        arm::{Arm, Obstacles},
+        calibration::CellCalibration,
+        frame_poses::FramePoses,
+        pairs::{PairConventions, read_arm_poses, read_pairs},
+    },
+    run, scene_from_cloud,
+};
+
+/// Every reader of clouds, meshes and depth images; the content decides which.
+pub(crate) fn open(bytes: &[u8]) {
+    let opened = open_bytes(Path::new("fuzzed"), bytes);
+    if let Err(FileError::Fault { fault, .. }) = opened {
+        panic!("{fault}");
+    }
+}
+
+/// Everything that is read from a text beside a capture: cameras, calibrations, poses, spray paths, recipes, coats, arms,
+/// obstacles, lists of recordings and sequences.
+pub(crate) fn texts(bytes: &[u8]) {
+    let folder = tempfile::tempdir().expect("a folder");
+    // A recording's list begins with JSON; as a calibration it is read all the same.
+    let list = if bytes.starts_with(b"{\"partsight") {
+        "recording.jsonl"
+    } else {
+        "depth.txt"
+    };
+    let path = folder.path().join(list);
+    fs::write(&path, bytes).expect("written");
+    // A reader would wait until the file has settled.
+    let file = File::options().write(true).open(&path).expect("there");
+    file.set_modified(SystemTime::UNIX_EPOCH).expect("set");
+    let _ = DepthCamera::read(&path);
+    let _ = CellCalibration::load(&path);
+    let _ = read_pairs(&path, PairConventions::default());
+    let _ = read_arm_poses(&path, None);
+    let _ = SprayPath::read(&path);
+    let _ = FramePoses::read(&path, &["a.png".into(), "b.png".into()]);
+    let _ = RecipeFile::<Recipe>::read(&path);
+    let _ = RecipeFile::<Coat>::read(&path);
+    let _ = read_stripe(&path);
+    let _ = Arm::read(&path);
+    let _ = Obstacles::read(&path);
+    let spec = format!("recording:{}", folder.path().display());
+    if let Ok(partsight::SourceSpec::Recording(spec)) = spec.parse() {
+        let _ = Replay::open(&spec);
+    }
+}
+
+static LIBRARY: OnceLock<Library> = OnceLock::new();
+
+/// Run from the repository, where the shipped parts are.
+fn library() -> Library {
+    let folder = LibraryFolder::open("reference_parts".as_ref()).expect("the shipped parts");
+    folder.load(&Default::default()).expect("loaded").library
+}
+
+/// The whole inspection of a small cloud.
+pub(crate) fn inspect(bytes: &[u8]) {
+    let Some((&width, coordinates)) = bytes.split_first() else {
+        return;
+    };
+    let metres = |cell: &[u8]| f32::from(i16::from_le_bytes([cell[0], cell[1]])) / 10_000.0;
+    let mut points: Vec<Point3<f32>> = coordinates
+        .chunks_exact(6)
+        .map(|row| Point3::new(metres(row), metres(&row[2..]), metres(&row[4..])))
+        .collect();
+    let width = usize::from(width);
+    let grid = (width > 1).then(|| Grid {
+        width,
+        height: points.len() / width,
+    });
+    if let Some(grid) = grid {
+        points.truncate(grid.num_cells());
+    }
+    let cloud = PointCloud {
+        points,
+        grid: grid.filter(|grid| grid.height > 1),
+        ..PointCloud::default()
+    };
+    let scene = scene_from_cloud(cloud);
+    let library = LIBRARY.get_or_init(library);
+    let inspection = run(&scene, library, &Recipe::default(), &Unwatched).expect("not cancelled");
+    if let Verdict::NoPart(Unrecognisable::Fault(fault)) = inspection.verdict {
+        panic!("{fault}");
+    }
+}
