@@ -5,6 +5,8 @@
 //! a run of consecutive points, and inner nodes store one split each. Registration asks it millions of times, so a
 //! query allocates nothing and leaf points lie next to each other in memory.
 
+use std::ops::Range;
+
 use nalgebra::Point3;
 
 /// Points per leaf: a leaf is scanned whole, which is quicker than descending further. Measured on clouds of
@@ -27,10 +29,10 @@ pub struct KdTree {
     points: Vec<[f32; 3]>,
     /// For each point in leaf order, its index in the input.
     indices: Vec<u32>,
-    /// Inner nodes, root at 0, children of node i at 2i + 1 and 2i + 2.
+    /// Inner nodes, root at 0, children of node i at 2i + 1 and 2i + 2. The leaves' numbers follow theirs.
     splits: Vec<Split>,
-    /// Levels of inner nodes.
-    depth: u32,
+    /// Where each leaf begins in leaf order, and where the last one ends.
+    leaves: Vec<u32>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -49,14 +51,13 @@ impl KdTree {
             .map(|(i, p)| ([p.x, p.y, p.z], i as u32))
             .collect();
         let num_leaves = entries.len().div_ceil(LEAF_SIZE).next_power_of_two();
-        let depth = num_leaves.trailing_zeros();
         let mut splits = vec![Split::default(); num_leaves - 1];
         split_at_medians(&mut entries, &mut splits, 0);
         Self {
             points: entries.iter().map(|e| e.0).collect(),
             indices: entries.iter().map(|e| e.1).collect(),
             splits,
-            depth,
+            leaves: leaf_ends(entries.len(), num_leaves),
         }
     }
 
@@ -110,28 +111,23 @@ impl KdTree {
             skipped,
         };
         let query = [query.x, query.y, query.z];
-        let cell = Cell {
-            node: 0,
-            start: 0,
-            end: self.points.len(),
-            depth: self.depth,
-            offsets: [0.0; 3],
-        };
-        self.search::<NEXT>(&query, cell, &mut best);
+        self.search::<NEXT>(&query, 0, &mut [0.0; 3], &mut best);
         best
     }
 
-    /// Descends the nearer child first and the farther one only if its cell can hold something closer.
-    fn search<const NEXT: bool>(&self, query: &[f32; 3], cell: Cell, best: &mut Best) {
-        let Cell {
-            node,
-            start,
-            end,
-            depth,
-            offsets,
-        } = cell;
-        if depth == 0 {
-            for (i, p) in self.points[start..end].iter().enumerate() {
+    /// Descends the nearer child first and the farther one only if its cell can hold something closer. `offsets` are the
+    /// distances from the query to the node's cell along each axis; it leaves them as they are.
+    fn search<const NEXT: bool>(
+        &self,
+        query: &[f32; 3],
+        node: usize,
+        offsets: &mut [f32; 3],
+        best: &mut Best,
+    ) {
+        let Some(&Split { axis, at }) = self.splits.get(node) else {
+            let leaf = self.leaf(node);
+            let start = leaf.start;
+            for (i, p) in self.points[leaf].iter().enumerate() {
                 let d = [p[0] - query[0], p[1] - query[1], p[2] - query[2]];
                 let distance_sq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
                 if distance_sq < best.distance_sq && self.indices[start + i] != best.skipped {
@@ -143,46 +139,37 @@ impl KdTree {
                 }
             }
             return;
-        }
-        let Split { axis, at } = self.splits[node];
+        };
         let axis = usize::from(axis);
-        let middle = start + (end - start) / 2;
         let to_plane = query[axis] - at;
-        let depth = depth - 1;
-        let low = Cell {
-            node: 2 * node + 1,
-            start,
-            end: middle,
-            depth,
-            offsets,
-        };
-        let high = Cell {
-            node: 2 * node + 2,
-            start: middle,
-            end,
-            depth,
-            offsets,
-        };
-        let (near, mut far) = if to_plane < 0.0 {
+        let (low, high) = (2 * node + 1, 2 * node + 2);
+        let (near, far) = if to_plane < 0.0 {
             (low, high)
         } else {
             (high, low)
         };
-        self.search::<NEXT>(query, near, best);
-        far.offsets[axis] = to_plane;
+        self.search::<NEXT>(query, near, offsets, best);
+        let before = std::mem::replace(&mut offsets[axis], to_plane);
         let limit_sq = if NEXT { best.next_sq } else { best.distance_sq };
-        if far.offsets.iter().map(|o| o * o).sum::<f32>() < limit_sq {
-            self.search::<NEXT>(query, far, best);
+        if offsets.iter().map(|o| o * o).sum::<f32>() < limit_sq {
+            self.search::<NEXT>(query, far, offsets, best);
         }
+        offsets[axis] = before;
+    }
+
+    /// The positions of a leaf's points in leaf order.
+    fn leaf(&self, node: usize) -> Range<usize> {
+        let number = node - self.splits.len();
+        self.leaves[number] as usize..self.leaves[number + 1] as usize
     }
 
     /// Calls `visit` with each point within `radius` (metres) of `query`, in no particular order.
     pub fn within(&self, query: &Point3<f32>, radius: f32, mut visit: impl FnMut(Neighbour)) {
         let query = [query.x, query.y, query.z];
-        let mut stack = vec![(0, 0, self.points.len(), self.depth)];
-        while let Some((node, start, end, depth)) = stack.pop() {
-            if depth == 0 {
-                for i in start..end {
+        let mut stack: Vec<usize> = vec![0];
+        while let Some(node) = stack.pop() {
+            let Some(&Split { axis, at }) = self.splits.get(node) else {
+                for i in self.leaf(node) {
                     let p = self.points[i];
                     let distance_sq = (0..3).map(|a| (p[a] - query[a]).powi(2)).sum::<f32>();
                     if distance_sq <= radius * radius {
@@ -193,15 +180,13 @@ impl KdTree {
                     }
                 }
                 continue;
-            }
-            let Split { axis, at } = self.splits[node];
+            };
             let to_plane = query[usize::from(axis)] - at;
-            let middle = start + (end - start) / 2;
             if to_plane <= radius {
-                stack.push((2 * node + 1, start, middle, depth - 1));
+                stack.push(2 * node + 1);
             }
             if to_plane >= -radius {
-                stack.push((2 * node + 2, middle, end, depth - 1));
+                stack.push(2 * node + 2);
             }
         }
     }
@@ -217,15 +202,17 @@ struct Best {
     skipped: u32,
 }
 
-/// The part of space below a node.
-#[derive(Clone, Copy)]
-struct Cell {
-    node: usize,
-    start: usize,
-    end: usize,
-    depth: u32,
-    /// Distance from the query to the cell along each axis.
-    offsets: [f32; 3],
+/// Where the leaves begin among so many points, and where the last one ends: every inner node halves what is below it.
+fn leaf_ends(num_points: usize, num_leaves: usize) -> Vec<u32> {
+    let last = num_points as u32;
+    let mut ends = vec![0, last];
+    while ends.len() <= num_leaves {
+        let halves = ends
+            .windows(2)
+            .flat_map(|run| [run[0], run[0] + (run[1] - run[0]) / 2]);
+        ends = halves.chain([last]).collect();
+    }
+    ends
 }
 
 /// Orders `entries` so that every inner node's lower half lies below its split along its longest axis.
@@ -313,6 +300,40 @@ mod tests {
             if let Some(n) = found {
                 prop_assert!(((points[n.index] - query).norm_squared() - n.distance_sq).abs() < 1e-6);
             }
+        }
+
+        #[test]
+        fn the_next_is_as_far_away_as_the_second_of_a_linear_search(
+            points in prop::collection::vec(point(), 2..200),
+            query in point(),
+        ) {
+            let mut slow: Vec<f32> = points.iter().map(|p| (p - query).norm_squared()).collect();
+            slow.sort_by(f32::total_cmp);
+            let found = KdTree::new(&points).nearest_and_next(&query, f32::INFINITY);
+            prop_assert_eq!(found.map(|(near, next)| [near.distance_sq, next]), Some([slow[0], slow[1]]));
+        }
+
+        #[test]
+        fn every_point_lies_in_the_leaf_that_the_splits_above_lead_to(
+            points in prop::collection::vec(point(), 0..400),
+        ) {
+            let tree = KdTree::new(&points);
+            let mut cells = vec![(0_usize, 0..tree.len())];
+            let mut num_leaves = 0;
+            while let Some((node, run)) = cells.pop() {
+                let Some(Split { axis, at }) = tree.splits.get(node) else {
+                    prop_assert!(run.len() <= LEAF_SIZE);
+                    prop_assert_eq!(tree.leaf(node), run);
+                    num_leaves += 1;
+                    continue;
+                };
+                let axis = usize::from(*axis);
+                let middle = run.start + run.len() / 2;
+                prop_assert!(tree.points[run.start..middle].iter().all(|p| p[axis] <= *at));
+                prop_assert!(tree.points[middle..run.end].iter().all(|p| p[axis] >= *at));
+                cells.extend([(2 * node + 1, run.start..middle), (2 * node + 2, middle..run.end)]);
+            }
+            prop_assert_eq!(num_leaves, tree.leaves.len() - 1);
         }
 
         #[test]

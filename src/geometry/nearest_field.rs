@@ -12,7 +12,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::nearest::Neighbour;
 
-/// No point is near this cell.
+/// No point is near this cell. Where cells have 16 bits, its lower half says so.
 const NOTHING: u32 = u32::MAX;
 /// A grid larger than this would cost more memory than it saves time: cells grow until it fits.
 const MAX_CELLS: f64 = 4e6;
@@ -24,10 +24,43 @@ const MAX_CELLS_ALONG: f64 = 60_000.0;
 pub struct NearestField {
     low: Point3<f32>,
     per_cell: f32,
-    size: [usize; 3],
-    /// Index of the nearest point per cell, x fastest.
-    nearest: Vec<u32>,
+    /// Cells along each axis.
+    size: [u16; 3],
+    cells: Cells,
     points: Vec<Point3<f32>>,
+}
+
+/// Index of the nearest point per cell, x fastest.
+#[derive(Clone, Debug, PartialEq)]
+enum Cells {
+    /// Of at most 65 535 points, as most references have: at half the size more of them stay in the processor's caches.
+    Narrow(Vec<u16>),
+    /// Of more.
+    Wide(Vec<u32>),
+}
+
+impl Cells {
+    fn of(nearest: Vec<u32>, num_points: usize) -> Self {
+        if num_points > usize::from(u16::MAX) {
+            return Self::Wide(nearest);
+        }
+        // By reference: collected from the vector itself, they would keep its memory.
+        Self::Narrow(nearest.iter().map(|point| *point as u16).collect())
+    }
+
+    #[inline]
+    fn point(&self, cell: usize) -> Option<usize> {
+        match self {
+            Self::Narrow(points) => {
+                let point = points[cell];
+                (point != NOTHING as u16).then_some(usize::from(point))
+            }
+            Self::Wide(points) => {
+                let point = points[cell];
+                (point != NOTHING).then_some(point as usize)
+            }
+        }
+    }
 }
 
 impl NearestField {
@@ -44,7 +77,7 @@ impl NearestField {
                 low: Point3::origin(),
                 per_cell: 1.0,
                 size: [0; 3],
-                nearest: Vec::new(),
+                cells: Cells::Narrow(Vec::new()),
                 points: Vec::new(),
             };
         };
@@ -63,8 +96,8 @@ impl NearestField {
         let mut field = Self {
             low,
             per_cell: 1.0 / cell,
-            size,
-            nearest: vec![NOTHING; size.iter().product()],
+            size: size.map(|num| num as u16),
+            cells: Cells::Narrow(Vec::new()),
             points: cloud.points,
         };
         field.grow(cell, band);
@@ -72,30 +105,38 @@ impl NearestField {
     }
 
     /// The point near `query`; `None` outside the band.
+    #[inline]
     pub fn nearest(&self, query: &Point3<f32>) -> Option<Neighbour> {
         let d = (query - self.low) * self.per_cell;
         let inside = d.x >= 0.0 && d.y >= 0.0 && d.z >= 0.0;
-        let [x, y, z] = [d.x as usize, d.y as usize, d.z as usize];
-        if !inside || x >= self.size[0] || y >= self.size[1] || z >= self.size[2] {
+        // A cast stops at the greatest number, which no axis has cells for; to 16 bits it takes the fewest steps.
+        let [x, y, z] = [d.x, d.y, d.z].map(|at| at as u16);
+        let [width, height, depth] = self.size;
+        if !inside || x >= width || y >= height || z >= depth {
             return None;
         }
-        let index = self.nearest[(z * self.size[1] + y) * self.size[0] + x];
-        (index != NOTHING).then(|| Neighbour {
-            index: index as usize,
-            distance_sq: (self.points[index as usize] - query).norm_squared(),
+        let row = usize::from(z) * usize::from(height) + usize::from(y);
+        let index = self
+            .cells
+            .point(row * usize::from(width) + usize::from(x))?;
+        Some(Neighbour {
+            index,
+            distance_sq: (self.points[index] - query).norm_squared(),
         })
     }
 
     /// Seeds the occupied cells and hands each cell's point on to its neighbours, one layer at a time.
     fn grow(&mut self, side: f32, band: f32) {
-        let [sx, sy, _] = self.size;
+        let size = self.size.map(usize::from);
+        let [sx, sy, _] = size;
+        let mut cells = vec![NOTHING; size.iter().product()];
         let (low, points) = (self.low, std::mem::take(&mut self.points));
         let off_centre = |point: u32, [x, y, z]: [u16; 3]| {
             let at = |i: u16, low: f32| (f32::from(i) + 0.5) * side + low;
             points[point as usize] - Point3::new(at(x, low.x), at(y, low.y), at(z, low.z))
         };
         // From each cell's centre to the point it holds.
-        let mut held_sq = vec![f32::INFINITY; self.nearest.len()];
+        let mut held_sq = vec![f32::INFINITY; cells.len()];
         let mut front: Vec<(u32, [u16; 3])> = Vec::new();
         for (i, p) in (0_u32..).zip(&points) {
             let d = (p - low) * self.per_cell;
@@ -103,10 +144,10 @@ impl NearestField {
             let index = (usize::from(at[2]) * sy + usize::from(at[1])) * sx + usize::from(at[0]);
             let distance_sq = off_centre(i, at).norm_squared();
             if distance_sq < held_sq[index] {
-                if self.nearest[index] == NOTHING {
+                if cells[index] == NOTHING {
                     front.push((index as u32, at));
                 }
-                self.nearest[index] = i;
+                cells[index] = i;
                 held_sq[index] = distance_sq;
             }
         }
@@ -116,7 +157,7 @@ impl NearestField {
         let mut next = Vec::new();
         while !front.is_empty() {
             for (index, at) in front.drain(..) {
-                let candidate = self.nearest[index as usize];
+                let candidate = cells[index as usize];
                 let off = off_centre(candidate, at);
                 let here_sq = off.norm_squared();
                 let mut hand_on = |axis: usize, towards: f32, index: u32, way: i16| {
@@ -124,7 +165,7 @@ impl NearestField {
                     let distance_sq = here_sq + side * (side - 2.0 * towards * off[axis]);
                     let held_sq = &mut held_sq[index as usize];
                     if distance_sq < *held_sq && distance_sq <= farthest_sq {
-                        let holder = &mut self.nearest[index as usize];
+                        let holder = &mut cells[index as usize];
                         if *holder == NOTHING {
                             let mut beside = at;
                             beside[axis] = beside[axis].wrapping_add_signed(way);
@@ -142,6 +183,7 @@ impl NearestField {
             }
             std::mem::swap(&mut front, &mut next);
         }
+        self.cells = Cells::of(cells, points.len());
         self.points = points;
     }
 }
@@ -151,25 +193,37 @@ mod tests {
     use super::*;
     use crate::geometry::nearest::KdTree;
 
+    /// A curved sheet of so many points along one side.
+    fn sheet(num_along: usize) -> Vec<Point3<f32>> {
+        let place = |i: usize| i as f32 / num_along as f32;
+        (0..num_along * num_along * 5 / 6)
+            .map(|i| (place(i % num_along), place(i / num_along)))
+            .map(|(u, v)| Point3::new(u, v, 0.2 * (4.0 * u).sin() * v))
+            .collect()
+    }
+
+    /// Places around that sheet.
+    fn queries(num: u32) -> impl Iterator<Item = Point3<f32>> {
+        (0..num).map(|i| {
+            let spread = |k: u32, range: f32| {
+                ((i.wrapping_mul(2_654_435_761 + k) >> 8) % 1000) as f32 / 1000.0 * range
+            };
+            Point3::new(
+                spread(0, 1.2) - 0.1,
+                spread(97, 1.2) - 0.1,
+                spread(31, 0.5) - 0.25,
+            )
+        })
+    }
+
     #[test]
     fn answers_are_as_near_as_the_true_nearest_up_to_a_cells_diagonal() {
-        let points: Vec<Point3<f32>> = (0..3000)
-            .map(|i| ((i % 60) as f32 / 60.0, (i / 60) as f32 / 60.0))
-            .map(|(u, v)| Point3::new(u, v, 0.2 * (4.0 * u).sin() * v))
-            .collect();
+        let points = sheet(60);
         let (cell, band) = (0.015, 0.06);
         let field = NearestField::new(&points, cell, band);
         let tree = KdTree::new(&points);
         let mut answered = 0;
-        for i in 0..20_000_u32 {
-            let spread = |k: u32, range: f32| {
-                ((i.wrapping_mul(2_654_435_761 + k) >> 8) % 1000) as f32 / 1000.0 * range
-            };
-            let query = Point3::new(
-                spread(0, 1.2) - 0.1,
-                spread(97, 1.2) - 0.1,
-                spread(31, 0.5) - 0.25,
-            );
+        for query in queries(20_000) {
             let truth = tree
                 .nearest(&query, f32::INFINITY)
                 .expect("points")
@@ -195,8 +249,41 @@ mod tests {
         assert_eq!(empty.nearest(&Point3::origin()), None);
         let one = NearestField::new(&[Point3::origin()], 0.01, 0.05);
         assert!(one.nearest(&Point3::new(0.01, 0.0, 0.0)).is_some());
-        for far in [1.0, -1.0, f32::NAN] {
-            assert_eq!(one.nearest(&Point3::new(far, 0.0, 0.0)), None);
+        for far in [1.0, -1.0, 1e9, -1e9, f32::INFINITY, f32::NAN] {
+            for axis in 0..3 {
+                let mut query = Point3::<f32>::origin();
+                query[axis] = far;
+                assert_eq!(one.nearest(&query), None);
+            }
+        }
+    }
+
+    #[test]
+    fn cells_of_16_and_of_32_bits_answer_alike() {
+        let narrow = NearestField::new(&sheet(60), 0.015, 0.06);
+        let Cells::Narrow(cells) = &narrow.cells else {
+            panic!("3000 points are few");
+        };
+        let widened = cells.iter().map(|point| match *point {
+            u16::MAX => NOTHING,
+            point => point.into(),
+        });
+        let wide = NearestField {
+            cells: Cells::Wide(widened.collect()),
+            ..narrow.clone()
+        };
+        for query in queries(5000) {
+            assert_eq!(narrow.nearest(&query), wide.nearest(&query));
+        }
+        // The last point that 16 bits number, and the first that they do not.
+        for (num, is_narrow) in [(65_535, true), (65_536, false)] {
+            let crowd = (1..num).map(|i| Point3::new((i % 1000) as f32 * 1e-4, 0.0, 0.0));
+            let apart = Point3::new(1.0, 0.0, 0.0);
+            let points: Vec<Point3<f32>> = crowd.chain([apart]).collect();
+            let field = NearestField::new(&points, 0.01, 0.02);
+            assert_eq!(matches!(field.cells, Cells::Narrow(_)), is_narrow);
+            let found = field.nearest(&apart).map(|near| near.index);
+            assert_eq!(found, Some(num - 1));
         }
     }
 }

@@ -218,10 +218,11 @@ fn rasterise(
         .into_inner()
         .cast();
     let shift: Vector3<f32> = plane_from_camera.translation.vector.cast();
-    let in_plane: Vec<Point3<f32>> = points.iter().map(|p| turn * p + shift).collect();
+    // Twice, for the extent and for the pixels: to write them down and read them again takes longer.
+    let in_plane = || points.iter().map(|p| turn * p + shift);
     let mut low = [f32::INFINITY; 2];
     let mut high = [f32::NEG_INFINITY; 2];
-    for p in &in_plane {
+    for p in in_plane() {
         for (axis, x) in [p.x, p.y].into_iter().enumerate() {
             low[axis] = low[axis].min(x);
             high[axis] = high[axis].max(x);
@@ -246,7 +247,7 @@ fn rasterise(
     let mut heights = vec![f32::NAN; image.pixels.len()];
     let per_pixel = (1.0 / pixel) as f32;
     let (left, top) = (origin.x as f32, origin.y as f32);
-    for p in &in_plane {
+    for p in in_plane() {
         let column = ((p.x - left) * per_pixel + 0.5) as usize;
         let row = ((top - p.y) * per_pixel + 0.5) as usize;
         let i = row * image.width + column;

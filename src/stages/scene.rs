@@ -94,14 +94,16 @@ impl SceneCloud {
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let turned = |p: &Point3<f32>| Point3::new(-p.x, p.y, p.z);
-        let points = &self.cloud.points;
-        let points = match self.cloud.grid {
-            Some(Grid { width, .. }) => points
-                .chunks(width.max(1))
-                .flat_map(|row| row.iter().rev().map(turned))
-                .collect(),
-            None => points.iter().map(turned).collect(),
-        };
+        // Row by row into memory of the right size: growing it takes several times as long.
+        let mut points = Vec::with_capacity(self.cloud.points.len());
+        match self.cloud.grid {
+            Some(Grid { width, .. }) => {
+                for row in self.cloud.points.chunks(width.max(1)) {
+                    points.extend(row.iter().rev().map(turned));
+                }
+            }
+            None => points.extend(self.cloud.points.iter().map(turned)),
+        }
         let cloud = PointCloud {
             points,
             grid: self.cloud.grid,
@@ -344,6 +346,31 @@ mod tests {
             let (u, v) = camera.pixel_of(&p.cast()).expect("in front");
             assert!((u - (i % 640) as f64).abs() < 1e-3 && (v - (i / 640) as f64).abs() < 1e-3);
         }
+    }
+
+    #[test]
+    fn a_mirrored_scene_has_its_rows_turned_round_and_mirrored_again_it_is_the_same() {
+        let mut frame = tilted_wall();
+        frame.depth[12_345] = 0;
+        let scene = scene_from_frame(&frame);
+        let mirrored = scene.mirrored();
+        let bits = |scene: &SceneCloud| -> Vec<[u32; 3]> {
+            let points = scene.cloud.points.iter();
+            points.map(|p| [p.x, p.y, p.z].map(f32::to_bits)).collect()
+        };
+        let (before, there) = (&scene.cloud.points, &mirrored.cloud.points);
+        assert_eq!(there.len(), before.len());
+        for (at, opposite) in [(0, 639), (640 * 7 + 3, 640 * 7 + 636)] {
+            let p = before[at];
+            assert_eq!(there[opposite], Point3::new(-p.x, p.y, p.z));
+        }
+        assert_eq!(bits(&mirrored.mirrored()), bits(&scene));
+        // Without rows the points keep their order.
+        let loose = PointCloud::from_points(before.iter().copied());
+        let loose = SceneCloud::new(loose, None);
+        let turned = loose.mirrored().cloud.points;
+        let first = loose.cloud.points[0];
+        assert_eq!(turned[0], Point3::new(-first.x, first.y, first.z));
     }
 
     /// A tilted plane before a camera of 2560×1920 pixels with a lens.

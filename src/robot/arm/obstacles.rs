@@ -468,7 +468,9 @@ mod tests {
             let error = refused(read(&text.replace(old, new)).expect_err(new));
             assert!(error.contains(wanted), "{new}: {error}");
         }
-        assert!(refused(read("").expect_err("empty")).contains("neither a box nor a floor"));
+        read("").expect_err("an empty file");
+        let nothing = refused(read("# nothing\n").expect_err("nothing"));
+        assert!(nothing.contains("neither a box nor a floor"), "{nothing}");
         let many = "[[box]]\nname = \"a\"\ncentre_mm = [1, 2, 3]\nsize_mm = [1, 2, 3]\n";
         let many = refused(read(&many.repeat(10_000)).expect_err("too many"));
         assert!(many.contains("10000 boxes, expected at most 200"), "{many}");

@@ -212,10 +212,8 @@ impl PreparedScene<'_> {
         // Nested iterators are quicker from within, by for_each, than around a loop.
         let alike = border.pairs_like(*pair, DISTANCE_OFF, ANGLE_OFF);
         alike.for_each(|theirs| {
-            let points = theirs.of.map(|i| &border.points[usize::from(i)]);
-            let Some((onto, their_axes)) = frame_of(points) else {
-                return;
-            };
+            let points = theirs.pair.of.map(|i| &border.points[usize::from(i)]);
+            let (onto, their_axes) = theirs.frame(points);
             let turn: Matrix3<f32> = their_axes * axes.transpose();
             let are_turned_alike = ours
                 .iter()

@@ -32,13 +32,22 @@ pub struct BorderPair {
     pub of: [u16; 2],
 }
 
+/// A pair of a reference's border that has a frame.
+#[derive(Clone, Copy, Debug)]
+pub struct ReferencePair {
+    /// Distance, angles and points.
+    pub pair: BorderPair,
+    /// Unit vector across the pair, towards the viewer: of its frame, what takes longest to compute.
+    across: Vector3<f32>,
+}
+
 /// The border of a reference from one side.
 #[derive(Clone, Debug)]
 pub struct ReferenceBorder {
     /// Evenly spread points.
     pub points: Vec<BorderPoint>,
     /// All pairs that can be used, bin by bin.
-    pairs: Vec<BorderPair>,
+    pairs: Vec<ReferencePair>,
     /// Where each bin of distance and angles begins among the pairs; one more than there are bins.
     bins: Vec<u32>,
     /// The nearest point of all outlines from this side.
@@ -68,10 +77,10 @@ impl ReferenceBorder {
         let mut pairs = Vec::with_capacity(points.len() * points.len());
         for (i, a) in points.iter().enumerate() {
             for (j, b) in points.iter().enumerate().filter(|(j, _)| *j != i) {
-                pairs.extend(BorderPair::of([a, b], [i as u16, j as u16]));
+                pairs.extend(ReferencePair::of([a, b], [i as u16, j as u16]));
             }
         }
-        let bin = |pair: &BorderPair| {
+        let bin = |ReferencePair { pair, .. }: &ReferencePair| {
             let first =
                 distance_bin(pair.distance) * NUM_ANGLES + angle_bin(pair.angles[0], NUM_ANGLES);
             first * NUM_SECTORS + angle_bin(pair.angles[1], NUM_SECTORS)
@@ -99,7 +108,7 @@ impl ReferenceBorder {
         pair: BorderPair,
         distance_off: f32,
         angle_off: f32,
-    ) -> impl Iterator<Item = &BorderPair> {
+    ) -> impl Iterator<Item = &ReferencePair> {
         let distances = distance_bin((pair.distance - distance_off).max(0.0))
             ..=distance_bin(pair.distance + distance_off);
         let reach = (angle_off / BIN_ANGLE).ceil() as usize;
@@ -119,8 +128,12 @@ impl ReferenceBorder {
             &self.pairs[ends[0]..ends[1]]
         });
         in_bins.filter(move |other| {
-            (other.distance - pair.distance).abs() < distance_off
-                && (0..2).all(|end| angle_between(pair.angles[end], other.angles[end]) < angle_off)
+            let other = &other.pair;
+            let is_as_far = (other.distance - pair.distance).abs() < distance_off;
+            let [is_like_here, is_like_there] =
+                [0, 1].map(|end| angle_between(pair.angles[end], other.angles[end]) < angle_off);
+            // One branch, not three: each fails half of the time, and a branch guessed wrong costs more than they do.
+            is_as_far & is_like_here & is_like_there
         })
     }
 }
@@ -154,6 +167,11 @@ impl BorderPair {
         })
     }
 
+    /// Unit vector from the first of its points to the second.
+    fn along(&self, [a, b]: [&BorderPoint; 2]) -> Vector3<f32> {
+        (b.at - a.at) / self.distance
+    }
+
     /// True if the two lie on one straight border, along which they could slide.
     pub fn is_straight(&self) -> bool {
         self.angles.iter().all(|a| a.sin().abs() < STRAIGHT)
@@ -163,18 +181,45 @@ impl BorderPair {
 /// Sine of the angle to a straight border below which a point lies on it.
 const STRAIGHT: f32 = 0.25;
 
+impl ReferencePair {
+    /// `None` if the two are too close, or face away from each other.
+    fn of(ends: [&BorderPoint; 2], of: [u16; 2]) -> Option<Self> {
+        let pair = BorderPair::of(ends, of)?;
+        let across = across(ends, &pair.along(ends))?;
+        Some(Self { pair, across })
+    }
+
+    /// Middle and axes, to the bit as [`frame_of`] gives them; `ends` are the points that the pair is of.
+    pub fn frame(&self, ends: [&BorderPoint; 2]) -> (Point3<f32>, Matrix3<f32>) {
+        frame(ends, self.pair.along(ends), self.across)
+    }
+}
+
 fn angle(from: &BorderPoint, towards: &Vector3<f32>) -> f32 {
     let inwards = from.normal.cross(&from.along);
     towards.dot(&inwards).atan2(towards.dot(&from.along))
 }
 
 /// Middle and axes of a pair: along it, and the mean normal across.
-pub fn frame_of([a, b]: [&BorderPoint; 2]) -> Option<(Point3<f32>, Matrix3<f32>)> {
-    let x = (b.at - a.at).try_normalize(1e-6)?;
+pub fn frame_of(ends: [&BorderPoint; 2]) -> Option<(Point3<f32>, Matrix3<f32>)> {
+    let [a, b] = ends;
+    let along = (b.at - a.at).try_normalize(1e-6)?;
+    Some(frame(ends, along, across(ends, &along)?))
+}
+
+/// The mean normal of two points, as a unit vector across the line along which they lie.
+fn across([a, b]: [&BorderPoint; 2], along: &Vector3<f32>) -> Option<Vector3<f32>> {
     let normal = a.normal + b.normal;
-    let z = (normal - x * normal.dot(&x)).try_normalize(0.5)?;
+    (normal - along * normal.dot(along)).try_normalize(0.5)
+}
+
+fn frame(
+    [a, b]: [&BorderPoint; 2],
+    x: Vector3<f32>,
+    z: Vector3<f32>,
+) -> (Point3<f32>, Matrix3<f32>) {
     let middle = nalgebra::center(&a.at, &b.at);
-    Some((middle, Matrix3::from_columns(&[x, z.cross(&x), z])))
+    (middle, Matrix3::from_columns(&[x, z.cross(&x), z]))
 }
 
 #[cfg(test)]
@@ -206,7 +251,7 @@ mod tests {
         for wanted in [[0, 7], [12, 40], [59, 3]].map(|ends| of(ends).expect("far apart")) {
             let mut found: Vec<[u16; 2]> = border
                 .pairs_like(wanted, 0.1, 0.24)
-                .map(|pair| pair.of)
+                .map(|found| found.pair.of)
                 .collect();
             let is_like = |other: &BorderPair| {
                 (other.distance - wanted.distance).abs() < 0.1
@@ -222,6 +267,31 @@ mod tests {
             plain.sort_unstable();
             assert!(found.len() >= 60, "{}", found.len());
             assert_eq!(found, plain);
+        }
+    }
+
+    #[test]
+    fn the_pairs_of_a_border_are_those_with_a_frame_and_keep_it_to_the_bit() {
+        // A ring whose surface turns over twice on the way around.
+        let mut points = disc(60);
+        for (i, point) in points.iter_mut().enumerate() {
+            let (sin, cos) = (i as f32 * 0.2).sin_cos();
+            let outwards = point.at.coords.normalize();
+            point.normal = outwards * sin + Vector3::z() * cos;
+            point.at.z = 0.05 * sin;
+        }
+        let border = ReferenceBorder::new(&points, &[]);
+        let framed = (0..60).flat_map(|i| (0..60).map(move |j| [i, j]));
+        let framed = framed.filter(|ends| {
+            let ends = ends.map(|i| &points[i]);
+            BorderPair::of(ends, [0, 0]).is_some() && frame_of(ends).is_some()
+        });
+        let num_framed = framed.count();
+        assert_eq!(border.pairs.len(), num_framed);
+        assert!((500..3000).contains(&num_framed), "{num_framed}");
+        for pair in &border.pairs {
+            let ends = pair.pair.of.map(|i| &border.points[usize::from(i)]);
+            assert_eq!(Some(pair.frame(ends)), frame_of(ends));
         }
     }
 

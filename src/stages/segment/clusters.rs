@@ -141,7 +141,9 @@ fn connect_pixels(
     let mut forest = UnionFind {
         parents: Vec::new(),
     };
-    let (mut rest, mut runs): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
+    // Enough for all pixels, of which only what is written costs time: growing copies it again and again.
+    let mut rest: Vec<u32> = Vec::with_capacity(labels.len());
+    let mut runs: Vec<u32> = Vec::with_capacity(labels.len());
     for row in 0..height {
         let start = row * width;
         // Where this row and those above it begin among the runs.
