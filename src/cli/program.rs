@@ -193,6 +193,7 @@ impl ProgramFile {
         let program = Program {
             points: &points,
             settings: &self.settings,
+            reach: reach.as_ref(),
             part: subject.part.as_str(),
             scene: subject.scene,
             robot_from_part,
@@ -201,7 +202,7 @@ impl ProgramFile {
             doubts: &doubts,
             at: Timestamp::now(),
         };
-        program.save(&self.file, self.format).advised()?;
+        let num_parts = program.save(&self.file, self.format).advised()?;
         console.note(&format_args!(
             "{}: {} points as {}; of {} that aim at what was seen of the part, {} are within the band",
             self.file.display(),
@@ -210,6 +211,11 @@ impl ProgramFile {
             carried.points.iter().filter(|point| point.meets.is_some()).count(),
             carried.num_inside()
         ));
+        if num_parts > 0 {
+            console.note(&format_args!(
+                "  it calls {num_parts} programs that lie beside it; the controller needs all of them"
+            ));
+        }
         for doubt in &doubts {
             console.note(&format_args!("warning: written by --force: {doubt}"));
         }

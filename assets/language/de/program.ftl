@@ -7,3 +7,4 @@ program-stale-advice = Das Teil neu aufnehmen
 program-not-reached = Kein Programm geschrieben: { $arm } erreicht { $missed } von { $all } Punkten nicht
 program-not-reached-advice = Das Teil oder den Fuß des Arms versetzen oder die Bahn ändern
 program-written = { $path } geschrieben: { $count } Punkte als { $format }
+program-written-parts = { $path } und { $parts } Programme geschrieben, die es aufruft: { $count } Punkte als { $format }; die Steuerung braucht sie alle

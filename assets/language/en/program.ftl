@@ -7,3 +7,4 @@ program-stale-advice = Capture the part again
 program-not-reached = No program was written: { $arm } misses { $missed } of { $all } points
 program-not-reached-advice = Move the part or the arm's base, or change the path
 program-written = Wrote { $path }: { $count } points as { $format }
+program-written-parts = Wrote { $path } and { $parts } programs that it calls: { $count } points as { $format }; the controller needs all of them

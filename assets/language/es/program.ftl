@@ -7,3 +7,4 @@ program-stale-advice = Capture la pieza de nuevo
 program-not-reached = No se escribió ningún programa: { $arm } no alcanza { $missed } de { $all } puntos
 program-not-reached-advice = Mueva la pieza o la base del brazo, o cambie la trayectoria
 program-written = Escrito { $path }: { $count } puntos en { $format }
+program-written-parts = Escritos { $path } y { $parts } programas que llama: { $count } puntos en { $format }; el controlador los necesita todos

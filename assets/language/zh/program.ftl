@@ -7,3 +7,4 @@ program-stale-advice = 请重新采集零件
 program-not-reached = 未写出程序：{ $arm } 有 { $missed } 个点不可达，共 { $all } 个
 program-not-reached-advice = 请移动零件或机械臂底座，或修改轨迹
 program-written = 已写出 { $path }：{ $count } 个点，{ $format }
+program-written-parts = 已写出 { $path } 和 { $parts } 个子程序：{ $count } 个点，{ $format }；控制器需要所有文件

@@ -178,6 +178,7 @@ pub(in crate::app) fn program(
     let program = Program {
         points: &points,
         settings,
+        reach: reach.as_ref(),
         part: subject.part,
         scene: subject.scene,
         robot_from_part,
@@ -187,13 +188,23 @@ pub(in crate::app) fn program(
         at: Timestamp::now(),
     };
     let saved = program.save(path, format);
-    saved.map_err(|error| UserError::of(&error))?;
-    Ok(text!(
-        "program-written",
-        path = path.display().to_string(),
-        count = points.len(),
-        format = format.title()
-    ))
+    let num_parts = saved.map_err(|error| UserError::of(&error))?;
+    Ok(if num_parts > 0 {
+        text!(
+            "program-written-parts",
+            path = path.display().to_string(),
+            parts = num_parts,
+            count = points.len(),
+            format = format.title()
+        )
+    } else {
+        text!(
+            "program-written",
+            path = path.display().to_string(),
+            count = points.len(),
+            format = format.title()
+        )
+    })
 }
 
 /// The pose report of what the window shows.

@@ -125,6 +125,9 @@ pub struct PointCheck {
 pub struct PathCheck {
     /// Every point, in the path's order.
     pub points: Vec<PointCheck>,
+    /// Where a program of the path begins and ends; none if the path alone was checked. What is wrong there counts for the
+    /// first and the last point.
+    pub ends: Option<[PointCheck; 2]>,
 }
 
 impl PathCheck {
@@ -209,7 +212,10 @@ pub fn check_path(
             problem: problem.or(singular.map(PointProblem::NearSingularity)),
         });
     }
-    Ok(PathCheck { points: checked })
+    Ok(PathCheck {
+        points: checked,
+        ends: None,
+    })
 }
 
 pub(super) fn refuse_bad(
@@ -311,14 +317,16 @@ fn step_problem(
         moved / time > solver.arm.speeds[*i] && moved >= SAME
     };
     let i = (0..6).find(is_too_fast)?;
-    Some(if solver.configuration(near) == solver.configuration(at) {
-        PointProblem::TooFast {
-            joint: i + 1,
-            speed: (near[i] - at[i]).abs() / time,
-        }
-    } else {
-        PointProblem::ConfigurationChange
-    })
+    Some(
+        if solver.arm.configuration(near) == solver.arm.configuration(at) {
+            PointProblem::TooFast {
+                joint: i + 1,
+                speed: (near[i] - at[i]).abs() / time,
+            }
+        } else {
+            PointProblem::ConfigurationChange
+        },
+    )
 }
 
 /// The first joint outside its limits, as it stands.

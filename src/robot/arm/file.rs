@@ -81,6 +81,7 @@ impl Arm {
             speeds: text.speeds_deg_s.map(f64::to_radians),
             base_height: text.base_height_mm / 1000.0,
             radii: [0.0; 3],
+            maker: None,
             rail: rail.transpose()?,
         };
         arm.radii = match text.radii_mm {

@@ -202,28 +202,9 @@ impl<'a> Solver<'a> {
         (worst.2 > 0.0).then_some((worst.0, worst.1))
     }
 
-    /// Angles of the model, as the source has them.
-    fn model(&self, joints: &Joints) -> Joints {
-        std::array::from_fn(|i| joints[i] * f64::from(self.arm.signs[i]) - self.arm.offsets[i])
-    }
-
-    /// Distance of the wrist from joint 1, and the sines of the elbow and of joint 5.
-    fn shape(&self, joints: &Joints) -> [f64; 3] {
-        let [a1, a2, _, _, c2, c3, _] = self.arm.lengths;
-        let [_, q2, q3, _, q5, _] = self.model(joints);
-        let fold = q3 + a2.atan2(c3);
-        let ahead = c2 * q2.sin() + a2.hypot(c3) * (q2 + fold).sin() + a1;
-        [ahead, fold.sin(), q5.sin()]
-    }
-
-    /// Which of the eight configurations: wrist ahead, elbow up, wrist unflipped.
-    pub(super) fn configuration(&self, joints: &Joints) -> [bool; 3] {
-        self.shape(joints).map(|x| x > 0.0)
-    }
-
     /// Which singularity is near, if one is.
     pub(super) fn singularity(&self, joints: &Joints) -> Option<Singularity> {
-        let [ahead, elbow, wrist] = self.shape(joints).map(f64::abs);
+        let [ahead, elbow, wrist] = self.arm.shape(joints).map(f64::abs);
         let all = [
             (wrist < NEAR, Singularity::Wrist),
             (elbow < NEAR, Singularity::Elbow),
@@ -232,6 +213,28 @@ impl<'a> Solver<'a> {
         all.into_iter()
             .find(|(is_near, _)| *is_near)
             .map(|(_, which)| which)
+    }
+}
+
+impl Arm {
+    /// Angles of the model, as the source has them.
+    fn model(&self, joints: &Joints) -> Joints {
+        std::array::from_fn(|i| joints[i] * f64::from(self.signs[i]) - self.offsets[i])
+    }
+
+    /// Distance of the wrist from joint 1, and the sines of the elbow and of joint 5.
+    fn shape(&self, joints: &Joints) -> [f64; 3] {
+        let [a1, a2, _, _, c2, c3, _] = self.lengths;
+        let [_, q2, q3, _, q5, _] = self.model(joints);
+        let fold = q3 + a2.atan2(c3);
+        let ahead = c2 * q2.sin() + a2.hypot(c3) * (q2 + fold).sin() + a1;
+        [ahead, fold.sin(), q5.sin()]
+    }
+
+    /// Which of the eight configurations: wrist ahead, elbow up, wrist unflipped. Ahead and up are seen from joint 1, with
+    /// which they turn: behind joint 1 an elbow that is up bends the same way.
+    pub(in crate::robot) fn configuration(&self, joints: &Joints) -> [bool; 3] {
+        self.shape(joints).map(|x| x > 0.0)
     }
 }
 

@@ -25,7 +25,7 @@ mod tests;
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use crate::geometry::rigid::RigidTransform;
+use crate::{geometry::rigid::RigidTransform, robot::Convention};
 
 pub use self::{
     check::{ArmPoint, CheckParams, PathCheck, PointCheck, PointProblem, check_path},
@@ -55,6 +55,8 @@ pub struct Arm {
     base_height: f64,
     /// What upper arm, forearm and wrist fill around their axes, metres.
     radii: [f64; 3],
+    /// Whose controllers count the joints as they are counted here; none of an arm from a file.
+    maker: Option<Convention>,
     /// The rail that it stands on.
     pub rail: Option<Rail>,
 }
@@ -103,6 +105,12 @@ impl Arm {
         self.rail.map_or_else(Vector3::zeros, |rail| {
             rail.direction.into_inner() * position
         })
+    }
+
+    /// The maker whose controllers count these joints as they are counted here, all but joint 3 of FANUC arms; none if that
+    /// is not known.
+    pub(super) fn maker(&self) -> Option<Convention> {
+        self.maker
     }
 
     /// How far the nozzle's end of the arm reaches from joint 2, metres.

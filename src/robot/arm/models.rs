@@ -9,6 +9,7 @@
 use std::path::Path;
 
 use super::{Arm, ArmError};
+use crate::robot::Convention;
 
 /// The names of the arms that are known.
 pub const ARM_NAMES: [&str; 5] = ["kr6-r900", "m-20ia", "irb2600", "irb4600", "gp25"];
@@ -123,13 +124,13 @@ const GP25: Numbers = arm_of(
 impl Arm {
     /// The arm of one of the [`ARM_NAMES`], or that of a TOML file.
     pub fn named(name: &str) -> Result<Self, ArmError> {
-        let (title, numbers, base_height) = match name {
-            "kr6-r900" => ("KUKA KR 6 R900-2", KR6_R900, 0.0),
+        let (title, numbers, base_height, maker) = match name {
+            "kr6-r900" => ("KUKA KR 6 R900-2", KR6_R900, 0.0, Convention::Kuka),
             // FANUC's and Yaskawa's base frames lie at the height of joint 2.
-            "m-20ia" => ("FANUC M-20iA", M_20IA, 0.525),
-            "irb2600" => ("ABB IRB 2600-12/1.65", IRB2600, 0.0),
-            "irb4600" => ("ABB IRB 4600-40/2.55", IRB4600, 0.0),
-            "gp25" => ("Yaskawa GP25", GP25, 0.505),
+            "m-20ia" => ("FANUC M-20iA", M_20IA, 0.525, Convention::Fanuc),
+            "irb2600" => ("ABB IRB 2600-12/1.65", IRB2600, 0.0, Convention::Abb),
+            "irb4600" => ("ABB IRB 4600-40/2.55", IRB4600, 0.0, Convention::Abb),
+            "gp25" => ("Yaskawa GP25", GP25, 0.505, Convention::Yaskawa),
             _ => return Self::unlisted(name),
         };
         Self {
@@ -141,6 +142,7 @@ impl Arm {
             speeds: numbers.speeds_deg.map(f64::to_radians),
             base_height,
             radii: numbers.radii_mm.map(|radius| radius / 1000.0),
+            maker: Some(maker),
             rail: None,
         }
         .checked()

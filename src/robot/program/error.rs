@@ -24,6 +24,8 @@ pub enum ProgramError {
         format: ProgramFormat,
         /// The name.
         name: String,
+        /// Most letters of the file's name, with which the programs that it calls are named as well.
+        most: usize,
     },
     /// A path without points.
     #[error("the path has no points")]
@@ -44,12 +46,12 @@ pub enum ProgramError {
         /// Its speed, m/s.
         speed: f64,
     },
-    /// More instructions than one program holds.
-    #[error("the path needs {found} instructions, a program in {} holds {most}", format.title())]
+    /// More instructions than one program holds, with the gun on.
+    #[error("the gun stays on for {found} instructions, a program in {} holds {most} beside its header", format.title())]
     TooMany {
         /// The language.
         format: ProgramFormat,
-        /// Instructions needed.
+        /// Instructions needed until the gun closes.
         found: usize,
         /// Instructions that it holds.
         most: usize,
@@ -95,15 +97,14 @@ impl Advice for ProgramError {
                     known.join(", ")
                 )
             }
-            Self::Name { format, .. } => format!(
-                "Name the file with letters A to Z, digits and _, a letter first, at most {} of them",
-                format.longest_name()
+            Self::Name { most, .. } => format!(
+                "Name the file with letters A to Z, digits and _, a letter first, at most {most} of them"
             ),
             Self::NoPoints => "Give a path with at least one point".into(),
             Self::NotFinite { .. } => "Check the path, the tool and the calibration".into(),
             Self::Speed { .. } => "Change the speed in the path, or give another with --speed".into(),
             Self::TooMany { .. } => {
-                "Thin the path out: a point every 20 mm is enough where the part is flat".into()
+                "Plan the path with a larger point_spacing, or close the gun in between: a long path is cut where the gun is off".into()
             }
             Self::Tool { format, .. } => match format.most_tools() {
                 Some(most) => format!("Give a number from 1 to {most} with --tool"),

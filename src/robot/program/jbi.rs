@@ -2,10 +2,18 @@
 
 use jiff::tz::TimeZone;
 
-use super::{JOINT_SPEED, Lines, Program, ProgramFormat, Step, text};
+use super::{
+    JOINT_SPEED, Lines, Program, ProgramFormat,
+    steps::{Motion, Step},
+    text,
+};
 
 /// A comment holds 32 letters.
 const WIDTH: usize = 32;
+/// No flip, upper arm, front, no turns: where nothing else is known.
+const USUAL: &str = "1,0,0,0,0,0";
+/// The numbers of a configuration that do not count.
+const UNUSED: usize = 18;
 
 pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
     let output = program.settings.gun_output;
@@ -17,35 +25,31 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines.add(format!("///TOOL {}", program.tool(ProgramFormat::Jbi)));
     lines.add("///POSTYPE BASE");
     lines.add("///RECTAN");
-    // No flip, upper arm, front; the other 21 do not count.
-    lines.add("///RCONF 1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0");
+    // It holds for the points below it.
+    let mut current = None;
     for (i, step) in steps.iter().enumerate() {
-        let to = match step {
-            Step::Joints(to) => to,
-            Step::Line(line) => &line.to,
-        };
-        let numbers = text::numbers(ProgramFormat::Jbi, to);
+        let configuration = step.configuration.as_deref().unwrap_or(USUAL);
+        if current != Some(configuration) {
+            lines.add(format!("///RCONF {configuration}{}", ",0".repeat(UNUSED)));
+            current = Some(configuration);
+        }
+        let numbers = text::numbers(ProgramFormat::Jbi, &step.to);
         lines.add(format!("C{i:05}={}", numbers.join(",")));
     }
-    lines.add("//INST");
-    let at = program.at.to_zoned(TimeZone::UTC);
-    lines.add(format!("///DATE {}", at.strftime("%Y/%m/%d %H:%M")));
-    lines.add("///COMM Partsight");
-    lines.add("///ATTR SC,RW,RJ");
-    lines.add("////FRAME BASE");
-    lines.add("///GROUP1 RB1");
-    lines.instruct("NOP");
-    for comment in text::comments(header, WIDTH) {
-        lines.instruct(format!("'{comment}"));
-    }
+    begin(
+        &mut lines,
+        program,
+        &["///ATTR SC,RW,RJ", "////FRAME BASE"],
+        header,
+    );
     lines.instruct(format!("DOUT OT#({output}) OFF"));
     for (i, step) in steps.iter().enumerate() {
-        match step {
-            Step::Joints(_) => {
+        match step.motion {
+            Motion::Joints => {
                 let share = text::fixed(JOINT_SPEED * 100.0, 2);
                 lines.instruct(format!("MOVJ C{i:05} VJ={share} PL=0"));
             }
-            Step::Line(line) => {
+            Motion::Line(line) => {
                 let speed = text::fixed(line.speed * 1000.0, 1);
                 let end = if line.blend_unless_gun() > 0.0 {
                     ""
@@ -63,4 +67,40 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines.instruct(format!("DOUT OT#({output}) OFF"));
     lines.instruct("END");
     lines
+}
+
+/// A job that calls others, one after the other, and has no positions.
+pub(super) fn write_calls(
+    program: &Program<'_>,
+    parts: &[String],
+    header: &[String],
+    name: &str,
+) -> Lines {
+    let mut lines = Lines::default();
+    lines.add("/JOB");
+    lines.add(format!("//NAME {}", name.to_uppercase()));
+    lines.add("//POS");
+    lines.add("///NPOS 0,0,0,0,0,0");
+    begin(&mut lines, program, &["///ATTR SC,RW"], header);
+    for part in parts {
+        lines.instruct(format!("CALL JOB:{}", part.to_uppercase()));
+    }
+    lines.instruct("END");
+    lines
+}
+
+/// What stands above the moves.
+fn begin(lines: &mut Lines, program: &Program<'_>, attributes: &[&str], header: &[String]) {
+    lines.add("//INST");
+    let at = program.at.to_zoned(TimeZone::UTC);
+    lines.add(format!("///DATE {}", at.strftime("%Y/%m/%d %H:%M")));
+    lines.add("///COMM Partsight");
+    for attribute in attributes {
+        lines.add(attribute);
+    }
+    lines.add("///GROUP1 RB1");
+    lines.instruct("NOP");
+    for comment in text::comments(header, WIDTH) {
+        lines.instruct(format!("'{comment}"));
+    }
 }

@@ -1,6 +1,10 @@
 //! KUKA Robot Language: one `.src` whose points stand in the moves.
 
-use super::{JOINT_SPEED, Lines, Program, ProgramFormat, Step, text};
+use super::{
+    JOINT_SPEED, Lines, Program, ProgramFormat,
+    steps::{Motion, Step},
+    text,
+};
 use crate::geometry::rigid::RigidTransform;
 
 /// KRL takes 140; what stands behind `; ` is shorter.
@@ -25,15 +29,19 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines.add(format!("BAS (#TOOL,{})", program.tool(ProgramFormat::Krl)));
     lines.add("BAS (#BASE,0)");
     if let Some(tool) = &settings.flange_from_nozzle {
-        lines.add(format!("$TOOL={}", frame(tool)));
+        lines.add(format!("$TOOL={}", frame(tool, None)));
     }
     lines.add(format!("$APO.CDIS={}", text::fixed(settings.blend.mm(), 3)));
     lines.add(format!("$OUT[{output}]=FALSE"));
     let mut current = None;
     for step in steps {
-        match step {
-            Step::Joints(to) => lines.instruct(format!("PTP {}", frame(to))),
-            Step::Line(line) => {
+        match step.motion {
+            // Linear moves keep the status and take the turn that is nearest: only here it is chosen.
+            Motion::Joints => {
+                let to = frame(&step.to, step.configuration.as_deref());
+                lines.instruct(format!("PTP {to}"));
+            }
+            Motion::Line(line) => {
                 let speed = text::fixed(line.speed, 6);
                 if current.as_ref() != Some(&speed) {
                     lines.instruct(format!("$VEL.CP={speed}"));
@@ -47,7 +55,7 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
                     ));
                 }
                 let blend = if line.blend > 0.0 { " C_DIS" } else { "" };
-                lines.instruct(format!("LIN {}{blend}", frame(&line.to)));
+                lines.instruct(format!("LIN {}{blend}", frame(&step.to, None)));
             }
         }
     }
@@ -56,11 +64,11 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines
 }
 
-fn frame(pose: &RigidTransform) -> String {
+/// A pose, and how the arm stands there.
+fn frame(pose: &RigidTransform, configuration: Option<&str>) -> String {
     let numbers = text::numbers(ProgramFormat::Krl, pose);
     let named = ["X", "Y", "Z", "A", "B", "C"].iter().zip(numbers);
-    let named: Vec<String> = named
-        .map(|(name, number)| format!("{name} {number}"))
-        .collect();
-    format!("{{{}}}", named.join(","))
+    let named = named.map(|(name, number)| format!("{name} {number}"));
+    let all: Vec<String> = named.chain(configuration.map(str::to_owned)).collect();
+    format!("{{{}}}", all.join(","))
 }

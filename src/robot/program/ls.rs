@@ -2,10 +2,16 @@
 
 use jiff::tz::TimeZone;
 
-use super::{JOINT_SPEED, Lines, Program, ProgramFormat, Step, text};
+use super::{
+    JOINT_SPEED, Lines, Program, ProgramFormat,
+    steps::{Motion, Step},
+    text,
+};
 
 /// A remark holds 32 letters.
 const WIDTH: usize = 32;
+/// No flip, elbow up, front: where nothing else is known.
+const USUAL: &str = "N U T, 0, 0, 0";
 
 pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
     let tool = program.tool(ProgramFormat::Ls);
@@ -24,15 +30,12 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     let mut points = Lines::default();
     for (i, step) in steps.iter().enumerate() {
         let number = i + 1;
-        let to = match step {
-            Step::Joints(to) => {
-                add(
-                    "J ",
-                    &format!("P[{number}] {:.0}% FINE", JOINT_SPEED * 100.0),
-                );
-                to
-            }
-            Step::Line(line) => {
+        match step.motion {
+            Motion::Joints => add(
+                "J ",
+                &format!("P[{number}] {:.0}% FINE", JOINT_SPEED * 100.0),
+            ),
+            Motion::Line(line) => {
                 let speed = text::fixed((line.speed * 1000.0).max(1.0), 0);
                 let end = if line.blend_unless_gun() > 0.0 {
                     "CNT100"
@@ -44,23 +47,48 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
                     let state = if is_on { "ON" } else { "OFF" };
                     add("  ", &format!("DO[{output}]={state}"));
                 }
-                &line.to
             }
-        };
-        let numbers = text::numbers(ProgramFormat::Ls, to);
+        }
+        let numbers = text::numbers(ProgramFormat::Ls, &step.to);
         let [x, y, z, w, p, r] = numbers.as_slice() else {
             continue;
         };
         points.add(format!("P[{number}]{{"));
         points.add("   GP1:");
+        let configuration = step.configuration.as_deref().unwrap_or(USUAL);
         points.add(format!(
-            "\tUF : 0, UT : {tool},\t\tCONFIG : 'N U T, 0, 0, 0',"
+            "\tUF : 0, UT : {tool},\t\tCONFIG : '{configuration}',"
         ));
         points.add(format!("\tX = {x} mm,\tY = {y} mm,\tZ = {z} mm,"));
         points.add(format!("\tW = {w} deg,\tP = {p} deg,\tR = {r} deg"));
         points.add("};");
     }
     add("  ", &format!("DO[{output}]=OFF"));
+    whole(program, name, &moves, &points)
+}
+
+/// A program that calls others, one after the other.
+pub(super) fn write_calls(
+    program: &Program<'_>,
+    parts: &[String],
+    header: &[String],
+    name: &str,
+) -> Lines {
+    let mut calls = Lines::default();
+    let remarks = text::comments(header, WIDTH)
+        .into_iter()
+        .map(|line| format!("!{line}"));
+    let lines = parts
+        .iter()
+        .map(|part| format!("CALL {}", part.to_uppercase()));
+    for (i, line) in remarks.chain(lines).enumerate() {
+        calls.instruct(format!("{:4}:  {line} ;", i + 1));
+    }
+    whole(program, name, &calls, &Lines::default())
+}
+
+/// Instructions and points with what a program has around them.
+fn whole(program: &Program<'_>, name: &str, moves: &Lines, points: &Lines) -> Lines {
     let at = program.at.to_zoned(TimeZone::UTC);
     let at = at.strftime("DATE %y-%m-%d  TIME %H:%M:%S");
     let mut lines = Lines::default();
@@ -85,9 +113,9 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines.add("DEFAULT_GROUP\t= 1,*,*,*,*;");
     lines.add("CONTROL_CODE\t= 00000000 00000000;");
     lines.add("/MN");
-    lines.append(&moves);
+    lines.append(moves);
     lines.add("/POS");
-    lines.append(&points);
+    lines.append(points);
     lines.add("/END");
     lines
 }

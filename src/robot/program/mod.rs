@@ -14,15 +14,25 @@
 //! switch the gun while the robot moves; the others stop at a point where the gun changes, because they run outputs ahead
 //! of a blended move. All poses are `robot_from_nozzle` in the robot's base frame.
 //!
-//! Known limits: nothing here was tried on a controller. Acceleration is the controller's default. `CONFIG` of LS and
-//! `RCONF` of JBI name the usual arm: no flip, elbow up, front.
+//! Where an arm was checked to reach the path, and the controller is of its maker, the points also name the configuration in
+//! which it does, so that no other is taken (`configuration`).
+//!
+//! LS and JBI hold 9999 instructions. A longer path is cut where the gun is off into several programs, which a main program
+//! calls. Their names hold a checksum of the whole: on a controller that still has parts of an earlier path, or misses
+//! some, the call fails, and no robot follows one path with the end of another.
+//!
+//! Known limits: nothing here was tried on a controller. Acceleration is the controller's default. Where the configuration
+//! is not known, `CONFIG` of LS and `RCONF` of JBI name the usual one (no flip, elbow up, front), and the other programs
+//! leave it to the controller.
 
+mod configuration;
 mod error;
 mod jbi;
 mod krl;
 mod ls;
 mod prepare;
 mod rapid;
+mod save;
 mod steps;
 mod text;
 mod urscript_drl;
@@ -30,21 +40,24 @@ mod urscript_drl;
 #[cfg(test)]
 mod tests;
 
-use std::{io::Read as _, path::Path};
+use std::path::Path;
 
 use jiff::Timestamp;
 
 use self::{steps::Step, text::Lines};
 use crate::{
-    files::{FileError, disk, open_regular, write_atomically},
     geometry::rigid::{RigidTransform, is_finite},
-    robot::Convention,
+    robot::{
+        Convention,
+        arm::{PathCheck, PlacedArm},
+    },
     units::Metres,
 };
 
 pub use self::{
     error::ProgramError,
     prepare::{arm_points, check_reach, is_stale, is_stale_file, program_points},
+    save::{ProgramTexts, remove_previous_program},
 };
 
 /// A controller's language.
@@ -118,6 +131,8 @@ pub struct Program<'a> {
     pub points: &'a [ProgramPoint],
     /// The settings.
     pub settings: &'a ProgramSettings,
+    /// The arm that was checked to reach the points, and what came of it; none if none was checked.
+    pub reach: Option<&'a (PlacedArm, PathCheck)>,
     /// Name of the part.
     pub part: &'a str,
     /// Name of the capture; none for the standard position.
@@ -257,59 +272,15 @@ impl ProgramFormat {
 
 /// In the header of every program, by which an earlier one is known.
 const MARK: &str = "Partsight robot program";
-/// A longer file is no program of ours.
-const MAX_BYTES: u64 = 64 << 20;
-
-/// Takes an earlier program of this name away, so that no robot runs it for the next part; true if there was one. Anything
-/// else of that name stays.
-pub fn remove_previous_program(path: &Path) -> Result<bool, FileError> {
-    let mut bytes = Vec::new();
-    let read = open_regular(path).and_then(|file| file.take(MAX_BYTES).read_to_end(&mut bytes));
-    // Whatever is wrong with it shows when the next one is written.
-    let is_ours = read.is_ok()
-        && bytes
-            .windows(MARK.len())
-            .any(|part| part == MARK.as_bytes());
-    if is_ours {
-        disk::remove_file(path).map_err(|source| FileError::Write {
-            path: path.to_owned(),
-            source,
-        })?;
-    }
-    Ok(is_ours)
-}
 
 impl Program<'_> {
-    /// Writes the program, whole or not at all; it is called as the file.
-    pub fn save(&self, path: &Path, format: ProgramFormat) -> Result<(), ProgramError> {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy();
-        let text = self.text(format, &name)?;
-        write_atomically(path, |writer| writer.write_all(text.as_bytes()))?;
-        Ok(())
-    }
-
-    /// The program's text.
-    pub fn text(&self, format: ProgramFormat, name: &str) -> Result<String, ProgramError> {
-        self.check(format, name)?;
-        let steps = steps::steps_of(self.points, self.settings);
-        let header = self.header(format);
-        let lines = match format {
-            ProgramFormat::Krl => krl::write(self, &steps, &header, name),
-            ProgramFormat::Ls => ls::write(self, &steps, &header, name),
-            ProgramFormat::Rapid => rapid::write(self, &steps, &header, name),
-            ProgramFormat::UrScript => urscript_drl::write_urscript(self, &steps, &header, name),
-            ProgramFormat::Jbi => jbi::write(self, &steps, &header, name),
-            ProgramFormat::Drl => urscript_drl::write_drl(self, &steps, &header),
-        };
-        lines.finish(format)
-    }
-
     fn check(&self, format: ProgramFormat, name: &str) -> Result<(), ProgramError> {
-        let is_name = name.len() <= format.longest_name() && text::is_identifier(name);
-        if !is_name {
+        let most = format.longest_name();
+        if name.len() > most || !text::is_identifier(name) {
             return Err(ProgramError::Name {
                 format,
                 name: name.to_owned(),
+                most,
             });
         }
         let settings = self.settings;
@@ -380,7 +351,7 @@ impl Program<'_> {
     }
 
     /// What stands above the moves, in lines of any length.
-    fn header(&self, format: ProgramFormat) -> Vec<String> {
+    fn header(&self, format: ProgramFormat, steps: &[Step]) -> Vec<String> {
         let convention = format.convention();
         let seen = match self.scene {
             Some(scene) => format!("scene: {scene}"),
@@ -408,6 +379,17 @@ impl Program<'_> {
             None => format!("tool: {tool}, at the nozzle's mouth, z towards the part"),
         });
         lines.push("frame: robot base".into());
+        if let Some((arm, _)) = self.reach {
+            let is_named = steps.first().is_some_and(|s| s.configuration.is_some());
+            lines.push(if is_named {
+                format!(
+                    "arm: {}, in the configuration that was checked",
+                    arm.arm.name
+                )
+            } else {
+                format!("arm: {}, its configuration is not named here", arm.arm.name)
+            });
+        }
         lines.push(format!(
             "{} points, gun: output {}",
             self.points.len(),

@@ -62,12 +62,13 @@ pub fn check_reach(
     let mut check = check_path(arm, &points, &CheckParams::default())?;
     let retreat = check.points.pop();
     let approach = check.points.remove(0);
-    if let (Some(last), Some(retreat)) = (check.points.last_mut(), retreat) {
-        last.problem = graver(last.problem.take(), retreat.problem);
+    if let (Some(last), Some(retreat)) = (check.points.last_mut(), &retreat) {
+        last.problem = graver(last.problem.take(), retreat.problem.clone());
     }
     if let Some(first) = check.points.first_mut() {
-        first.problem = graver(first.problem.take(), approach.problem);
+        first.problem = graver(first.problem.take(), approach.problem.clone());
     }
+    check.ends = retreat.map(|retreat| [approach, retreat]);
     Ok(check)
 }
 
@@ -159,6 +160,13 @@ mod tests {
         let mut settings = ProgramSettings::default();
         let near = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
         assert_eq!(near.doubt("arm"), None, "{near:?}");
+        let [begin, end] = near.ends.as_ref().expect("ends");
+        for (end, point) in [(begin, &near.points[0]), (end, &near.points[4])] {
+            let (end, point) = (end.joints.expect("reached"), point.joints.expect("reached"));
+            let moved = end.iter().zip(&point).map(|(a, b)| (a - b).abs());
+            assert!(moved.fold(0.0, f64::max) > 0.01, "{near:?}");
+            assert_eq!(arm.arm.configuration(&end), arm.arm.configuration(&point));
+        }
         // A metre behind the nozzle the arm would be in its own foot.
         settings.approach = Metres(1.4);
         let far = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");

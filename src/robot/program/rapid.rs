@@ -1,6 +1,10 @@
 //! ABB's RAPID: one module with one procedure.
 
-use super::{Lines, Program, ProgramFormat, Step, text};
+use super::{
+    Lines, Program, ProgramFormat,
+    steps::{Motion, Step},
+    text,
+};
 use crate::geometry::rigid::RigidTransform;
 
 const WIDTH: usize = 78;
@@ -27,16 +31,25 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     }
     let signal = format!("doGun{}", settings.gun_output);
     lines.add(format!("  PROC run_{name}()"));
-    lines.add("    ConfJ\\Off;");
+    // The first move takes the configuration that was checked, or stops; linear moves then keep it, also where an axis
+    // stands on the border of a quadrant.
+    let is_known = steps
+        .first()
+        .is_some_and(|step| step.configuration.is_some());
+    lines.add(if is_known {
+        "    ConfJ\\On;"
+    } else {
+        "    ConfJ\\Off;"
+    });
     lines.add("    ConfL\\Off;");
     lines.add(format!("    SetDO {signal},0;"));
     for step in steps {
-        match step {
-            Step::Joints(to) => lines.instruct(format!(
+        match step.motion {
+            Motion::Joints => lines.instruct(format!(
                 "    MoveJ {},{SLOW},fine,{tool}\\WObj:=wobj0;",
-                target(to)
+                target(step)
             )),
-            Step::Line(line) => {
+            Motion::Line(line) => {
                 let speed = text::fixed(line.speed * 1000.0, 3);
                 let zone = zone(line.blend);
                 let (verb, signal) = match line.gun {
@@ -45,7 +58,7 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
                 };
                 lines.instruct(format!(
                     "    {verb} {},[{speed},500,5000,1000],{zone},{tool}\\WObj:=wobj0{signal};",
-                    target(&line.to)
+                    target(step)
                 ));
             }
         }
@@ -65,10 +78,11 @@ fn pose(place: &RigidTransform) -> String {
     )
 }
 
-fn target(place: &RigidTransform) -> String {
-    let pose = pose(place);
+fn target(step: &Step) -> String {
+    let pose = pose(&step.to);
     let inner = &pose[1..pose.len() - 1];
-    format!("[{inner},[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]")
+    let configuration = step.configuration.as_deref().unwrap_or("[0,0,0,0]");
+    format!("[{inner},{configuration},[9E9,9E9,9E9,9E9,9E9,9E9]]")
 }
 
 /// As z5 and its kin are made: the tool turns within one and a half times the radius.

@@ -1,15 +1,27 @@
 //! What every program does, in no controller's words.
 
-use nalgebra::Translation3;
+use std::ops::Range;
 
-use super::{ProgramPoint, ProgramSettings};
-use crate::geometry::rigid::RigidTransform;
+use nalgebra::{Translation3, UnitQuaternion};
+
+use super::{Program, ProgramFormat, ProgramPoint, configuration::configuration};
+use crate::{geometry::rigid::RigidTransform, robot::arm::PointCheck};
 
 /// One step of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Step {
+    /// Where to.
+    pub(super) to: RigidTransform,
+    /// How the arm stands there, in the controller's words; none where that was not checked or is not known.
+    pub(super) configuration: Option<String>,
+    pub(super) motion: Motion,
+}
+
+/// How a robot moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Step {
-    /// By the joints, slowly, to the approach point; the gun is off.
-    Joints(RigidTransform),
+pub(super) enum Motion {
+    /// By the joints, slowly; the gun is off.
+    Joints,
     /// In a straight line.
     Line(Line),
 }
@@ -17,11 +29,9 @@ pub(super) enum Step {
 /// A straight move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line {
-    /// Where to.
-    pub(super) to: RigidTransform,
     /// How fast, m/s.
     pub(super) speed: f64,
-    /// Radius of the blend there, metres; 0 to reach the point.
+    /// Radius of the blend at its end, metres; 0 to reach the point.
     pub(super) blend: f64,
     /// The gun from there on, where it changes.
     pub(super) gun: Option<bool>,
@@ -34,19 +44,51 @@ impl Line {
     }
 }
 
+impl Step {
+    fn gun(&self) -> Option<bool> {
+        match self.motion {
+            Motion::Joints => None,
+            Motion::Line(line) => line.gun,
+        }
+    }
+
+    /// Of a controller that switches the gun after a move.
+    fn num_instructions(&self) -> usize {
+        1 + usize::from(self.gun().is_some())
+    }
+}
+
 /// A blend may reach this share of the way to the next point: two of them must not touch.
 const BLEND_SHARE: f64 = 0.45;
 
-/// The steps over these points, of which there is at least one.
-pub(super) fn steps_of(points: &[ProgramPoint], settings: &ProgramSettings) -> Vec<Step> {
+/// The steps of a program, which has at least one point.
+pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step> {
+    let Program {
+        points, settings, ..
+    } = program;
     let (Some(first), Some(last)) = (points.first(), points.last()) else {
         return Vec::new();
     };
-    let behind = |point: &ProgramPoint| {
-        point.robot_from_nozzle * Translation3::new(0.0, 0.0, -settings.approach.0)
+    let checked = program.reach.map(|(arm, check)| (&arm.arm, check));
+    let ends = checked.and_then(|(_, check)| check.ends.as_ref());
+    let stands = |point: Option<&PointCheck>| {
+        let (arm, _) = checked?;
+        configuration(format, arm, &point?.joints?)
+    };
+    let at = |index: usize| checked.and_then(|(_, check)| check.points.get(index));
+    // Behind a point, turned about the nozzle from there as the check has it.
+    let behind = |point: &ProgramPoint, index: usize, end: Option<&PointCheck>| {
+        let turns = at(index).zip(end).map(|(point, end)| end.turn - point.turn);
+        let turn = UnitQuaternion::from_euler_angles(0.0, 0.0, turns.unwrap_or(0.0));
+        point.robot_from_nozzle * Translation3::new(0.0, 0.0, -settings.approach.0) * turn
     };
     let place = |point: &ProgramPoint| point.robot_from_nozzle.translation.vector;
-    let mut steps = vec![Step::Joints(behind(first))];
+    let begin = ends.map(|[begin, _]| begin);
+    let mut steps = vec![Step {
+        to: behind(first, 0, begin),
+        configuration: stands(begin),
+        motion: Motion::Joints,
+    }];
     let mut is_on = false;
     // The way to a point goes at the speed of the one before it.
     let mut speed = first.speed.unwrap_or(settings.speed);
@@ -61,20 +103,61 @@ pub(super) fn steps_of(points: &[ProgramPoint], settings: &ProgramSettings) -> V
             // Reached, not blended: the first and the last.
             _ => 0.0,
         };
-        steps.push(Step::Line(Line {
+        steps.push(Step {
             to: point.robot_from_nozzle,
-            speed,
-            blend: settings.blend.0.min(BLEND_SHARE * neighbours),
-            gun: (wanted != is_on).then_some(wanted),
-        }));
+            configuration: stands(at(i)),
+            motion: Motion::Line(Line {
+                speed,
+                blend: settings.blend.0.min(BLEND_SHARE * neighbours),
+                gun: (wanted != is_on).then_some(wanted),
+            }),
+        });
         is_on = wanted;
         speed = point.speed.unwrap_or(settings.speed);
     }
-    steps.push(Step::Line(Line {
-        to: behind(last),
-        speed,
-        blend: 0.0,
-        gun: None,
-    }));
+    let end = ends.map(|[_, end]| end);
+    steps.push(Step {
+        to: behind(last, points.len() - 1, end),
+        configuration: stands(end),
+        motion: Motion::Line(Line {
+            speed,
+            blend: 0.0,
+            gun: None,
+        }),
+    });
     steps
+}
+
+/// Cuts the steps into parts of at most so many instructions each, where the gun is off; the robot stops there. An error
+/// tells how many instructions lie between two such places where that is too many.
+pub(super) fn split(steps: &mut [Step], most: usize) -> Result<Vec<Range<usize>>, usize> {
+    let mut parts: Vec<Range<usize>> = Vec::new();
+    let (mut used, mut is_on) = (0, false);
+    let strokes = steps.split_inclusive(|step| {
+        is_on = step.gun().unwrap_or(is_on);
+        !is_on
+    });
+    for stroke in strokes {
+        let needed: usize = stroke.iter().map(Step::num_instructions).sum();
+        if needed > most {
+            return Err(needed);
+        }
+        let begin = parts.last().map_or(0, |part| part.end);
+        match parts.last_mut() {
+            Some(part) if used + needed <= most => {
+                part.end += stroke.len();
+                used += needed;
+            }
+            _ => {
+                parts.push(begin..begin + stroke.len());
+                used = needed;
+            }
+        }
+    }
+    for part in &parts {
+        if let Motion::Line(line) = &mut steps[part.end - 1].motion {
+            line.blend = 0.0;
+        }
+    }
+    Ok(parts)
 }

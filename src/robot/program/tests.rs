@@ -4,8 +4,12 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use super::*;
-use crate::{error::Advice as _, geometry::rigid::from_euler_zyx};
+use super::{save::beside, *};
+use crate::{
+    error::Advice as _,
+    geometry::rigid::from_euler_zyx,
+    robot::arm::{ARM_NAMES, Arm, GUN_RADIUS, Joints, Obstacles, PointCheck},
+};
 
 fn any_rotation(random: &mut Pcg64) -> UnitQuaternion<f64> {
     // Every fifth lies in or near a gimbal lock, or at half a turn.
@@ -46,6 +50,7 @@ fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Pro
     Program {
         points,
         settings,
+        reach: None,
         part: "Tür_links",
         scene: Some("door; \"x\".pcd"),
         robot_from_part: from_euler_zyx([0.1, -0.2, 0.3, 1.5, -0.2, 2.0]),
@@ -54,6 +59,13 @@ fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Pro
         doubts: &[],
         at: Timestamp::UNIX_EPOCH,
     }
+}
+
+/// The text of a program that is short enough for one.
+fn text_of(program: &Program<'_>, format: ProgramFormat) -> String {
+    let texts = program.texts(format, "paint").expect("text");
+    assert!(texts.parts.is_empty());
+    texts.main
 }
 
 /// How far a written speed may be from the wanted one, m/s.
@@ -77,9 +89,7 @@ fn every_format_reads_back_to_the_path() {
         let speed_of = |i: usize| points[i].speed.unwrap_or(settings.speed);
         let last = points.len() - 1;
         for format in ProgramFormat::ALL {
-            let text = program(&points, &settings)
-                .text(format, "paint")
-                .expect("text");
+            let text = text_of(&program(&points, &settings), format);
             assert!(text.is_ascii());
             let read = parse::read(format, &text);
             assert_eq!(read.output, "3");
@@ -140,7 +150,7 @@ fn a_header_says_part_pose_time_and_that_nothing_was_seen() {
             doubts: &doubts,
             ..program(&points, &settings)
         };
-        let text = program.text(format, "paint").expect("text");
+        let text = text_of(&program, format);
         let read = parse::read(format, &text);
         let words = read.comments.join(" ");
         for wanted in [
@@ -176,9 +186,7 @@ fn corners_are_blended_where_the_gun_does_not_change() {
     let settings = ProgramSettings::default();
     let points = row();
     for format in ProgramFormat::ALL {
-        let text = program(&points, &settings)
-            .text(format, "paint")
-            .expect("text");
+        let text = text_of(&program(&points, &settings), format);
         let exact: Vec<bool> = (parse::read(format, &text).moves.iter())
             .map(|found| found.is_exact)
             .collect();
@@ -194,7 +202,7 @@ fn corners_are_blended_where_the_gun_does_not_change() {
             blend: Metres(0.0),
             ..settings.clone()
         };
-        let text = program(&points, &none).text(format, "paint").expect("text");
+        let text = text_of(&program(&points, &none), format);
         assert!(
             parse::read(format, &text)
                 .moves
@@ -211,11 +219,7 @@ fn a_given_tool_is_set_where_the_controller_can() {
         flange_from_nozzle: Some(from_euler_zyx([0.0, 0.0, 0.0, 0.0, 0.01, 0.25])),
         ..ProgramSettings::default()
     };
-    let text = |format| {
-        program(&points, &settings)
-            .text(format, "paint")
-            .expect("text")
-    };
+    let text = |format| text_of(&program(&points, &settings), format);
     for (format, wanted) in [
         (
             ProgramFormat::Krl,
@@ -251,7 +255,7 @@ fn what_a_controller_would_not_take_is_refused_with_advice() {
     };
     let refused = |points: &[ProgramPoint], settings: &ProgramSettings, format, name: &str| {
         let error = program(points, settings)
-            .text(format, name)
+            .texts(format, name)
             .expect_err("refused");
         assert!(!error.advice().is_empty());
         error.to_string()
@@ -290,11 +294,20 @@ fn what_a_controller_would_not_take_is_refused_with_advice() {
             }
         }
     }
-    let long: Vec<ProgramPoint> = points.iter().copied().cycle().take(20_000).collect();
+    // Between the first point and the last the gun never closes, so that there is no place to cut.
+    let on = |point: &ProgramPoint| ProgramPoint {
+        is_gun_on: true,
+        ..*point
+    };
+    let long: Vec<ProgramPoint> = points.iter().map(on).cycle().take(20_000).collect();
     for format in ProgramFormat::ALL {
-        match program(&long, &usual).text(format, "p") {
-            Err(error) => assert!(error.to_string().contains("holds 9999"), "{error}"),
-            Ok(text) => assert_eq!(parse::read(format, &text).moves.len(), 20_002),
+        match program(&long, &usual).texts(format, "p") {
+            Err(error) => {
+                assert!(error.to_string().contains("the gun stays on"), "{error}");
+                assert!(error.advice().contains("point_spacing"));
+                assert!(format.most_lines().is_some());
+            }
+            Ok(texts) => assert_eq!(parse::read(format, &texts.main).moves.len(), 20_002),
         }
     }
 }
@@ -326,4 +339,507 @@ fn a_program_is_saved_by_its_ending_and_only_a_program_is_taken_away() {
     let name = folder.path().join("1 door.src");
     let failed = program(&points, &settings).save(&name, ProgramFormat::Krl);
     assert!(failed.is_err() && !name.exists());
+}
+
+/// 20 000 points of which two in five have the gun on.
+fn long_path() -> Vec<ProgramPoint> {
+    row().into_iter().cycle().take(20_000).collect()
+}
+
+#[test]
+fn a_path_that_is_too_long_for_one_program_is_called_in_parts() {
+    let points = long_path();
+    let settings = ProgramSettings::default();
+    for format in [ProgramFormat::Ls, ProgramFormat::Jbi] {
+        let texts = program(&points, &settings)
+            .texts(format, "paint")
+            .expect("texts");
+        let main = parse::read(format, &texts.main);
+        assert_eq!(main.name, "PAINT");
+        assert!(main.moves.is_empty());
+        assert!(main.comments.join(" ").contains(MARK));
+        let names: Vec<String> = (texts.parts.iter())
+            .map(|(name, _)| name.to_uppercase())
+            .collect();
+        assert_eq!(main.calls, names);
+        let mut moves = Vec::new();
+        for (i, (name, text)) in texts.parts.iter().enumerate() {
+            let read = parse::read(format, text);
+            assert_eq!(read.name, name.to_uppercase());
+            assert!(name.len() <= format.longest_name(), "{name}");
+            assert!(read.calls.is_empty());
+            let wanted = format!("part {} of {}", i + 1, texts.parts.len());
+            assert!(read.comments.join(" ").contains(&wanted), "{wanted}");
+            let (begin, end) = match format {
+                ProgramFormat::Ls => ("/MN", "/POS"),
+                _ => ("///GROUP1 RB1", "never"),
+            };
+            let lines = text.lines().skip_while(|line| *line != begin).skip(1);
+            let num = lines.take_while(|line| *line != end).count();
+            assert!(num <= 9999, "{name}: {num}");
+            // The last is what remains; the others are filled but for one stroke.
+            assert!(num > 9900 || i + 1 == texts.parts.len(), "{name}: {num}");
+            // The robot stands still, with the gun off, where one ends and the next begins.
+            assert!(!read.is_gun_on);
+            assert!(!read.moves[0].is_gun_on || i == 0);
+            assert!(read.moves[read.moves.len() - 1].is_exact);
+            moves.extend(read.moves);
+        }
+        assert_eq!(moves.len(), 20_002, "{format:?}");
+        let middle = &moves[1..20_001];
+        for (i, (found, wanted)) in middle.iter().zip(&points).enumerate() {
+            let wanted_at = wanted.robot_from_nozzle.translation.vector;
+            let off = (found.to.translation.vector - wanted_at).norm();
+            assert!(off <= 1e-6, "{format:?} {i}: {off}");
+            assert_eq!(found.is_gun_on, i > 0 && points[i - 1].is_gun_on);
+        }
+        // Another path has parts of other names.
+        let other = program(&points[5..], &settings)
+            .texts(format, "paint")
+            .expect("texts");
+        assert_ne!(other.parts[0].0, texts.parts[0].0);
+        // The names of the parts need room.
+        let name = "p".repeat(format.longest_name());
+        let error = program(&points, &settings)
+            .texts(format, &name)
+            .expect_err("too long");
+        let most = format.longest_name() - "_12345678_1".len();
+        assert!(
+            error.advice().contains(&format!("at most {most} ")),
+            "{}",
+            error.advice()
+        );
+        let fits = program(&points, &settings).texts(format, &name[..most]);
+        assert!(fits.is_ok());
+    }
+}
+
+#[test]
+fn a_set_of_programs_is_written_whole_or_not_at_all_and_removed_whole() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let listed = || {
+        let entries = std::fs::read_dir(folder.path()).expect("listed");
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.expect("one").file_name().into_string().expect("text"))
+            .collect();
+        names.sort();
+        names
+    };
+    let points = long_path();
+    let settings = ProgramSettings::default();
+    for format in [ProgramFormat::Ls, ProgramFormat::Jbi] {
+        let path = folder.path().join(format!("paint.{}", format.ending()));
+        let long = program(&points, &settings);
+        let parts = long.texts(format, "paint").expect("texts").parts;
+        let num = long.save(&path, format).expect("saved");
+        assert_eq!((num, listed().len()), (parts.len(), parts.len() + 1));
+        // The next takes the place of all of them, and so does a short one.
+        let next = program(&points[5..], &settings);
+        let num = next.save(&path, format).expect("saved");
+        assert_eq!(listed().len(), num + 1);
+        assert!(remove_previous_program(&path).expect("removed"));
+        assert_eq!(listed(), Vec::<String>::new());
+        let num = program(&points[..5], &settings)
+            .save(&path, format)
+            .expect("saved");
+        assert_eq!((num, listed().len()), (0, 1));
+        assert!(remove_previous_program(&path).expect("removed"));
+
+        // Parts that an interruption left go as well; what is not ours, or another's part, stays.
+        let left = beside(&path, &parts[0].0);
+        std::fs::write(&left, &parts[0].1).expect("written");
+        let others = [
+            "paint_12345678_1",
+            "paint_1",
+            "door_12345678_1",
+            "paint_x_1",
+        ];
+        let others = others.map(|name| beside(&path, name));
+        std::fs::write(&others[0], "mine").expect("written");
+        for other in &others[1..] {
+            std::fs::write(other, &parts[0].1).expect("written");
+        }
+        assert!(remove_previous_program(&path).expect("removed"));
+        assert!(!left.exists());
+        for other in others {
+            assert!(other.exists(), "{}", other.display());
+            std::fs::remove_file(other).expect("removed");
+        }
+
+        // Where a part or the main program cannot be written nothing is left that a robot could run.
+        for in_the_way in [beside(&path, &parts[1].0), path.clone()] {
+            std::fs::create_dir(&in_the_way).expect("a folder");
+            assert!(long.save(&path, format).is_err());
+            assert_eq!(listed().len(), 1, "{:?}", listed());
+            std::fs::remove_dir(&in_the_way).expect("removed");
+        }
+    }
+}
+
+/// What a check of an arm has found: these joints at the points, and the first and the last of them at its ends too.
+fn reached(arm: Arm, joints: &[Joints]) -> (PlacedArm, PathCheck) {
+    let stands = |joints: &Joints| PointCheck {
+        joints: Some(*joints),
+        turn: 0.0,
+        problem: None,
+    };
+    let placed = PlacedArm {
+        arm,
+        robot_from_base: RigidTransform::identity(),
+        flange_from_nozzle: RigidTransform::identity(),
+        gun_radius: GUN_RADIUS,
+        obstacles: Obstacles::default(),
+    };
+    let points: Vec<PointCheck> = joints.iter().map(stands).collect();
+    let ends = [points[0].clone(), points[points.len() - 1].clone()];
+    let check = PathCheck {
+        points,
+        ends: Some(ends),
+    };
+    (placed, check)
+}
+
+/// As many points as an arm has sets of joints.
+fn points_for(joints: &[Joints]) -> Vec<ProgramPoint> {
+    row().into_iter().cycle().take(joints.len()).collect()
+}
+
+fn in_radians(degrees: [f64; 6]) -> Joints {
+    degrees.map(f64::to_radians)
+}
+
+/// What the program of the arm's maker says of these joints, degrees, at each point.
+fn words_of(name: &str, format: ProgramFormat, degrees: &[[f64; 6]]) -> Vec<String> {
+    let joints: Vec<Joints> = degrees.iter().copied().map(in_radians).collect();
+    let points = points_for(&joints);
+    let settings = ProgramSettings::default();
+    let reach = reached(Arm::named(name).expect("known"), &joints);
+    let program = Program {
+        reach: Some(&reach),
+        ..program(&points, &settings)
+    };
+    let read = parse::read(format, &text_of(&program, format));
+    assert_eq!(read.moves.len(), joints.len() + 2);
+    let words = read.comments.join(" ");
+    assert!(
+        words.contains("in the configuration that was checked"),
+        "{words}"
+    );
+    let mut all = read.moves.into_iter().map(|found| found.configuration);
+    let first = all.next().expect("a joint move");
+    let mut all: Vec<String> = all.collect();
+    let last = all.pop().expect("the way back");
+    if format == ProgramFormat::Krl {
+        // Linear moves have none.
+        assert!(all.iter().all(String::is_empty) && last.is_empty());
+        return vec![first];
+    }
+    assert_eq!((&first, &last), (&all[0], &all[all.len() - 1]));
+    all
+}
+
+fn format_of(arm: &str) -> ProgramFormat {
+    match arm {
+        "kr6-r900" => ProgramFormat::Krl,
+        "m-20ia" => ProgramFormat::Ls,
+        "gp25" => ProgramFormat::Jbi,
+        _ => ProgramFormat::Rapid,
+    }
+}
+
+/// Whether the wrist is ahead of joint 1 and whether it is before the line of the upper arm, by the makers' drawings:
+/// lengths from joint 1 to joint 2, of the upper arm, of the forearm and of the step above it, metres.
+fn drawn(arm: &str, degrees: &[f64; 6]) -> [bool; 2] {
+    let [_, a2, a3, ..] = *degrees;
+    // The upper arm from upright to the front, and the forearm from level downwards.
+    let (lengths, upper, fore) = match arm {
+        "kr6-r900" => ([0.025, 0.455, 0.42, 0.025], a2 + 90.0, a2 + a3),
+        "m-20ia" => ([0.15, 0.79, 0.835, 0.25], a2, a2 - a3),
+        "irb2600" => ([0.15, 0.7, 0.795, 0.115], a2, a2 + a3),
+        "irb4600" => ([0.175, 1.095, 1.27, 0.175], a2, a2 + a3),
+        "gp25" => ([0.15, 0.76, 0.795, 0.2], a2, a2 - a3),
+        _ => panic!("{arm}"),
+    };
+    let [to_joint_2, upper_arm, forearm, step] = lengths;
+    let (upper_sin, upper_cos) = upper.to_radians().sin_cos();
+    let (fore_sin, fore_cos) = fore.to_radians().sin_cos();
+    // From the elbow to the wrist: ahead and up.
+    let wrist = [
+        forearm * fore_cos + step * fore_sin,
+        step * fore_cos - forearm * fore_sin,
+    ];
+    let ahead = to_joint_2 + upper_arm * upper_sin + wrist[0];
+    let before = wrist[0] * upper_cos - wrist[1] * upper_sin;
+    [ahead > 0.0, before > 0.0]
+}
+
+/// Holds a configuration against the joints as the controllers' manuals tell it.
+fn fits(format: ProgramFormat, words: &str, degrees: &[f64; 6], [ahead, before]: [bool; 2]) {
+    let numbers = |text: &str| -> Vec<i32> {
+        let numbers = text.split([',', ' ']).filter_map(|n| n.parse().ok());
+        numbers.collect()
+    };
+    let what = format!("{words}: {degrees:?}");
+    match format {
+        ProgramFormat::Krl => {
+            let [s, t] = numbers(&words.replace("S ", "").replace("T ", ""))[..] else {
+                panic!("{what}");
+            };
+            assert_eq!(s & 1 == 0, ahead, "{what}");
+            assert_eq!(s & 2 != 0, before, "{what}");
+            assert_eq!(s & 4 != 0, degrees[4] < 0.0, "{what}");
+            for (i, angle) in degrees.iter().enumerate() {
+                assert_eq!(t & (1 << i) != 0, *angle < 0.0, "{what}");
+            }
+            assert!((0..8).contains(&s) && (0..64).contains(&t));
+        }
+        ProgramFormat::Ls => {
+            let [letters, turns] = [&words[..5], &words[5..]];
+            let wanted = format!(
+                "{} {} {}",
+                if degrees[4] < 0.0 { 'N' } else { 'F' },
+                if before { 'U' } else { 'D' },
+                if ahead { 'T' } else { 'B' }
+            );
+            assert_eq!(letters, wanted, "{what}");
+            let turns = numbers(turns);
+            assert_eq!(turns.len(), 3);
+            for (turn, angle) in turns.iter().zip(&degrees[3..]) {
+                // A whole turn less or more lies within half a turn of 0.
+                let left = angle - 360.0 * f64::from(*turn);
+                assert!(left.abs() <= 180.0, "{what}");
+            }
+        }
+        ProgramFormat::Rapid => {
+            let [cf1, cf4, cf6, cfx] = numbers(words)[..] else {
+                panic!("{what}");
+            };
+            for (quarter, axis) in [(cf1, 0), (cf4, 3), (cf6, 5)] {
+                let low = 90.0 * f64::from(quarter);
+                assert!((low..low + 90.0).contains(&degrees[axis]), "{what}");
+            }
+            let wanted = [!ahead, !before, degrees[4] < 0.0];
+            let wanted = wanted.iter().fold(0, |all, bit| 2 * all + i32::from(*bit));
+            assert_eq!(cfx, wanted, "{what}");
+        }
+        _ => {
+            let all = numbers(words);
+            assert!(
+                all.len() == 24 && all[6..].iter().all(|n| *n == 0),
+                "{what}"
+            );
+            let is_beyond = |axis: usize| degrees[axis].abs() >= 180.0;
+            let wanted = [
+                degrees[4] < 0.0,
+                !before,
+                !ahead,
+                is_beyond(3),
+                is_beyond(5),
+                is_beyond(0),
+            ];
+            assert_eq!(all[..6], wanted.map(i32::from), "{what}");
+        }
+    }
+}
+
+#[test]
+fn every_controller_is_told_the_configuration_that_was_checked() {
+    let mut random = Pcg64::seed_from_u64(11);
+    let reach = [170.0, 120.0, 150.0, 350.0, 125.0, 350.0];
+    for arm in ARM_NAMES {
+        let format = format_of(arm);
+        let sets: Vec<[f64; 6]> = (0..400)
+            .map(|_| reach.map(|most| random.random_range(-most..most)))
+            .collect();
+        let mut kinds = std::collections::BTreeSet::new();
+        // Of KRL only the first counts.
+        let num = if format == ProgramFormat::Krl { 1 } else { 50 };
+        for sets in sets.chunks(num) {
+            let found = words_of(arm, format, sets);
+            assert_eq!(found.len(), sets.len());
+            for (words, degrees) in found.iter().zip(sets) {
+                fits(format, words, degrees, drawn(arm, degrees));
+                let [ahead, before] = drawn(arm, degrees);
+                kinds.insert([ahead, before, degrees[4] < 0.0]);
+            }
+        }
+        assert_eq!(kinds.len(), 8, "{arm}: {kinds:?}");
+    }
+}
+
+#[test]
+fn the_borders_of_quarters_and_turns_belong_to_one_side_whatever_the_last_bit_is() {
+    let with = |axis: usize, angle: f64| {
+        let mut degrees = [10.0, 10.0, 10.0, 10.0, 30.0, 10.0];
+        degrees[axis] = angle;
+        degrees
+    };
+    let words = |arm: &str, axis: usize, angle: f64| {
+        [angle - 1e-9, angle, angle + 1e-9].map(|angle| {
+            let words = words_of(arm, format_of(arm), &[with(axis, angle)]);
+            words.into_iter().next().expect("one")
+        })
+    };
+    let part = |words: &str, index: usize| -> i32 {
+        let words = words.trim_start_matches(|c: char| !c.is_ascii_digit() && c != '-');
+        let part = words.split(',').nth(index).expect("a number");
+        part.trim().parse().expect("a number")
+    };
+    for (angle, quarter) in [
+        (0.0, 0),
+        (90.0, 1),
+        (180.0, 2),
+        (270.0, 3),
+        (-90.0, -1),
+        (-180.0, -2),
+    ] {
+        for (axis, index) in [(0, 0), (3, 1), (5, 2)] {
+            for words in words("irb4600", axis, angle) {
+                assert_eq!(part(&words, index), quarter, "{words}: {angle}");
+            }
+        }
+    }
+    for (angle, turn) in [(0.0, 0), (179.9, 0), (180.0, 1), (-179.9, 0), (-180.0, -1)] {
+        for words in words("m-20ia", 3, angle) {
+            // Behind the letters.
+            assert_eq!(part(&words, 0), turn, "{words}: {angle}");
+        }
+        for words in words("gp25", 3, angle) {
+            assert_eq!(part(&words, 3), turn.abs(), "{words}: {angle}");
+        }
+    }
+    // A joint at zero is not negative.
+    for axis in 0..6 {
+        for words in words("kr6-r900", axis, 0.0) {
+            assert!(words.ends_with(",T 0"), "{words}");
+        }
+    }
+}
+
+#[test]
+fn poses_that_controllers_showed_have_their_configuration() {
+    // KUKA's home position.
+    let home = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0];
+    assert_eq!(
+        words_of("kr6-r900", ProgramFormat::Krl, &[home]),
+        ["S 2,T 2"]
+    );
+    // ABB's, with the wrist bent down.
+    let home = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
+    let found = words_of("irb2600", ProgramFormat::Rapid, &[home]);
+    assert_eq!(found, ["0,0,0,0"]);
+    // FANUC, with J3 of -10.99° on the controller, which is counted against the horizontal.
+    let shown = [86.75, -45.63, -56.62, 56.19, -81.55, -94.01];
+    let found = words_of("m-20ia", ProgramFormat::Ls, &[shown]);
+    assert_eq!(found, ["N U T, 0, 0, 0"]);
+    // A YRC1000 with a larger arm of the same shape: home, B upwards, leaned back, T on either side.
+    let home = [0.15, -39.5, 0.75, 0.0, -130.3, 0.0];
+    let with = |axis: usize, angle: f64| {
+        let mut degrees = home;
+        degrees[axis] = angle;
+        degrees
+    };
+    let shown = [
+        home,
+        with(4, 5.8),
+        with(1, -87.3),
+        with(5, 241.8),
+        with(5, -241.8),
+    ];
+    let wanted = [
+        "1,0,0,0,0,0",
+        "0,0,0,0,0,0",
+        "1,0,1,0,0,0",
+        "1,0,0,0,1,0",
+        "1,0,0,0,1,0",
+    ];
+    let found = words_of("gp25", ProgramFormat::Jbi, &shown);
+    let wanted = wanted.map(|wanted| format!("{wanted}{}", ",0".repeat(18)));
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn an_arm_of_another_maker_or_of_none_leaves_the_configuration_as_it_was() {
+    let joints = vec![in_radians([20.0, 10.0, 5.0, 200.0, 40.0, -200.0]); 5];
+    let points = points_for(&joints);
+    let settings = ProgramSettings::default();
+    let words = |arm: Option<Arm>, format: ProgramFormat| -> Vec<String> {
+        let reach = arm.map(|arm| reached(arm, &joints));
+        let program = Program {
+            reach: reach.as_ref(),
+            ..program(&points, &settings)
+        };
+        let text = text_of(&program, format);
+        assert!(!text.contains("ConfJ\\On"), "{text}");
+        let read = parse::read(format, &text);
+        let says = read.comments.join(" ").contains("is not named here");
+        assert_eq!(says, program.reach.is_some());
+        let moves = read.moves.into_iter();
+        moves.map(|found| found.configuration).collect()
+    };
+    for format in ProgramFormat::ALL {
+        let bare = words(None, format);
+        for arm in ARM_NAMES {
+            if format_of(arm) != format {
+                let arm = Arm::named(arm).expect("known");
+                assert_eq!(words(Some(arm), format), bare, "{format:?}");
+            }
+        }
+    }
+    // An arm from a file, with the numbers of a GP25.
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("arm.toml");
+    let text = "name = \"Cell 3\"\n\
+        lengths_mm = [150, -200, 0, 505, 760, 795, 100]\n\
+        offsets_deg = [0, 0, -90, 0, 0, 180]\n\
+        signs = [1, 1, -1, -1, -1, -1]\n\
+        limits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]\n\
+        speeds_deg_s = [210, 210, 265, 420, 420, 885]\n";
+    std::fs::write(&path, text).expect("written");
+    for format in ProgramFormat::ALL {
+        let arm = Arm::named(path.to_str().expect("a path")).expect("an arm");
+        assert_eq!(words(Some(arm), format), words(None, format), "{format:?}");
+    }
+    // Where a point was not reached, the usual one stands; so do turns that RCONF cannot tell apart.
+    let mut reach = reached(Arm::named("gp25").expect("known"), &joints);
+    reach.1.points[2].joints = None;
+    reach.1.points[3].joints = Some(in_radians([20.0, 10.0, 5.0, 0.0, 40.0, 400.0]));
+    let program = Program {
+        reach: Some(&reach),
+        ..program(&points, &settings)
+    };
+    let read = parse::read(ProgramFormat::Jbi, &text_of(&program, ProgramFormat::Jbi));
+    let is_usual = |found: &parse::Move| found.configuration.starts_with("1,0,0,0,0,0,");
+    let usual: Vec<bool> = read.moves.iter().map(is_usual).collect();
+    // The approach comes first.
+    assert_eq!(usual, [false, false, false, true, true, false, false]);
+}
+
+#[test]
+fn a_program_begins_and_ends_with_the_nozzle_turned_as_it_was_checked() {
+    let joints = vec![in_radians([20.0, 10.0, 5.0, 0.0, 40.0, 0.0]); 5];
+    let points = points_for(&joints);
+    let settings = ProgramSettings::default();
+    let mut reach = reached(Arm::named("irb4600").expect("known"), &joints);
+    for (i, point) in reach.1.points.iter_mut().enumerate() {
+        point.turn = 0.1 * i as f64;
+    }
+    let ends = reach.1.ends.as_mut().expect("ends");
+    ends[0].turn = -0.2;
+    ends[1].turn = 0.9;
+    let program = Program {
+        reach: Some(&reach),
+        ..program(&points, &settings)
+    };
+    let before = Translation3::new(0.0, 0.0, -settings.approach.0);
+    for format in ProgramFormat::ALL {
+        let moves = parse::read(format, &text_of(&program, format)).moves;
+        for (found, point, turn) in [(0, 0, -0.2), (6, 4, 0.5)] {
+            let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
+            let wanted = points[point].robot_from_nozzle * before * turn;
+            let off = (moves[found].to.translation.vector - wanted.translation.vector).norm();
+            let turned = moves[found].to.rotation.angle_to(&wanted.rotation);
+            assert!(off <= 1e-6 && turned < 5e-6, "{format:?}: {off} {turned}");
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Lines of a program, and numbers in them.
 
-use super::{ProgramError, ProgramFormat};
+use super::ProgramFormat;
 use crate::{geometry::rigid::RigidTransform, robot::RobotPose};
 
 /// A program's text as it grows, and how many instructions it has.
@@ -34,21 +34,11 @@ impl Lines {
     }
 
     /// The text, with the line ends of the controller.
-    pub(super) fn finish(self, format: ProgramFormat) -> Result<String, ProgramError> {
-        if let Some(most) = format
-            .most_lines()
-            .filter(|most| self.num_instructions > *most)
-        {
-            return Err(ProgramError::TooMany {
-                format,
-                found: self.num_instructions,
-                most,
-            });
-        }
-        Ok(match format {
+    pub(super) fn finish(self, format: ProgramFormat) -> String {
+        match format {
             ProgramFormat::UrScript | ProgramFormat::Drl => self.text,
             _ => self.text.replace('\n', "\r\n"),
-        })
+        }
     }
 }
 

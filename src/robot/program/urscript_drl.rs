@@ -1,6 +1,10 @@
 //! Universal Robots' and Doosan's scripts: calls with named arguments.
 
-use super::{JOINT_SPEED, Lines, Program, ProgramFormat, Step, text};
+use super::{
+    JOINT_SPEED, Lines, Program, ProgramFormat,
+    steps::{Motion, Step},
+    text,
+};
 use crate::geometry::rigid::RigidTransform;
 
 const WIDTH: usize = 98;
@@ -37,15 +41,15 @@ pub(super) fn write_urscript(
     }
     lines.add(gun(false));
     for step in steps {
-        match step {
-            Step::Joints(to) => {
+        match step.motion {
+            Motion::Joints => {
                 let speed = text::fixed(JOINT_SPEED * FASTEST_JOINT, 3);
-                lines.instruct(format!("  movej({}, a=0.5, v={speed})", pose(to)));
+                lines.instruct(format!("  movej({}, a=0.5, v={speed})", pose(&step.to)));
             }
-            Step::Line(line) => {
+            Motion::Line(line) => {
                 lines.instruct(format!(
                     "  movel({}, a=1.2, v={}, r={})",
-                    pose(&line.to),
+                    pose(&step.to),
                     text::fixed(line.speed, 6),
                     text::fixed(line.blend_unless_gun(), 5)
                 ));
@@ -77,20 +81,20 @@ pub(super) fn write_drl(program: &Program<'_>, steps: &[Step], header: &[String]
     lines.add(format!("set_tcp(\"{}\")", program.tool(ProgramFormat::Drl)));
     lines.add(gun(false));
     for step in steps {
-        match step {
-            Step::Joints(to) => {
+        match step.motion {
+            Motion::Joints => {
                 let speed = (JOINT_SPEED * FASTEST_JOINT).to_degrees();
                 lines.instruct(format!(
                     "movejx({}, vel={}, acc={}, ref=DR_BASE, sol=get_current_solution_space())",
-                    pose(to),
+                    pose(&step.to),
                     text::fixed(speed, 1),
                     text::fixed(2.0 * speed, 1)
                 ));
             }
-            Step::Line(line) => {
+            Motion::Line(line) => {
                 lines.instruct(format!(
                     "movel({}, vel={}, acc=1000, radius={}, ref=DR_BASE)",
-                    pose(&line.to),
+                    pose(&step.to),
                     text::fixed(line.speed * 1000.0, 3),
                     text::fixed(line.blend_unless_gun() * 1000.0, 2)
                 ));

@@ -1,11 +1,13 @@
 //! Reads programs back by what the controllers' manuals say, knowing nothing of the writers.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use crate::{geometry::rigid::RigidTransform, robot::program::ProgramFormat};
 
 /// A move as a controller would run it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Move {
     pub(super) to: RigidTransform,
     /// None for a joint move.
@@ -14,6 +16,8 @@ pub(super) struct Move {
     pub(super) is_gun_on: bool,
     /// True if the point is reached, false if the corner may be cut.
     pub(super) is_exact: bool,
+    /// How the arm shall stand there, as it is written.
+    pub(super) configuration: String,
 }
 
 /// What was read.
@@ -24,6 +28,8 @@ pub(super) struct Read {
     pub(super) output: String,
     pub(super) comments: Vec<String>,
     pub(super) moves: Vec<Move>,
+    /// Programs that are called, in their order.
+    pub(super) calls: Vec<String>,
     /// After the last line.
     pub(super) is_gun_on: bool,
 }
@@ -107,6 +113,12 @@ fn krl(text: &str) -> Read {
                 speed: line.starts_with("LIN").then_some(speed),
                 is_gun_on: read.is_gun_on,
                 is_exact: !line.ends_with("C_DIS"),
+                configuration: line
+                    .split_once(",S ")
+                    .map_or_else(String::new, |(_, rest)| {
+                        let rest = rest.split('}').next().expect("an end");
+                        format!("S {rest}")
+                    }),
             });
             read.is_gun_on = pending.take().unwrap_or(read.is_gun_on);
         }
@@ -119,15 +131,20 @@ fn ls(text: &str) -> Read {
     let mut read = Read::default();
     let (program, points) = text.split_once("/POS\r\n").expect("positions");
     let (head, program) = program.split_once("/MN\r\n").expect("moves");
+    let places: BTreeMap<&str, &str> = (points.split("};"))
+        .filter_map(|place| place.trim_start().strip_prefix("P[")?.split_once("]{"))
+        .collect();
     let place = |number: &str| {
-        let body = between(points, &format!("P[{number}]{{"), "};");
-        assert!(body.contains("UF : 0") && body.contains("CONFIG : 'N U T, 0, 0, 0'"));
+        let body = places[number];
+        assert!(body.contains("UF : 0"));
         let value = |name: &str| {
             let (_, rest) = body.split_once(&format!("\t{name} = ")).expect(name);
             numbers(rest)[0]
         };
         let mm = [value("X"), value("Y"), value("Z")];
-        fixed_xyz(&mm, value("W"), value("P"), value("R"))
+        let configuration = between(body, "CONFIG : '", "',").to_owned();
+        let to = fixed_xyz(&mm, value("W"), value("P"), value("R"));
+        (to, configuration)
     };
     read.name = between(head, "/PROG  ", "\r\n").into();
     let count = between(head, "LINE_COUNT\t= ", ";")
@@ -152,12 +169,16 @@ fn ls(text: &str) -> Read {
                 .next()
                 .and_then(|head| head.split(' ').next_back());
             let is_line = rest.starts_with('L');
+            let (to, configuration) = place(between(rest, "P[", "]"));
             read.moves.push(Move {
-                to: place(between(rest, "P[", "]")),
+                to,
+                configuration,
                 speed: is_line.then(|| speed.expect("one").parse::<f64>().expect("mm/s") / 1000.0),
                 is_gun_on: read.is_gun_on,
                 is_exact: rest.ends_with("FINE"),
             });
+        } else if let Some(called) = rest.strip_prefix("  CALL ") {
+            read.calls.push(called.into());
         } else {
             assert_eq!(rest, "  UFRAME_NUM=0");
         }
@@ -182,6 +203,8 @@ fn rapid(text: &str) -> Read {
             let turn = Quaternion::new(n[3], n[4], n[5], n[6]);
             assert!((turn.norm() - 1.0).abs() < 1e-6);
             // Behind the target: its configuration and external axes.
+            let (target, _) = line.split_once(",[9E9,").expect("axes");
+            let configuration = target.rsplit_once(",[").expect("a configuration").1;
             let rest = between(line, ",[9E9,9E9,9E9,9E9,9E9,9E9]],", ";");
             let (speed, rest) = rest.split_once("],").expect("a speed");
             let (tool, gun) = rest.split_once("\\WObj:=wobj0").expect("a frame");
@@ -192,6 +215,7 @@ fn rapid(text: &str) -> Read {
                 speed: (!line.starts_with("MoveJ ")).then(|| numbers(speed)[0] / 1000.0),
                 is_gun_on: read.is_gun_on,
                 is_exact,
+                configuration: configuration.trim_end_matches(']').into(),
             });
             assert_eq!(line.starts_with("MoveLDO "), !gun.is_empty());
             if let Some(gun) = gun.strip_prefix(",doGun") {
@@ -229,6 +253,7 @@ fn urscript(text: &str) -> Read {
                 speed: is_line.then(|| value(" v=")),
                 is_gun_on: read.is_gun_on,
                 is_exact: !is_line || value(" r=") == 0.0,
+                configuration: String::new(),
             });
         }
     }
@@ -239,7 +264,7 @@ fn urscript(text: &str) -> Read {
 fn jbi(text: &str) -> Read {
     let mut read = Read::default();
     let mut places = Vec::new();
-    let mut num_places = 0;
+    let (mut num_places, mut configuration) = (0, String::new());
     for line in text.split("\r\n") {
         if let Some(name) = line.strip_prefix("//NAME ") {
             read.name = name.into();
@@ -247,11 +272,16 @@ fn jbi(text: &str) -> Read {
             read.tool = tool.into();
         } else if let Some(counts) = line.strip_prefix("///NPOS ") {
             num_places = numbers(counts)[0] as usize;
+        } else if let Some(numbers) = line.strip_prefix("///RCONF ") {
+            assert_eq!(numbers.split(',').count(), 24);
+            configuration = numbers.into();
+        } else if let Some(called) = line.strip_prefix("CALL JOB:") {
+            read.calls.push(called.into());
         } else if let Some(place) = line.strip_prefix('C') {
             let (number, numbers_of) = place.split_once('=').expect("a place");
             assert_eq!(number, format!("{:05}", places.len()));
             let n = numbers(numbers_of);
-            places.push(fixed_xyz(&n, n[3], n[4], n[5]));
+            places.push((fixed_xyz(&n, n[3], n[4], n[5]), configuration.clone()));
         } else if let Some(comment) = line.strip_prefix('\'') {
             assert!(comment.len() <= 32);
             read.comments.push(comment.into());
@@ -264,8 +294,10 @@ fn jbi(text: &str) -> Read {
             let is_line = words.next() == Some("MOVL");
             let number: usize = words.next().expect("a place")[1..].parse().expect("number");
             let speed = words.next().expect("a speed");
+            let (to, configuration) = places[number].clone();
             read.moves.push(Move {
-                to: places[number],
+                to,
+                configuration,
                 speed: is_line.then(|| speed[2..].parse::<f64>().expect("mm/s") / 1000.0),
                 is_gun_on: read.is_gun_on,
                 is_exact: words.next() == Some("PL=0"),
@@ -273,13 +305,13 @@ fn jbi(text: &str) -> Read {
         }
     }
     assert_eq!(places.len(), num_places);
-    for line in [
-        "///POSTYPE BASE",
-        "///RECTAN",
-        "////FRAME BASE",
-        "NOP",
-        "END",
-    ] {
+    // A job without positions says nothing of their frame.
+    let of_positions = ["///POSTYPE BASE", "///RECTAN", "////FRAME BASE"];
+    for line in of_positions {
+        let is_there = text.contains(&format!("\r\n{line}\r\n"));
+        assert_eq!(is_there, num_places > 0, "{line}");
+    }
+    for line in ["NOP", "END"] {
         assert!(text.contains(&format!("\r\n{line}\r\n")), "{line}");
     }
     read
@@ -308,6 +340,7 @@ fn drl(text: &str) -> Read {
                 speed: is_line.then(|| value(" vel=") / 1000.0),
                 is_gun_on: read.is_gun_on,
                 is_exact: !is_line || value(" radius=") == 0.0,
+                configuration: String::new(),
             });
         }
     }
