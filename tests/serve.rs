@@ -728,7 +728,7 @@ fn a_bad_request_is_answered_with_its_reason_and_the_connection_closed() {
     let mut checksum = request("binary-be", "TRIGGER", 0);
     checksum[19] ^= 1;
     for (place, bytes, reason) in [
-        (0, b"TRIGER\n".to_vec(), "unknown_request"),
+        (0, b"START\n".to_vec(), "unknown_request"),
         (0, vec![b'A'; 5000], "too_long"),
         (0, b"TRIG".to_vec(), "incomplete"),
         (1, b"GET / HTTP/1.1\r\n\r\n".to_vec(), "magic"),

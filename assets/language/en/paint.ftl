@@ -170,6 +170,6 @@ paint-near-box =
 paint-show-unreached = Show next
 paint-rail-at = At { $at } mm of its rail it would reach { $count }
 paint-base-moved = With its base moved by { $by } mm it would reach { $count }
-paint-export-program = Export program…
+paint-export-program = Program…
 paint-export-program-hint = Write the path as a program for the robot's controller, for the part hung as it was enrolled
 paint-program-title = Export a robot program

@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn anything_else_is_refused_by_name() {
         for (text, reason) in [
-            ("TRIGER\n", "unknown_request"),
+            ("START\n", "unknown_request"),
             ("TRIGGER 1\n", "unknown_request"),
             ("PATH 1 2\n", "unknown_request"),
             ("PATH -1\n", "no_point"),

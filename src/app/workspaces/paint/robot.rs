@@ -120,7 +120,8 @@ fn arm_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>)
 fn obstacles_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>) {
     let file = setup.obstacles_title();
     let title = file.unwrap_or_else(|| text!("paint-no-obstacles"));
-    let menu = ui.menu_button(format!("{} ▼", shortened(&title, TITLE)), |ui| {
+    let label = text!("paint-obstacles", file = shortened(&title, TITLE));
+    let menu = ui.menu_button(format!("{label} ▼"), |ui| {
         let is_none = setup.obstacles.is_none();
         if ui
             .selectable_label(is_none, text!("paint-no-obstacles"))
@@ -135,7 +136,6 @@ fn obstacles_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAc
             ui.close();
         }
     });
-    let label = text!("paint-obstacles", file = title);
     let response = menu.response;
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
     response.on_hover_text(text!("paint-obstacles-hint"));
