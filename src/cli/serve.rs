@@ -1,7 +1,8 @@
 //! `partsight serve`: robots and PLCs ask for an inspection over TCP.
 
+mod session;
+
 use std::{
-    ops::ControlFlow,
     path::PathBuf,
     sync::{
         Arc,
@@ -12,32 +13,26 @@ use std::{
 
 use clap::{Args, ValueEnum};
 
+use self::session::ServeSession;
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, advised_error, with_advice},
-    input::{before, open_empty_cell, parse_convention, within},
+    input::{open_empty_cell, parse_convention, within},
     interrupt::Interrupt,
     output::{Columns, OutputFormat},
     recipe::RecipeChoice,
-    record::{HistoryChoice, HistoryRecorder, SceneOrigin},
+    record::{HistoryChoice, HistoryRecorder},
     trace::TraceChoice,
 };
 use crate::{
-    capture::{CaptureWarning, Captured, FeedState, Pace, RecordingSpec, SourceSpec},
-    error::{Advice as _, guarded},
-    history::{HungId, Traceability},
-    library::{Library, LibraryLoad, LibraryPlace},
-    pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
-    report::{CaptureLine, InspectionLine},
+    capture::{Pace, RecordingSpec, SourceSpec},
+    library::{LibraryLoad, LibraryPlace},
+    pipeline::MirrorTally,
     robot::Convention,
     serve::{
-        Asked, Camera, ClientEvent, ClientNews, Found, FrameOrigin, Inspector, ListenAddress,
-        Listener, NumberedPart, PartFinder, PoseKind, Server, ServerSettings, Trouble,
-    },
-    stages::{
-        field_of_view::FieldOfView,
-        scene::{EmptyCell, SceneCloud, scene_from_image},
+        Camera, ClientEvent, ListenAddress, Listener, NumberedPart, PartFinder, PoseKind, Server,
+        ServerSettings,
     },
 };
 
@@ -62,7 +57,7 @@ Every answer has a verdict, the age of its frame and a sequence number. Only an 
 --max-age has numbers. Triggers wait in the order in which they come; each gets a frame of its own.
 Poses are in the robot's base frame, so a calibration is needed: partsight calibrate --help
 Every inspection is written into the history, a row for each trigger. Ctrl-C ends the service.
-Nothing is encrypted and nobody is asked who he is: without an address, only programs of this computer reach a port.
+Connections are neither encrypted nor authenticated. Without an address, only programs on this computer can connect.
 Exit codes: 0 ended by Ctrl-C, 2 could not run.")]
 pub(super) struct ServeArgs {
     /// The camera, recording or watched folder whose frames are inspected (partsight capture --help)
@@ -324,220 +319,6 @@ fn numbered_parts(
         }
     });
     Ok(parts.collect())
-}
-
-/// The thread that inspects, and tells the person at the screen.
-struct ServeSession<'a> {
-    camera: Arc<Camera>,
-    interrupt: Interrupt,
-    events: Receiver<ClientEvent>,
-    library: Library,
-    recipe: NamedRecipe,
-    finder: PartFinder,
-    trace: Traceability,
-    empty_cell: Option<Arc<EmptyCell>>,
-    /// What the frames so far showed of the camera's field of view.
-    known_view: Option<Arc<FieldOfView>>,
-    source: String,
-    frame_timeout: Duration,
-    format: OutputFormat,
-    recording: Option<HistoryRecorder>,
-    mirrored: MirrorTally,
-    console: &'a mut Console,
-    /// The inspection whose answer is on its way.
-    last: Option<InspectedFrame>,
-    /// Warnings about the source that were shown.
-    told: Vec<CaptureWarning>,
-    /// Why the camera gives nothing, as it was shown.
-    trouble: Option<String>,
-    /// True once frames came.
-    has_run: bool,
-    /// Why the service cannot go on.
-    failure: Option<anyhow::Error>,
-    num_inspected: u64,
-}
-
-/// An inspection that is to be shown and kept.
-struct InspectedFrame {
-    name: String,
-    is_simulated: bool,
-    scene: Arc<SceneCloud>,
-    inspection: Inspection,
-    /// The line of JSON.
-    line: String,
-}
-
-impl Inspector for ServeSession<'_> {
-    fn inspect(&mut self, asked: &Asked) -> Found {
-        let interrupt = &self.interrupt;
-        let captured = (self.camera).frame_after(asked, self.frame_timeout, || interrupt.came());
-        let captured = match captured {
-            Ok(captured) => captured,
-            Err(why) => {
-                self.console.note(&format_args!("error: {why}"));
-                self.console
-                    .note(&format_args!("  to do: {}", why.advice()));
-                return Found::error(Trouble::of(why.reason(), &why));
-            }
-        };
-        self.warn_of(&captured);
-        let origin = FrameOrigin {
-            captured: self.camera.captured_at(&captured),
-            is_simulated: captured.is_simulated,
-        };
-        let num_dropped = self.camera.feed_status().num_dropped;
-        let line = CaptureLine::of(&self.source, &captured, num_dropped);
-        let name = captured.name;
-        let mut scene = scene_from_image(captured.image);
-        before(&mut scene, self.empty_cell.as_ref(), &name, self.console);
-        scene.set_known_view(self.known_view.clone());
-        self.known_view = FieldOfView::remembered(self.known_view.take(), scene.field_of_view());
-        let scene = Arc::new(scene);
-        let inspection =
-            pipeline::run(&scene, &self.library, &self.recipe, &Unwatched).expect("nobody cancels");
-        let found = self.finder.found(&inspection, &self.recipe, origin);
-        let line = InspectionLine::of(&name, &inspection)
-            .by(&self.recipe)
-            .traced(&self.trace)
-            .captured(Some(line))
-            .in_robot(Some(&self.finder.robot), &inspection)
-            .to_json();
-        self.last = Some(InspectedFrame {
-            name,
-            is_simulated: origin.is_simulated,
-            scene,
-            inspection,
-            line,
-        });
-        found
-    }
-
-    fn answered(&mut self) {
-        let Some(last) = self.last.take() else {
-            return;
-        };
-        if let Err(fault) = guarded(|| self.show(&last)) {
-            self.console
-                .warn(&format_args!("{}: {fault}", last.name), &fault);
-        }
-    }
-
-    fn turn(&mut self) -> ControlFlow<()> {
-        for event in self.events.try_iter() {
-            show_event(&event, self.console);
-        }
-        self.look_at_camera();
-        if self.interrupt.came() || self.failure.is_some() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    }
-}
-
-impl ServeSession<'_> {
-    fn warn_of(&mut self, captured: &Captured) {
-        for warning in &captured.warnings {
-            if warning.is_about_source() {
-                if self.told.contains(warning) {
-                    continue;
-                }
-                self.told.push(warning.clone());
-            }
-            self.console
-                .warn(&format_args!("{}: {warning}", captured.name), warning);
-        }
-    }
-
-    /// Shows an inspection and hands it to the history.
-    fn show(&mut self, last: &InspectedFrame) {
-        let InspectedFrame {
-            name,
-            is_simulated,
-            scene,
-            inspection,
-            line,
-        } = last;
-        if self.num_inspected == 0 && *is_simulated {
-            self.console.note(&"Simulated: no camera is read.");
-        }
-        self.num_inspected += 1;
-        self.mirrored.add(&inspection.verdict);
-        self.format
-            .inspected(name, line, inspection, &self.library, self.console);
-        if let Some(recording) = &mut self.recording {
-            let taken = SceneOrigin {
-                scene: name,
-                source: &self.source,
-                is_simulated: *is_simulated,
-            };
-            // Nobody but who asks knows whether it is the same part again.
-            let entry = recording.entry(taken, scene, inspection, line, HungId::new());
-            recording.add(entry, self.console);
-        }
-    }
-
-    /// Says once for each cause that the camera gives nothing, and that it is there again. One that never gave a frame
-    /// and cannot be used ends the service.
-    fn look_at_camera(&mut self) {
-        let (error, is_failed) = match self.camera.feed_status().state {
-            FeedState::Running => {
-                self.has_run = true;
-                if self.trouble.take().is_some() {
-                    self.console.note(&"The camera is there again");
-                }
-                return;
-            }
-            FeedState::Lost { error } => (error, false),
-            FeedState::Failed(error) => (error, true),
-            FeedState::Opening | FeedState::Ended | FeedState::Stopped => return,
-        };
-        let words = error.to_string();
-        if is_failed && !self.has_run {
-            self.failure = Some(advised_error(words, error.advice()));
-            return;
-        }
-        if self.trouble.as_ref() != Some(&words) {
-            self.console.warn(&words, &*error);
-            self.trouble = Some(words);
-        }
-    }
-
-    /// Writes what is left to write; why the service could not go on, if it could not.
-    fn finish(self) -> anyhow::Result<Outcome> {
-        let console = self.console;
-        if let Some(suspicion) = self.mirrored.suspicion() {
-            console.warn(&suspicion, &suspicion);
-        }
-        if let Some(recording) = self.recording {
-            recording.finish(console);
-        }
-        if let Some(error) = self.failure {
-            return Err(error);
-        }
-        console.note(&format_args!("{} inspected", self.num_inspected));
-        Ok(Outcome::Accepted)
-    }
-}
-
-fn show_event(event: &ClientEvent, console: &Console) {
-    let (peer, protocol) = (event.peer, event.protocol.name());
-    match &event.news {
-        ClientNews::Connected => console.note(&format_args!("{peer} connected: {protocol}")),
-        ClientNews::Left => console.note(&format_args!("{peer} left")),
-        ClientNews::TurnedAway => {
-            console.note(&format_args!(
-                "warning: {peer} was turned away: as many clients are connected as are allowed"
-            ));
-            console.note(&"  to do: Close a connection that is not used, or raise --max-clients");
-        }
-        ClientNews::BadRequest(why) => {
-            console.warn(
-                &format_args!("{peer}: {why}; the connection was closed"),
-                why,
-            );
-        }
-    }
 }
 
 #[cfg(test)]

@@ -63,12 +63,13 @@ impl PartFinder {
         let best = inspection.ranking.entries.first();
         let numbered = best.and_then(|best| self.parts.get(best.reference));
         let named = verdict.guess().filter(|_| !verdict.is_unknown());
-        let is_simulated =
-            origin.is_simulated || numbered.is_some_and(|numbered| numbered.is_simulated);
+        // What nothing enrolled is like was not enrolled by a simulation either.
+        let of_named = named.and(numbered);
+        let is_simulated = origin.is_simulated || of_named.is_some_and(|part| part.is_simulated);
         let mut found = Found {
             captured: Some(origin.captured),
             part: named.unwrap_or_default().to_owned(),
-            number: named.and(numbered).map_or(0, |numbered| numbered.number),
+            number: of_named.map_or(0, |part| part.number),
             marks: if is_simulated { Answer::SIMULATED } else { 0 },
             ..Found::default()
         };
@@ -252,6 +253,34 @@ mod tests {
         let (verdict, reason) = of(&refused);
         assert_eq!(verdict, VerdictCode::Refused);
         assert!(!reason.is_empty() && reason != "ambiguous_pose");
+    }
+
+    #[test]
+    fn a_simulated_part_marks_the_answer_only_if_it_is_named() {
+        let library = shipped_library();
+        let mut finder = finder(&library, PoseKind::default());
+        for part in &mut finder.parts {
+            part.is_simulated = true;
+        }
+        let seen = FrameOrigin {
+            captured: Instant::now(),
+            is_simulated: false,
+        };
+        let scene = facing_part(PartKind::Fender, Side::Left, 5);
+        for (unknown_below, marks) in [(0.0, Answer::SIMULATED), (1.1, 0)] {
+            let recipe = Recipe {
+                accept: crate::pipeline::AcceptParams {
+                    min_score: 1.1,
+                    min_likeness: 1.1,
+                    unknown_below,
+                    ..Default::default()
+                },
+                ..Recipe::default()
+            };
+            let inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
+            assert_eq!(inspection.verdict.is_unknown(), marks == 0);
+            assert_eq!(finder.found(&inspection, &recipe, seen).marks, marks);
+        }
     }
 
     #[test]

@@ -15,7 +15,7 @@
 //! inspections since the start, and the boot number of this start, so that a client that connects again knows what it
 //! sees.
 //!
-//! Nothing here is encrypted and nobody is asked who he is: the network has to be the cell's own.
+//! Connections are neither encrypted nor authenticated: the network has to be the cell's own.
 
 mod answer;
 mod camera;

@@ -124,7 +124,7 @@ impl Camera {
         found
     }
 
-    /// The next frames of a source, so many or those that it still has; each is waited for until nobody wants it. `came`
+    /// The next frames of a source: `num` of them, or fewer if it ends. Waiting stops when `is_cancelled`. `came`
     /// is told how many are there.
     pub fn frames(
         &self,

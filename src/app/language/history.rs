@@ -45,7 +45,7 @@ fn stored_part(past: &Summary) -> Option<&str> {
     }
 }
 
-/// The title of a scene, or of where it came from. What files and cameras are called stays as it is.
+/// The stored title of a scene or its source in the window's language. Names of files and cameras are kept.
 pub(in crate::app) fn stored_scene(title: &str, is_simulated: bool) -> String {
     if !is_simulated {
         return stored_scan(title);
@@ -64,7 +64,7 @@ pub(in crate::app) fn stored_scene(title: &str, is_simulated: bool) -> String {
     }
 }
 
-/// The title of a scan, which says how many shots it rests on; any other title as it is.
+/// The stored title of a scan with its number of shots in the window's language; any other title unchanged.
 fn stored_scan(title: &str) -> String {
     let counted = title.strip_suffix(SHOTS);
     if let Some((name, num)) = counted.and_then(|title| title.rsplit_once(" · "))

@@ -1,6 +1,6 @@
 //! The arm, the nozzle and the gun that robot programs are written for, and what they have to stay clear of.
 
-use std::path::Path;
+use std::{ops::RangeInclusive, path::Path};
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +11,7 @@ use crate::{
     geometry::rigid::RigidTransform,
     robot::{
         Convention,
-        arm::{Arm, GUN_RADIUS, Obstacles, PlacedArm},
+        arm::{ARM_NAMES, Arm, GUN_RADIUS, Obstacles, PlacedArm},
         parse_written_pose,
         program::{PROGRAM_ENDINGS, ProgramFormat, ProgramSettings},
     },
@@ -28,9 +28,9 @@ pub struct ProgramSetup {
     pub nozzle: String,
     /// The boxes of the cell and its floor, as a TOML file; none: only the part is an obstacle.
     pub obstacles: Option<String>,
-    /// How near gun and arm may come to part, boxes and floor, 0..500 mm.
+    /// How near gun and arm may come to part, boxes and floor, mm.
     pub clearance_mm: f64,
-    /// What the gun fills around the line from the flange to the nozzle's mouth, 0..500 mm.
+    /// What the gun fills around the line from the flange to the nozzle's mouth, mm.
     pub gun_radius_mm: f64,
     /// The tool on the controller; empty: the controller's first.
     pub tool: String,
@@ -38,9 +38,9 @@ pub struct ProgramSetup {
     pub gun_output: u16,
     /// Speed where the path sets none, mm/s.
     pub speed_mm_s: f64,
-    /// How far before the first and behind the last point the program begins and ends, 10..1000 mm.
+    /// How far before the first and behind the last point the program begins and ends, mm.
     pub approach_mm: f64,
-    /// Radius within which the robot may cut corners, 0..100 mm.
+    /// Radius within which the robot may cut corners, mm.
     pub blend_mm: f64,
 }
 
@@ -63,12 +63,48 @@ impl Default for ProgramSetup {
 }
 
 impl ProgramSetup {
-    /// What the arm is called; that of a file by the file.
+    /// Millimetres.
+    pub const CLEARANCE: RangeInclusive<f64> = 0.0..=500.0;
+    /// Millimetres.
+    pub const GUN_RADIUS: RangeInclusive<f64> = 0.0..=500.0;
+    /// Millimetres per second.
+    pub const SPEED: RangeInclusive<f64> = 1.0..=2000.0;
+    /// Millimetres.
+    pub const APPROACH: RangeInclusive<f64> = 10.0..=1000.0;
+    /// Millimetres.
+    pub const BLEND: RangeInclusive<f64> = 0.0..=100.0;
+
+    /// With the default in place of each number that is not within its range, as a file may have it.
+    ///
+    /// What is not a number would never equal itself: settings would be written and the reach checked without end.
+    #[must_use]
+    pub(in crate::app) fn checked(mut self) -> Self {
+        let usual = Self::default();
+        for (value, range, usual) in [
+            (&mut self.clearance_mm, Self::CLEARANCE, usual.clearance_mm),
+            (
+                &mut self.gun_radius_mm,
+                Self::GUN_RADIUS,
+                usual.gun_radius_mm,
+            ),
+            (&mut self.speed_mm_s, Self::SPEED, usual.speed_mm_s),
+            (&mut self.approach_mm, Self::APPROACH, usual.approach_mm),
+            (&mut self.blend_mm, Self::BLEND, usual.blend_mm),
+        ] {
+            if !range.contains(value) {
+                *value = usual;
+            }
+        }
+        self
+    }
+
+    /// What the arm is called; that of a file by the file, which is not read: the window asks in every frame.
     pub fn arm_title(&self) -> Option<String> {
         let arm = self.arm.as_deref()?;
-        Some(match Arm::named(arm) {
-            Ok(arm) => arm.name,
-            Err(_) => file_name(Path::new(arm)),
+        let known = ARM_NAMES.contains(&arm).then(|| Arm::named(arm));
+        Some(match known {
+            Some(Ok(arm)) => arm.name,
+            Some(Err(_)) | None => file_name(Path::new(arm)),
         })
     }
 
@@ -148,5 +184,28 @@ pub(in crate::app) fn program_file_name(convention: Convention) -> &'static str 
         ProgramFormat::UrScript => "paint.script",
         ProgramFormat::Jbi => "paint.jbi",
         ProgramFormat::Drl => "paint.drl",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_title_of_an_arm_is_had_without_its_file() {
+        let title = |arm: &str| {
+            let setup = ProgramSetup {
+                arm: Some(arm.into()),
+                ..ProgramSetup::default()
+            };
+            setup.arm_title().expect("a title")
+        };
+        assert_eq!(title("gp25"), Arm::named("gp25").expect("known").name);
+        assert_eq!(title("no such folder/cell_3.toml"), "cell_3.toml");
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("arm.toml");
+        std::fs::write(&file, "name = \"Cell 3\"\n").expect("written");
+        assert_eq!(title(&file.display().to_string()), "arm.toml");
+        assert_eq!(ProgramSetup::default().arm_title(), None);
     }
 }

@@ -319,6 +319,7 @@ fn read(path: &Path) -> Result<Settings, BadSettings> {
     let mut settings: Settings = toml::from_str(&text).map_err(garbled)?;
     let is_sensible = |size: &[f32; 2]| size.iter().all(|side| SIDES.contains(side));
     settings.window = settings.window.filter(is_sensible);
+    settings.program = settings.program.checked();
     Ok(settings)
 }
 
@@ -443,6 +444,23 @@ mod tests {
             assert_eq!(fs::read(&aside).expect("kept"), contents);
             assert!(!path.exists());
         }
+    }
+
+    #[test]
+    fn numbers_of_a_robot_program_that_cannot_be_are_the_usual_ones() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        let text =
+            "[program]\narm = \"gp25\"\nspeed_mm_s = nan\nblend_mm = inf\nclearance_mm = 30.0\n";
+        fs::write(&path, text).expect("written");
+        let (settings, trouble) = load(&path);
+        assert_eq!(trouble, None);
+        let wanted = ProgramSetup {
+            arm: Some("gp25".into()),
+            clearance_mm: 30.0,
+            ..ProgramSetup::default()
+        };
+        assert_eq!(settings.program, wanted);
     }
 
     #[test]

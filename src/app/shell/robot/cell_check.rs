@@ -2,9 +2,6 @@
 //!
 //! Frames come from the source in use; everything else is what `partsight cell` does.
 
-#[cfg(test)]
-mod tests;
-
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
@@ -350,7 +347,7 @@ fn source(session: &Session) -> Result<SceneSource, UserError> {
     }
 }
 
-/// How many frames are taken: of a watched folder one, since nobody knows when the next comes.
+/// Frames to take: one from a watched folder, where the next may never come.
 fn num_frames(spec: &SourceSpec) -> usize {
     match spec {
         SourceSpec::Watched(_) => 1,
@@ -460,3 +457,6 @@ fn in_words(error: &CellViewError) -> UserError {
         advice: cell_view_error_advice(error),
     }
 }
+
+#[cfg(test)]
+mod tests;

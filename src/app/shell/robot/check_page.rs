@@ -31,7 +31,7 @@ use crate::{
 const TABLE: f32 = 170.0;
 /// Height of a row of it, logical pixels.
 const ROW: f32 = 20.0;
-/// The last so many checks are listed and drawn; the table has all of them.
+/// The list and the plot show at most this many checks, the newest; the exported table has them all.
 const MOST_SHOWN: usize = 100;
 /// Checks needed to show how they went on.
 const LEAST_DRAWN: usize = 2;

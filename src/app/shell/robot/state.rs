@@ -257,7 +257,7 @@ impl RobotCell {
             }
             RobotAction::Toggle | RobotAction::Close => {
                 self.dialog = None;
-                // Nobody waits for it any more.
+                // A closed dialog could not show the result.
                 self.checks.cancel();
             }
             RobotAction::Edit(edited) => self.edit(*edited),
@@ -355,8 +355,8 @@ impl RobotCell {
         }
     }
 
-    /// Takes the dialog over as it is now; pairs are calculated anew where something about them changed, and the checks of
-    /// the cell are read where their page comes to the front.
+    /// Replaces the dialog by its edited state. Solves the pairs again if they changed, and reads the checks of the cell
+    /// when their page comes to the front.
     fn edit(&mut self, mut edited: RobotDialog) {
         let Some(known) = &mut self.dialog else {
             return;

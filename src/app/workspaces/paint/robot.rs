@@ -57,14 +57,35 @@ pub(super) fn ui(
             number(text!("paint-gun-output"), &mut output, 0.0..=9999.0, "");
             setup.gun_output = output.round() as u16;
             let radius = &mut setup.gun_radius_mm;
-            number(text!("paint-gun-radius"), radius, 0.0..=500.0, "mm");
+            number(
+                text!("paint-gun-radius"),
+                radius,
+                ProgramSetup::GUN_RADIUS,
+                "mm",
+            );
             let clearance = &mut setup.clearance_mm;
-            number(text!("paint-clearance"), clearance, 0.0..=500.0, "mm");
+            number(
+                text!("paint-clearance"),
+                clearance,
+                ProgramSetup::CLEARANCE,
+                "mm",
+            );
             let speed = &mut setup.speed_mm_s;
-            number(text!("paint-program-speed"), speed, 1.0..=2000.0, "mm/s");
+            number(
+                text!("paint-program-speed"),
+                speed,
+                ProgramSetup::SPEED,
+                "mm/s",
+            );
             let approach = &mut setup.approach_mm;
-            number(text!("paint-approach"), approach, 10.0..=1000.0, "mm");
-            number(text!("paint-blend"), &mut setup.blend_mm, 0.0..=100.0, "mm");
+            number(
+                text!("paint-approach"),
+                approach,
+                ProgramSetup::APPROACH,
+                "mm",
+            );
+            let blend = &mut setup.blend_mm;
+            number(text!("paint-blend"), blend, ProgramSetup::BLEND, "mm");
         });
     if setup != session.program {
         actions.push(PaintAction::SetUp(setup));

@@ -62,7 +62,7 @@ impl Bench {
         self.work()
     }
 
-    /// The source is a capture of a fender by a camera that has moved back by so many metres.
+    /// Takes the source from a file: a fender, captured after the camera moved back by `back` metres.
     fn look_from(&mut self, noise: u64, back: f64) {
         let path = self.folder.path().join(format!("{noise}.pcd"));
         save_fender_view(&path, noise, back);

@@ -1,0 +1,245 @@
+//! The inspections of `partsight serve`: frames taken, inspected, shown and kept.
+
+use std::{
+    ops::ControlFlow,
+    sync::{Arc, mpsc::Receiver},
+    time::Duration,
+};
+
+use crate::{
+    capture::{CaptureWarning, Captured, FeedState},
+    cli::{
+        Outcome,
+        console::{Console, advised_error},
+        input::before,
+        interrupt::Interrupt,
+        output::OutputFormat,
+        record::{HistoryRecorder, SceneOrigin},
+    },
+    error::{Advice as _, guarded},
+    history::{HungId, Traceability},
+    library::Library,
+    pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
+    report::{CaptureLine, InspectionLine},
+    serve::{
+        Asked, Camera, ClientEvent, ClientNews, Found, FrameOrigin, Inspector, PartFinder, Trouble,
+    },
+    stages::{
+        field_of_view::FieldOfView,
+        scene::{EmptyCell, SceneCloud, scene_from_image},
+    },
+};
+
+/// The inspections of a service, on the thread that runs its server.
+pub(super) struct ServeSession<'a> {
+    pub(super) camera: Arc<Camera>,
+    pub(super) interrupt: Interrupt,
+    pub(super) events: Receiver<ClientEvent>,
+    pub(super) library: Library,
+    pub(super) recipe: NamedRecipe,
+    pub(super) finder: PartFinder,
+    pub(super) trace: Traceability,
+    pub(super) empty_cell: Option<Arc<EmptyCell>>,
+    /// What the frames so far showed of the camera's field of view.
+    pub(super) known_view: Option<Arc<FieldOfView>>,
+    pub(super) source: String,
+    pub(super) frame_timeout: Duration,
+    pub(super) format: OutputFormat,
+    pub(super) recording: Option<HistoryRecorder>,
+    pub(super) mirrored: MirrorTally,
+    pub(super) console: &'a mut Console,
+    /// The inspection whose answer is on its way.
+    pub(super) last: Option<InspectedFrame>,
+    /// Warnings about the source that were shown.
+    pub(super) told: Vec<CaptureWarning>,
+    /// Why the camera gives nothing, as it was shown.
+    pub(super) trouble: Option<String>,
+    /// True once frames came.
+    pub(super) has_run: bool,
+    /// Why the service cannot go on.
+    pub(super) failure: Option<anyhow::Error>,
+    pub(super) num_inspected: u64,
+}
+
+/// An inspection that is to be shown and kept.
+pub(super) struct InspectedFrame {
+    name: String,
+    is_simulated: bool,
+    scene: Arc<SceneCloud>,
+    inspection: Inspection,
+    /// The line of JSON.
+    line: String,
+}
+
+impl Inspector for ServeSession<'_> {
+    fn inspect(&mut self, asked: &Asked) -> Found {
+        let interrupt = &self.interrupt;
+        let captured = (self.camera).frame_after(asked, self.frame_timeout, || interrupt.came());
+        let captured = match captured {
+            Ok(captured) => captured,
+            Err(why) => {
+                self.console.note(&format_args!("error: {why}"));
+                self.console
+                    .note(&format_args!("  to do: {}", why.advice()));
+                return Found::error(Trouble::of(why.reason(), &why));
+            }
+        };
+        self.warn_of(&captured);
+        let origin = FrameOrigin {
+            captured: self.camera.captured_at(&captured),
+            is_simulated: captured.is_simulated,
+        };
+        let num_dropped = self.camera.feed_status().num_dropped;
+        let line = CaptureLine::of(&self.source, &captured, num_dropped);
+        let name = captured.name;
+        let mut scene = scene_from_image(captured.image);
+        before(&mut scene, self.empty_cell.as_ref(), &name, self.console);
+        scene.set_known_view(self.known_view.clone());
+        self.known_view = FieldOfView::remembered(self.known_view.take(), scene.field_of_view());
+        let scene = Arc::new(scene);
+        let inspection =
+            pipeline::run(&scene, &self.library, &self.recipe, &Unwatched).expect("nobody cancels");
+        let found = self.finder.found(&inspection, &self.recipe, origin);
+        let line = InspectionLine::of(&name, &inspection)
+            .by(&self.recipe)
+            .traced(&self.trace)
+            .captured(Some(line))
+            .in_robot(Some(&self.finder.robot), &inspection)
+            .to_json();
+        self.last = Some(InspectedFrame {
+            name,
+            is_simulated: origin.is_simulated,
+            scene,
+            inspection,
+            line,
+        });
+        found
+    }
+
+    fn answered(&mut self) {
+        let Some(last) = self.last.take() else {
+            return;
+        };
+        if let Err(fault) = guarded(|| self.show(&last)) {
+            self.console
+                .warn(&format_args!("{}: {fault}", last.name), &fault);
+        }
+    }
+
+    fn turn(&mut self) -> ControlFlow<()> {
+        for event in self.events.try_iter() {
+            show_event(&event, self.console);
+        }
+        self.look_at_camera();
+        if self.interrupt.came() || self.failure.is_some() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+impl ServeSession<'_> {
+    fn warn_of(&mut self, captured: &Captured) {
+        for warning in &captured.warnings {
+            if warning.is_about_source() {
+                if self.told.contains(warning) {
+                    continue;
+                }
+                self.told.push(warning.clone());
+            }
+            self.console
+                .warn(&format_args!("{}: {warning}", captured.name), warning);
+        }
+    }
+
+    /// Shows an inspection and hands it to the history.
+    fn show(&mut self, last: &InspectedFrame) {
+        let InspectedFrame {
+            name,
+            is_simulated,
+            scene,
+            inspection,
+            line,
+        } = last;
+        if self.num_inspected == 0 && *is_simulated {
+            self.console.note(&"Simulated: no camera is read.");
+        }
+        self.num_inspected += 1;
+        self.mirrored.add(&inspection.verdict);
+        self.format
+            .inspected(name, line, inspection, &self.library, self.console);
+        if let Some(recording) = &mut self.recording {
+            let taken = SceneOrigin {
+                scene: name,
+                source: &self.source,
+                is_simulated: *is_simulated,
+            };
+            // Nobody but who asks knows whether it is the same part again.
+            let entry = recording.entry(taken, scene, inspection, line, HungId::new());
+            recording.add(entry, self.console);
+        }
+    }
+
+    /// Says once for each cause that the camera gives nothing, and that it is there again. One that never gave a frame
+    /// and cannot be used ends the service.
+    fn look_at_camera(&mut self) {
+        let (error, is_failed) = match self.camera.feed_status().state {
+            FeedState::Running => {
+                self.has_run = true;
+                if self.trouble.take().is_some() {
+                    self.console.note(&"The camera is there again");
+                }
+                return;
+            }
+            FeedState::Lost { error } => (error, false),
+            FeedState::Failed(error) => (error, true),
+            FeedState::Opening | FeedState::Ended | FeedState::Stopped => return,
+        };
+        let words = error.to_string();
+        if is_failed && !self.has_run {
+            self.failure = Some(advised_error(words, error.advice()));
+            return;
+        }
+        if self.trouble.as_ref() != Some(&words) {
+            self.console.warn(&words, &*error);
+            self.trouble = Some(words);
+        }
+    }
+
+    /// Writes what is left to write; why the service could not go on, if it could not.
+    pub(super) fn finish(self) -> anyhow::Result<Outcome> {
+        let console = self.console;
+        if let Some(suspicion) = self.mirrored.suspicion() {
+            console.warn(&suspicion, &suspicion);
+        }
+        if let Some(recording) = self.recording {
+            recording.finish(console);
+        }
+        if let Some(error) = self.failure {
+            return Err(error);
+        }
+        console.note(&format_args!("{} inspected", self.num_inspected));
+        Ok(Outcome::Accepted)
+    }
+}
+
+fn show_event(event: &ClientEvent, console: &Console) {
+    let (peer, protocol) = (event.peer, event.protocol.name());
+    match &event.news {
+        ClientNews::Connected => console.note(&format_args!("{peer} connected: {protocol}")),
+        ClientNews::Left => console.note(&format_args!("{peer} left")),
+        ClientNews::TurnedAway => {
+            console.note(&format_args!(
+                "warning: {peer} was turned away: as many clients are connected as are allowed"
+            ));
+            console.note(&"  to do: Close a connection that is not used, or raise --max-clients");
+        }
+        ClientNews::BadRequest(why) => {
+            console.warn(
+                &format_args!("{peer}: {why}; the connection was closed"),
+                why,
+            );
+        }
+    }
+}
