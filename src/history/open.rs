@@ -20,7 +20,7 @@ use crate::files::{disk, open_lock, open_regular, user_folders};
 
 use super::{
     error::HistoryError,
-    schema::{APPLICATION, VERSION, migrate, version},
+    schema::{APPLICATION, VERSION, WITH_PARTS, migrate, version},
     store::History,
 };
 
@@ -123,7 +123,7 @@ impl History {
             let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
             let file = Connection::open_with_flags(address(&path, how), flags)?;
             file.busy_timeout(PATIENCE)?;
-            let is_known = is_ours(&file)? && version(&file)? <= VERSION;
+            let is_known = is_ours(&file)? && (WITH_PARTS..=VERSION).contains(&version(&file)?);
             Ok(is_known.then(|| Self::new(file, folder)))
         };
         if let Ok(history) = read("mode=ro") {

@@ -11,6 +11,9 @@ const STEPS: [Migration; 5] = [first, parts, recipe_names, traceability, refusal
 /// The version that is written.
 pub(super) const VERSION: u32 = STEPS.len() as u32;
 
+/// The version from which on inspections of the same hung part belong together; an older file is not listed as it is.
+pub(super) const WITH_PARTS: u32 = 2;
+
 /// The version from which on recipes have names.
 pub(super) const WITH_RECIPE_NAMES: u32 = 3;
 

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use rusqlite::{
-    Connection, OptionalExtension as _, TransactionBehavior, params, params_from_iter, types::Value,
+    Connection, OptionalExtension as _, Transaction, TransactionBehavior, params, params_from_iter,
+    types::Value,
 };
 
 use super::{
@@ -70,23 +71,18 @@ impl History {
             Some(scene) => shots::write_shots(&self.frames, scene, &entry.shots, summary.at)?,
             None => None,
         };
-        let written = self.add_row(entry, frame.as_ref());
-        if let (Err(_), Some(frame)) = (&written, &frame) {
-            // Nothing speaks of it.
-            for path in frame.paths(&self.frames) {
-                let _ = frames::remove(&path);
+        let written = match begin(&mut self.file, entry, frame.as_ref()) {
+            // Where this fails, the row may be in the log all the same and come back with the next opening, which
+            // removes the frame if it does not.
+            Ok((file, number)) => file.commit().map(|()| number),
+            Err(error) => {
+                for path in frame.iter().flat_map(|frame| frame.paths(&self.frames)) {
+                    let _ = frames::remove(&path);
+                }
+                Err(error)
             }
-        }
+        };
         written.map_err(|error| self.error(error))
-    }
-
-    fn add_row(&mut self, entry: &NewEntry, frame: Option<&FrameRecord>) -> rusqlite::Result<i64> {
-        let file = self
-            .file
-            .transaction_with_behavior(TransactionBehavior::Immediate)?;
-        let number = insert(&file, entry, frame)?;
-        file.commit()?;
-        Ok(number)
     }
 
     /// Writes many inspections at once, without their frames: all or none.
@@ -319,6 +315,17 @@ impl History {
 
 /// The rows by the index that holds all that a filter asks for.
 const LISTED: &str = "inspection INDEXED BY listed";
+
+/// The row of an inspection, written but not yet there, and its number.
+fn begin<'a>(
+    file: &'a mut Connection,
+    entry: &NewEntry,
+    frame: Option<&FrameRecord>,
+) -> rusqlite::Result<(Transaction<'a>, i64)> {
+    let begun = file.transaction_with_behavior(TransactionBehavior::Immediate)?;
+    let number = insert(&begun, entry, frame)?;
+    Ok((begun, number))
+}
 
 /// Which rows the filter lets through, the newest first: the index alone tells.
 pub(super) fn listed_query(filter: &Filter) -> (String, Vec<Value>) {

@@ -257,26 +257,12 @@ mod tests {
 
     use super::*;
     use crate::{
-        capture::{DepthSource, Image, NextCapture, SkippedCapture},
-        kit::small_frame,
+        capture::{DepthSource, NextCapture, SkippedCapture},
+        kit::captured,
     };
 
     /// Long enough for a machine at work with other things; what is waited for comes at once.
     const PATIENCE: Duration = Duration::from_mins(1);
-
-    fn captured(number: u64, taken_at: Timestamp) -> Captured {
-        Captured {
-            number,
-            name: format!("frame {number}"),
-            taken_at,
-            arrived: Instant::now(),
-            image: Image::Depth(small_frame(1, [1])),
-            is_simulated: false,
-            truth: None,
-            robot_from_flange: None,
-            warnings: Vec::new(),
-        }
-    }
 
     fn gone() -> CaptureError {
         CaptureError::FolderGone {

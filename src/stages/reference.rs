@@ -160,7 +160,11 @@ impl Reference {
         if views.is_empty() {
             return Err(no_outline);
         }
-        Ok(Self {
+        Ok(Self::of_views(name, cloud, views))
+    }
+
+    fn of_views(name: &str, cloud: PointCloud, views: Vec<ReferenceView>) -> Self {
+        Self {
             name: name.to_owned(),
             enrolled_as: name.to_owned(),
             tree: OnceLock::new(),
@@ -172,7 +176,7 @@ impl Reference {
             cut: ViewCut::default(),
             borders: OnceLock::new(),
             whole: OnceLock::new(),
-        })
+        }
     }
 
     /// The reference as the target of a pose, with the edges of one of its views; `None` for a flat shape.
@@ -317,19 +321,7 @@ impl Reference {
             contour,
             signature,
         )];
-        Self {
-            name: name.to_owned(),
-            enrolled_as: name.to_owned(),
-            tree: OnceLock::new(),
-            field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
-            cloud,
-            spectra: spectra_of(&views),
-            views,
-            literal: OnceLock::new(),
-            cut: ViewCut::default(),
-            borders: OnceLock::new(),
-            whole: OnceLock::new(),
-        }
+        Self::of_views(name, cloud, views)
     }
 }
 

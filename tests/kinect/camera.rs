@@ -1,13 +1,6 @@
 //! A camera that is plugged in, or goes wrong, played by a library made here.
 
-use std::{
-    env,
-    ffi::{OsStr, OsString},
-    fs,
-    path::Path,
-    process::Command,
-    time::Duration,
-};
+use std::{env, ffi::OsStr, fs, time::Duration};
 
 use partsight::{
     capture::{
@@ -17,6 +10,7 @@ use partsight::{
 };
 
 use crate::{
+    kit::compile_c,
     next_capture, open_kinect,
     own_process::{self, is_own},
     skipped, trouble, trouble_of,
@@ -31,7 +25,9 @@ fn with_camera(test: &str, state: &str, body: impl FnOnce()) {
         return body();
     }
     let folder = tempfile::tempdir().expect("a folder");
-    if let Err(why) = compile(folder.path(), state) {
+    let library = folder.path().join("libfreenect.so.0.5");
+    let options: &[&str] = if state == "old" { &["-DOLD"] } else { &[] };
+    if let Err(why) = compile_c("tests/kinect/camera.c", &library, options) {
         return skipped(&why);
     }
     let log = folder.path().join("calls");
@@ -41,28 +37,6 @@ fn with_camera(test: &str, state: &str, body: impl FnOnce()) {
         ("STUB_LOG", log.as_os_str()),
     ];
     own_process::run(test, &environment);
-}
-
-fn compile(folder: &Path, state: &str) -> Result<(), String> {
-    let compiler = env::var_os("CC").unwrap_or_else(|| OsString::from("cc"));
-    let output = Command::new(compiler)
-        .args(["-shared", "-fPIC", "-Wall", "-Wextra", "-Werror"])
-        .args((state == "old").then_some("-DOLD"))
-        .arg("-o")
-        .arg(folder.join("libfreenect.so.0.5"))
-        .arg(concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/tests/kinect/camera.c"
-        ))
-        .output()
-        .map_err(|error| format!("no C compiler: {error}"))?;
-    if output.status.success() {
-        return Ok(());
-    }
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    // Without the headers of the C library there is nothing to compile against; anything else is a fault of ours.
-    assert!(said.contains("No such file or directory"), "{said}");
-    Err("no C headers".into())
 }
 
 /// The calls so far, with commas between them; the next ones begin a new list.

@@ -4,13 +4,14 @@
 
 #![allow(dead_code, reason = "every test program uses some of it")]
 
-use std::{fs, path::Path, sync::Arc};
+use std::{env, ffi::OsString, fs, path::Path, process::Command, sync::Arc, time::Instant};
 
 use image::RgbImage;
 use jiff::{SignedDuration, Timestamp};
 use nalgebra::{Point3, Vector3};
 use partsight::{
     Advice as _,
+    capture::{Captured, Image},
     files::save_cloud,
     geometry::{
         cloud::PointCloud,
@@ -164,6 +165,21 @@ pub(crate) fn moment(seconds: i64) -> Timestamp {
 pub(crate) fn small_scene(seed: u16) -> Arc<SceneCloud> {
     let depth = (0..32 * 24_u32).map(|i| (900 + (i * 7 + u32::from(seed) * 13) % 400) as u16);
     Arc::new(scene_from_frame(&small_frame(32, depth)))
+}
+
+/// A capture of one pixel that arrives now.
+pub(crate) fn captured(number: u64, taken_at: Timestamp) -> Captured {
+    Captured {
+        number,
+        name: format!("frame {number}"),
+        taken_at,
+        arrived: Instant::now(),
+        image: Image::Depth(small_frame(1, [1])),
+        is_simulated: false,
+        truth: None,
+        robot_from_flange: None,
+        warnings: Vec::new(),
+    }
 }
 
 /// An inspection of that moment, as it is handed to a history.
@@ -440,4 +456,24 @@ pub(crate) fn unrecognisables() -> Vec<Unrecognisable> {
         SignatureError::NoOutline { num_points: 1 }.into(),
         Unrecognisable::EmptyLibrary,
     ]
+}
+
+/// Makes a shared library of a C file of this package; the error says what is missing on this machine.
+pub(crate) fn compile_c(source: &str, library: &Path, options: &[&str]) -> Result<(), String> {
+    let compiler = env::var_os("CC").unwrap_or_else(|| OsString::from("cc"));
+    let output = Command::new(compiler)
+        .args(["-shared", "-fPIC", "-Wall", "-Wextra", "-Werror"])
+        .args(options)
+        .arg("-o")
+        .arg(library)
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(source))
+        .output()
+        .map_err(|error| format!("no C compiler: {error}"))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    // Without the headers of the C library there is nothing to compile against; anything else is a fault of ours.
+    assert!(said.contains("No such file or directory"), "{said}");
+    Err("no C headers".into())
 }

@@ -7,23 +7,13 @@ use std::{
 use jiff::Timestamp;
 
 use super::*;
-use crate::{capture::source::Image, files::FileError, kit::small_frame};
+use crate::{files::FileError, kit};
 
 /// Long enough for a machine at work with other things; what is waited for comes at once.
 const PATIENCE: Duration = Duration::from_mins(1);
 
 fn captured(number: u64) -> Captured {
-    Captured {
-        number,
-        name: format!("frame {number}"),
-        taken_at: Timestamp::UNIX_EPOCH,
-        arrived: Instant::now(),
-        image: Image::Depth(small_frame(1, [1])),
-        is_simulated: false,
-        truth: None,
-        robot_from_flange: None,
-        warnings: Vec::new(),
-    }
+    kit::captured(number, Timestamp::UNIX_EPOCH)
 }
 
 fn gone() -> CaptureError {
