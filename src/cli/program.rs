@@ -16,7 +16,7 @@ use crate::{
     library::PartName,
     robot::{
         RobotFrame, WrittenPose,
-        arm::{Arm, ArmError, Obstacles, PathCheck, PlacedArm},
+        arm::{Arm, ArmError, Obstacles, PathCheck, PlacedArm, Rail},
         program::{Program, ProgramFormat, ProgramSettings, check_reach, program_points},
         spray::CarriedPath,
     },
@@ -53,15 +53,25 @@ pub(super) struct ProgramOptions {
     #[arg(long, value_name = "ARM", requires_all = ["program", "nozzle"])]
     arm: Option<String>,
     #[command(flatten)]
-    clear_of: ObstacleChoice,
+    cell: CellChoice,
     /// Write the program in spite of a doubt about part, capture or reach; the program says which
     #[arg(long, requires = "program")]
     force: bool,
 }
 
-/// What gun and arm have to stay clear of, beside the part.
+/// The rail that an arm stands on, and what gun and arm have to stay clear of beside the part.
 #[derive(Debug, Args)]
-pub(super) struct ObstacleChoice {
+pub(super) struct CellChoice {
+    /// The rail that the arm stands on: its axis in the frame of the calibration (x, y, z, -x, -y or -z), where it begins and
+    /// ends in mm from where the cell was calibrated, and its top speed in mm/s if it moves along the path, as in
+    /// y,-2000,2000,1000. It takes the place of the rail in the arm's file
+    #[arg(
+        long,
+        value_name = "AXIS,FROM,TO[,SPEED]",
+        allow_hyphen_values = true,
+        requires = "arm"
+    )]
+    rail: Option<String>,
     /// Boxes of the cell and its floor that gun and arm must not run into: a TOML file. The part is checked without it
     #[arg(long, value_name = "FILE", requires = "arm")]
     obstacles: Option<PathBuf>,
@@ -73,14 +83,17 @@ pub(super) struct ObstacleChoice {
     gun_radius: f64,
 }
 
-impl ObstacleChoice {
-    /// The arm among them.
+impl CellChoice {
+    /// The arm in it.
     pub(super) fn place(
         &self,
-        arm: Arm,
+        mut arm: Arm,
         robot_from_base: RigidTransform,
         flange_from_nozzle: RigidTransform,
     ) -> anyhow::Result<PlacedArm> {
+        if let Some(rail) = &self.rail {
+            arm.rail = Some(rail.parse::<Rail>().advised()?);
+        }
         let read = self.obstacles.as_deref().map(Obstacles::read);
         let mut obstacles = read.transpose().advised()?.unwrap_or_default();
         obstacles.clearance = self.clearance / 1000.0;
@@ -138,7 +151,7 @@ impl ProgramOptions {
         let standing = RigidTransform::identity();
         let arm = arm
             .zip(nozzle)
-            .map(|(arm, flange_from_nozzle)| self.clear_of.place(arm, standing, flange_from_nozzle))
+            .map(|(arm, flange_from_nozzle)| self.cell.place(arm, standing, flange_from_nozzle))
             .transpose()?;
         Ok(ProgramFile {
             file: file.to_owned(),

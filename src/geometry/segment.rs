@@ -1,4 +1,4 @@
-//! A straight segment in space: how near it comes to a box and to a cloud.
+//! A straight segment in space: how near it comes to another one, to a box and to a cloud.
 
 use nalgebra::{Point3, Vector3};
 
@@ -30,6 +30,37 @@ impl Segment {
             from: transform * self.from,
             to: transform * self.to,
         }
+    }
+
+    /// Its distance to another segment, metres; 0 where they meet.
+    ///
+    /// C. Ericson, *Real-Time Collision Detection*, 2005, section 5.1.9.
+    pub fn distance_to_segment(&self, other: &Self) -> f64 {
+        let (way, other_way) = (self.to - self.from, other.to - other.from);
+        let apart = self.from - other.from;
+        let (length_sq, other_length_sq) = (way.norm_squared(), other_way.norm_squared());
+        let (along, other_along) = (way.dot(&apart), other_way.dot(&apart));
+        let shares = if length_sq == 0.0 && other_length_sq == 0.0 {
+            [0.0, 0.0]
+        } else if length_sq == 0.0 {
+            [0.0, other_along / other_length_sq]
+        } else if other_length_sq == 0.0 {
+            [-along / length_sq, 0.0]
+        } else {
+            let both = way.dot(&other_way);
+            let spread = length_sq * other_length_sq - both * both;
+            // Of parallel segments any share does.
+            let share = if spread > 0.0 {
+                ((both * other_along - along * other_length_sq) / spread).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+            // Where the other one ends before its nearest point, its end counts.
+            let other_share = ((both * share + other_along) / other_length_sq).clamp(0.0, 1.0);
+            [(both * other_share - along) / length_sq, other_share]
+        };
+        let [share, other_share] = shares.map(|share| share.clamp(0.0, 1.0));
+        (apart + way * share - other_way * other_share).norm()
     }
 
     /// Its distance to the box about the origin that reaches to `half` along each axis, metres; 0 where they meet.
@@ -122,6 +153,42 @@ mod tests {
 
     fn any_point(random: &mut Pcg64, range: f64) -> [f64; 3] {
         std::array::from_fn(|_| random.random_range(-range..range))
+    }
+
+    #[test]
+    fn two_segments_are_as_far_apart_as_their_nearest_places() {
+        let along_x = segment([0.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+        for (from, to, wanted) in [
+            // Across it, above it, beside its end, parallel, on its line, and a point.
+            ([0.5, -1.0, 0.0], [0.5, 1.0, 0.0], 0.0),
+            ([0.5, -1.0, 0.2], [0.5, 1.0, 0.2], 0.2),
+            ([1.3, -1.0, 0.4], [1.3, 1.0, 0.4], 0.5),
+            ([-5.0, 0.3, 0.0], [5.0, 0.3, 0.0], 0.3),
+            ([4.0, 0.0, 0.0], [2.0, 0.0, 0.0], 1.0),
+            ([0.2, 0.0, 0.7], [0.2, 0.0, 0.7], 0.7),
+        ] {
+            let other = segment(from, to);
+            for (a, b) in [(&along_x, &other), (&other, &along_x)] {
+                let found = a.distance_to_segment(b);
+                assert!((found - wanted).abs() < 1e-12, "{a:?} {b:?}: {found}");
+            }
+        }
+        let mut random = Pcg64::seed_from_u64(5);
+        let mut any = || segment(any_point(&mut random, 1.0), any_point(&mut random, 1.0));
+        for _ in 0..300 {
+            let (a, b) = (any(), any());
+            let found = a.distance_to_segment(&b);
+            let places = |one: Segment| {
+                (0..=100).map(move |i| one.from + (one.to - one.from) * f64::from(i) / 100.0)
+            };
+            let pairs = places(a).flat_map(|at| places(b).map(move |other| (at - other).norm()));
+            let slow = pairs.fold(f64::INFINITY, f64::min);
+            assert!(found <= slow + 1e-12, "{a:?} {b:?}: {found}, {slow}");
+            assert!(
+                found > slow - (a.length() + b.length()) / 200.0,
+                "{a:?} {b:?}"
+            );
+        }
     }
 
     #[test]

@@ -204,3 +204,44 @@ fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
     shop.coded(0, &[&program[..], &arm, &boxes, &["--force"]].concat());
     assert!(shop.read("paint.src").contains("FORCED: ABB IRB 4600"));
 }
+
+#[test]
+fn a_rail_that_moves_along_the_path_is_an_axis_of_the_program() {
+    let shop = Workplace::new();
+    let cell = "kuka 470 0 1350 -90 0 -90";
+    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+    hang(&shop, "front_door");
+    store_path(&shop);
+    let arm = ["--arm", "irb4600", "--nozzle", "kuka 0 0 250 0 -45 0"];
+    let rail = ["--rail", "-y,-1500,2500,1000"];
+    let check = ["path", "check", "front_door", "--json"];
+    let line = shop.coded(0, &[&check[..], &arm, &rail].concat()).json();
+    assert_eq!(line["num_reached"], 3);
+    let [low, high] = [0_usize, 1].map(|i| line["rail_range_mm"][i].as_f64().expect("mm"));
+    assert!(-1500.0 <= low && low <= high && high <= 2500.0, "{line}");
+    let at = line["points"][1]["rail_mm"].as_f64().expect("mm");
+    assert!((low..=high).contains(&at), "{line}");
+    let line = shop.coded(0, &[&check[..], &arm].concat()).json();
+    assert!(line["rail_range_mm"].is_null() && line["points"][1]["rail_mm"].is_null());
+
+    let export = |file: &str, code: i32| {
+        let export = ["path", "export", "front_door", "--output", file];
+        shop.coded(code, &[&export[..], &arm, &rail].concat())
+    };
+    export("paint.mod", 0);
+    let text = shop.read("paint.mod");
+    assert!(text.contains("! rail: eax_a, mm"), "{text}");
+    let ran = export("paint.script", 2);
+    assert!(
+        ran.err.contains("no axis for the arm's rail"),
+        "{}",
+        ran.err
+    );
+    assert!(!shop.path("paint.script").exists());
+
+    for bad in ["sideways", "y,0", "y,5,-5", "y,0,5,0"] {
+        let ran = shop.coded(2, &[&check[..], &arm, &["--rail", bad]].concat());
+        assert!(ran.err.contains("to do: "), "{}", ran.err);
+        assert!(ran.err.contains("rail"), "{}", ran.err);
+    }
+}

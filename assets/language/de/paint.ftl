@@ -117,6 +117,8 @@ paint-from-file = Aus einer Datei…
 paint-arm-title = Einen Arm öffnen
 paint-nozzle = Düse am Flansch
 paint-nozzle-hint = Wo die Düsenöffnung am Flansch sitzt, z in Strahlrichtung: eine Konvention und sechs Zahlen oder die 16 Zahlen einer Matrix
+paint-rail = Schiene
+paint-rail-hint = Die Schiene, auf der der Arm steht: Achse der Kalibrierung, Anfang und Ende in mm und, wenn sie entlang der Bahn fährt, Höchstgeschwindigkeit in mm/s. Leer: die aus der Datei des Arms
 paint-no-obstacles = Nur das Teil
 paint-obstacles = Hindernisse: { $file }
 paint-obstacles-hint = Woran Pistole und Arm außer dem Teil nicht stoßen dürfen: Quader der Zelle und ihr Boden, aus einer TOML-Datei
@@ -138,6 +140,7 @@ paint-out-of-reach = außer Reichweite
 paint-joint-limit = Achse { $joint } über ihrer Grenze
 paint-near-singularity = nahe einer Singularität
 paint-joint-too-fast = Achse { $joint } zu langsam
+paint-rail-too-fast = Schiene zu langsam
 paint-arm-folds-over = der Arm müsste umschlagen
 paint-collisions = Kollisionen
 paint-num-collisions =
@@ -167,7 +170,18 @@ paint-near-box =
         [forearm] Unterarm zu nah an { $name }
        *[upper-arm] Oberarm zu nah an { $name }
     }
+paint-near-upper-arm =
+    { $body ->
+        [gun] Pistole zu nah am Oberarm
+       *[wrist] Handgelenk zu nah am Oberarm
+    }
+paint-near-base-column =
+    { $body ->
+        [gun] Pistole zu nah am Sockel
+       *[wrist] Handgelenk zu nah am Sockel
+    }
 paint-show-unreached = Nächsten zeigen
+paint-rail-moves = Entlang der Bahn ist seine Schiene zwischen { $from } und { $to } mm
 paint-rail-at = Bei { $at } mm seiner Schiene würde er { $count } erreichen
 paint-base-moved = Mit dem Fuß um { $by } mm versetzt würde er { $count } erreichen
 paint-export-program = Programm…

@@ -117,6 +117,8 @@ paint-from-file = From a file…
 paint-arm-title = Open an arm
 paint-nozzle = Nozzle on the flange
 paint-nozzle-hint = Where the nozzle's mouth is on the flange, z the way it points: a convention and six numbers, or the 16 numbers of a matrix
+paint-rail = Rail
+paint-rail-hint = The rail that the arm stands on: axis of the calibration, from and to in mm and, if it moves along the path, top speed in mm/s. Empty: that of the arm's file
 paint-no-obstacles = Only the part
 paint-obstacles = Obstacles: { $file }
 paint-obstacles-hint = What gun and arm must not run into beside the part: boxes of the cell and its floor, from a TOML file
@@ -138,6 +140,7 @@ paint-out-of-reach = out of reach
 paint-joint-limit = joint { $joint } beyond its limit
 paint-near-singularity = near a singularity
 paint-joint-too-fast = joint { $joint } too slow
+paint-rail-too-fast = rail too slow
 paint-arm-folds-over = the arm would fold over
 paint-collisions = Collisions
 paint-num-collisions =
@@ -167,7 +170,18 @@ paint-near-box =
         [forearm] forearm too near to { $name }
        *[upper-arm] upper arm too near to { $name }
     }
+paint-near-upper-arm =
+    { $body ->
+        [gun] gun too near to the upper arm
+       *[wrist] wrist too near to the upper arm
+    }
+paint-near-base-column =
+    { $body ->
+        [gun] gun too near to the base column
+       *[wrist] wrist too near to the base column
+    }
 paint-show-unreached = Show next
+paint-rail-moves = Along the path its rail is between { $from } and { $to } mm
 paint-rail-at = At { $at } mm of its rail it would reach { $count }
 paint-base-moved = With its base moved by { $by } mm it would reach { $count }
 paint-export-program = Program…

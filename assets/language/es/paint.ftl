@@ -117,6 +117,8 @@ paint-from-file = De un archivo…
 paint-arm-title = Abrir un brazo
 paint-nozzle = Boquilla en la brida
 paint-nozzle-hint = Dónde está la boquilla en la brida, z hacia donde apunta: una convención y seis números, o los 16 números de una matriz
+paint-rail = Carril
+paint-rail-hint = El carril sobre el que está el brazo: eje de la calibración, inicio y fin en mm y, si se mueve a lo largo de la trayectoria, velocidad máxima en mm/s. Vacío: el del archivo del brazo
 paint-no-obstacles = Solo la pieza
 paint-obstacles = Obstáculos: { $file }
 paint-obstacles-hint = Con qué no deben chocar la pistola y el brazo además de la pieza: cajas de la celda y su suelo, de un archivo TOML
@@ -138,6 +140,7 @@ paint-out-of-reach = fuera de alcance
 paint-joint-limit = eje { $joint } más allá de su límite
 paint-near-singularity = cerca de una singularidad
 paint-joint-too-fast = eje { $joint } demasiado lento
+paint-rail-too-fast = carril demasiado lento
 paint-arm-folds-over = el brazo tendría que voltearse
 paint-collisions = Colisiones
 paint-num-collisions =
@@ -167,7 +170,18 @@ paint-near-box =
         [forearm] antebrazo demasiado cerca de { $name }
        *[upper-arm] brazo superior demasiado cerca de { $name }
     }
+paint-near-upper-arm =
+    { $body ->
+        [gun] pistola demasiado cerca del brazo superior
+       *[wrist] muñeca demasiado cerca del brazo superior
+    }
+paint-near-base-column =
+    { $body ->
+        [gun] pistola demasiado cerca de la columna de la base
+       *[wrist] muñeca demasiado cerca de la columna de la base
+    }
 paint-show-unreached = Mostrar el siguiente
+paint-rail-moves = A lo largo de la trayectoria su carril está entre { $from } y { $to } mm
 paint-rail-at = A { $at } mm de su carril alcanzaría { $count }
 paint-base-moved = Con la base desplazada { $by } mm alcanzaría { $count }
 paint-export-program = Programa…

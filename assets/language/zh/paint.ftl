@@ -117,6 +117,8 @@ paint-from-file = 从文件…
 paint-arm-title = 打开机械臂
 paint-nozzle = 喷嘴在法兰上的位置
 paint-nozzle-hint = 喷嘴口在法兰上的位置，z 为喷射方向：约定名加六个数，或矩阵的 16 个数
+paint-rail = 导轨
+paint-rail-hint = 机械臂所在的导轨：标定坐标系的轴、起点和终点（mm）；若沿轨迹移动，再写最高速度（mm/s）。留空：用机械臂文件中的导轨
 paint-no-obstacles = 仅零件
 paint-obstacles = 障碍物：{ $file }
 paint-obstacles-hint = 除零件外喷枪和机械臂不能碰到的东西：工位中的长方体和地面，来自 TOML 文件
@@ -138,6 +140,7 @@ paint-out-of-reach = 超出范围
 paint-joint-limit = 关节 { $joint } 超出限位
 paint-near-singularity = 接近奇异点
 paint-joint-too-fast = 关节 { $joint } 太慢
+paint-rail-too-fast = 导轨太慢
 paint-arm-folds-over = 机械臂需要翻转
 paint-collisions = 碰撞
 paint-num-collisions =
@@ -166,7 +169,18 @@ paint-near-box =
         [forearm] 前臂离 { $name } 太近
        *[upper-arm] 上臂离 { $name } 太近
     }
+paint-near-upper-arm =
+    { $body ->
+        [gun] 喷枪离上臂太近
+       *[wrist] 手腕离上臂太近
+    }
+paint-near-base-column =
+    { $body ->
+        [gun] 喷枪离底座太近
+       *[wrist] 手腕离底座太近
+    }
 paint-show-unreached = 显示下一个
+paint-rail-moves = 沿轨迹导轨位于 { $from } 至 { $to } mm 之间
 paint-rail-at = 导轨在 { $at } mm 时可达 { $count } 个点
 paint-base-moved = 底座移动 { $by } mm 后可达 { $count } 个点
 paint-export-program = 导出程序…

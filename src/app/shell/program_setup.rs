@@ -11,7 +11,7 @@ use crate::{
     geometry::rigid::RigidTransform,
     robot::{
         Convention,
-        arm::{ARM_NAMES, Arm, GUN_RADIUS, Obstacles, PlacedArm},
+        arm::{ARM_NAMES, Arm, ArmError, GUN_RADIUS, Obstacles, PlacedArm},
         parse_written_pose,
         program::{PROGRAM_ENDINGS, ProgramFormat, ProgramSettings},
     },
@@ -26,6 +26,9 @@ pub struct ProgramSetup {
     pub arm: Option<String>,
     /// Where the nozzle is on the flange, as a person wrote it: `kuka X Y Z A B C`, or the 16 numbers of a matrix.
     pub nozzle: String,
+    /// The rail that the arm stands on, as a person wrote it: axis, from, to and, if it moves along the path, top speed, such as
+    /// `y,-2000,2000,1000`; empty: that of the arm's file.
+    pub rail: String,
     /// The boxes of the cell and its floor, as a TOML file; none: only the part is an obstacle.
     pub obstacles: Option<String>,
     /// How near gun and arm may come to part, boxes and floor, mm.
@@ -50,6 +53,7 @@ impl Default for ProgramSetup {
         Self {
             arm: None,
             nozzle: String::new(),
+            rail: String::new(),
             obstacles: None,
             clearance_mm: 1000.0 * Obstacles::default().clearance,
             gun_radius_mm: 1000.0 * GUN_RADIUS,
@@ -125,6 +129,15 @@ impl ProgramSetup {
         Ok(obstacles)
     }
 
+    /// The arm of this name on its rail.
+    fn arm_on_rail(&self, name: &str) -> Result<Arm, ArmError> {
+        let mut arm = Arm::named(name)?;
+        if !self.rail.trim().is_empty() {
+            arm.rail = Some(self.rail.parse()?);
+        }
+        Ok(arm)
+    }
+
     /// Where the nozzle is on the flange; none where nothing was written.
     fn flange_from_nozzle(&self) -> Result<Option<RigidTransform>, UserError> {
         if self.nozzle.trim().is_empty() {
@@ -149,7 +162,9 @@ impl ProgramSetup {
                 });
             }
             (Some(name), Some(flange_from_nozzle)) => Some(PlacedArm {
-                arm: Arm::named(name).map_err(|error| UserError::of(&error))?,
+                arm: self
+                    .arm_on_rail(name)
+                    .map_err(|error| UserError::of(&error))?,
                 robot_from_base: RigidTransform::identity(),
                 flange_from_nozzle,
                 gun_radius: self.gun_radius_mm / 1000.0,
@@ -207,5 +222,24 @@ mod tests {
         std::fs::write(&file, "name = \"Cell 3\"\n").expect("written");
         assert_eq!(title(&file.display().to_string()), "arm.toml");
         assert_eq!(ProgramSetup::default().arm_title(), None);
+    }
+
+    #[test]
+    fn the_rail_that_is_written_is_the_arms_and_a_wrong_one_is_refused() {
+        let on = |rail: &str| {
+            let setup = ProgramSetup {
+                arm: Some("gp25".into()),
+                nozzle: "kuka 0 0 250 0 45 0".into(),
+                rail: rail.into(),
+                ..ProgramSetup::default()
+            };
+            let target = setup.target()?;
+            Ok::<_, UserError>(target.arm.expect("an arm").arm.rail)
+        };
+        assert_eq!(on(" ").expect("no rail"), None);
+        let rail = on("y,-2000,1500,800").expect("a rail").expect("a rail");
+        assert_eq!((rail.range, rail.speed), ([-2.0, 1.5], Some(0.8)));
+        let error = on("sideways").expect_err("no rail");
+        assert!(error.what.contains("sideways"), "{}", error.what);
     }
 }

@@ -9,13 +9,16 @@ use crate::{
         calibrate::CalibrationChoice,
         console::{Advised as _, Console, advised_error},
         input::parse_robot_pose,
-        program::ObstacleChoice,
+        program::CellChoice,
     },
     geometry::rigid::RigidTransform,
     library::PartName,
     robot::{
         WrittenPose,
-        arm::{Arm, CheckParams, PointProblem, suggest_base, suggest_rail},
+        arm::{
+            Arm, CheckParams, PathCheck, PlaceSuggestion, PlacedArm, PointProblem, suggest_base,
+            suggest_rail,
+        },
         program::{ProgramSettings, arm_points, check_reach},
         spray::carry,
     },
@@ -37,7 +40,7 @@ pub(super) struct CheckArgs {
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     base: Option<WrittenPose>,
     #[command(flatten)]
-    clear_of: ObstacleChoice,
+    cell: CellChoice,
     /// Speed of the nozzle where the path sets none, mm/s
     #[arg(long, value_name = "MM/S", default_value_t = 250.0)]
     speed: f64,
@@ -84,7 +87,7 @@ pub(super) fn run(
     let points = arm_points(&carried, &frame, settings.speed);
     let robot_from_base = args.base.as_ref().map_or(standard, |base| base.pose);
     let placed = args
-        .clear_of
+        .cell
         .place(arm, robot_from_base, args.nozzle.pose)?
         .with_part(&reference.cloud.points, &frame.robot_from_part(&standard));
     let params = CheckParams::default();
@@ -96,12 +99,15 @@ pub(super) fn run(
         base = suggest_base(&placed, &points, &params, num).advised()?;
     }
     if args.json {
+        let moving = placed.arm.moving_rail();
+        let range = moving.map(|_| found.rail_range().map(|at| 1000.0 * at));
         let listed = found.points.iter().enumerate().map(|(i, point)| {
             let joints = point.joints.map(|joints| joints.map(f64::to_degrees));
             json!({
                 "index": i + 1,
                 "joints_deg": joints,
                 "turn_deg": point.turn.to_degrees(),
+                "rail_mm": moving.map(|_| 1000.0 * point.rail),
                 "problem": point.problem.as_ref().map(PointProblem::describe),
                 "problem_kind": point.problem.as_ref().map(PointProblem::kind),
             })
@@ -114,36 +120,54 @@ pub(super) fn run(
             "num_collisions": found.num_collisions(),
             "base_shift_mm": base.map(|place| place.shift.map(|x| 1000.0 * x)),
             "rail_mm": rail.map(|place| 1000.0 * place.shift[0]),
+            "rail_range_mm": range,
             "points": listed.collect::<Vec<_>>(),
         });
         console.line(&line);
     } else {
-        console.line(&format_args!(
-            "{} reaches {num} of {all} points",
-            placed.arm.name
-        ));
-        for (i, point) in found.points.iter().enumerate() {
-            if let Some(problem) = &point.problem {
-                console.line(&format_args!("  point {}: {}", i + 1, problem.describe()));
-            }
-        }
-        if let Some(place) = base {
-            let [x, y, z] = place.shift.map(|x| 1000.0 * x);
-            let num = place.num_reached;
-            console.line(&format_args!(
-                "  moved by {x:.0} {y:.0} {z:.0} mm its base would let it reach {num}"
-            ));
-        }
-        if let Some(place) = rail {
-            let (at, num) = (1000.0 * place.shift[0], place.num_reached);
-            console.line(&format_args!(
-                "  at {at:.0} mm of its rail it would reach {num}"
-            ));
-        }
+        show(&placed, &found, [base, rail], console);
     }
     Ok(if num == all {
         Outcome::Accepted
     } else {
         Outcome::NotAccepted
     })
+}
+
+/// What was found in words, and the better places of base and rail.
+fn show(
+    placed: &PlacedArm,
+    found: &PathCheck,
+    [base, rail]: [Option<PlaceSuggestion>; 2],
+    console: &mut Console,
+) {
+    let (num, all) = (found.num_reached(), found.points.len());
+    console.line(&format_args!(
+        "{} reaches {num} of {all} points",
+        placed.arm.name
+    ));
+    if placed.arm.moving_rail().is_some() {
+        let [low, high] = found.rail_range().map(|at| 1000.0 * at);
+        console.line(&format_args!(
+            "  its rail is between {low:.0} and {high:.0} mm"
+        ));
+    }
+    for (i, point) in found.points.iter().enumerate() {
+        if let Some(problem) = &point.problem {
+            console.line(&format_args!("  point {}: {}", i + 1, problem.describe()));
+        }
+    }
+    if let Some(place) = base {
+        let [x, y, z] = place.shift.map(|x| 1000.0 * x);
+        let num = place.num_reached;
+        console.line(&format_args!(
+            "  moved by {x:.0} {y:.0} {z:.0} mm its base would let it reach {num}"
+        ));
+    }
+    if let Some(place) = rail {
+        let (at, num) = (1000.0 * place.shift[0], place.num_reached);
+        console.line(&format_args!(
+            "  at {at:.0} mm of its rail it would reach {num}"
+        ));
+    }
 }

@@ -133,16 +133,20 @@ pub(super) fn move_time(from: &RigidTransform, to: &RigidTransform, speed: f64) 
 /// 2000: an untested candidate costs as little as a free one, so a chain stays the cheapest if all that it holds prove free.
 /// Where one is not, every candidate of its point is tested and another chain chosen. A path without collisions takes one
 /// test per point; one that collides nearly everywhere takes [`LAZY_ROUNDS`] chains more and a test of each candidate.
+/// There is a solver for each point, where the rail is there.
 pub(super) fn free_chain(
-    solver: &Solver<'_>,
+    solvers: &[Solver<'_>],
     points: &[ArmPoint],
     candidates: &mut [Vec<Candidate>],
     num_turns: usize,
 ) -> Vec<Option<usize>> {
+    let Some(arm) = solvers.first().map(|solver| solver.arm) else {
+        return Vec::new();
+    };
     for _ in 0..LAZY_ROUNDS {
-        let chosen = best_chain(solver.arm, points, candidates, num_turns);
+        let chosen = best_chain(arm, points, candidates, num_turns);
         let mut is_final = true;
-        for (here, chosen) in candidates.iter_mut().zip(&chosen) {
+        for ((here, chosen), solver) in candidates.iter_mut().zip(&chosen).zip(solvers) {
             let chosen = chosen.and_then(|index| here.get_mut(index));
             let untested = chosen.filter(|candidate| candidate.is_collision.is_none());
             if untested.is_some_and(|candidate| candidate.collides(solver)) {
@@ -156,10 +160,12 @@ pub(super) fn free_chain(
             return chosen;
         }
     }
-    for candidate in candidates.iter_mut().flatten() {
-        candidate.collides(solver);
+    for (here, solver) in candidates.iter_mut().zip(solvers) {
+        for candidate in here {
+            candidate.collides(solver);
+        }
     }
-    best_chain(solver.arm, points, candidates, num_turns)
+    best_chain(arm, points, candidates, num_turns)
 }
 
 /// The cheapest chain of candidates; none where there is no candidate, behind which a new chain begins.

@@ -1,10 +1,11 @@
 //! A path held against an arm.
 
 use super::{
-    ArmError, PlacedArm,
+    Arm, ArmError, PlacedArm,
     chain::{Candidate, angle_of, candidates_of, free_chain, move_time, turned, turns_of},
     kinematics::{Joints, Singularity, Solver},
     obstacles::{Body, Obstacle},
+    rail_plan::rail_positions,
 };
 use crate::geometry::rigid::{RigidTransform, is_finite};
 
@@ -17,6 +18,8 @@ pub struct ArmPoint {
     pub speed: f64,
     /// True if the jet is round: the nozzle may turn about its z axis.
     pub is_turn_free: bool,
+    /// True if the gun sprays on the way to the next point: a rail rather moves elsewhere.
+    pub is_gun_on: bool,
 }
 
 /// Parameters of [`check_path`].
@@ -24,7 +27,7 @@ pub struct ArmPoint {
 pub struct CheckParams {
     /// Turns about the nozzle's z axis that are tried, 1..72. Raising it costs as much time.
     pub num_turns: usize,
-    /// Where the rail stands, metres; 0 without one.
+    /// Where a rail stands that does not move along the path, metres; 0 without one.
     pub rail: f64,
 }
 
@@ -58,6 +61,11 @@ pub enum PointProblem {
         /// The speed that it would need, rad/s.
         speed: f64,
     },
+    /// On the way from the point before, the rail would have to move faster than it can.
+    RailTooFast {
+        /// The speed that it would need, m/s.
+        speed: f64,
+    },
     /// On the way from the point before, the arm would have to fold over.
     ConfigurationChange,
     /// Gun or arm come nearer to something than the clearance, at the point or on the way from the point before.
@@ -84,6 +92,9 @@ impl PointProblem {
                     speed.to_degrees()
                 )
             }
+            Self::RailTooFast { speed } => {
+                format!("the rail would need {:.0} mm/s", 1000.0 * speed)
+            }
             Self::ConfigurationChange => "the arm would have to fold over".into(),
             Self::Collision { body, obstacle } => {
                 let body = body.name();
@@ -91,6 +102,8 @@ impl PointProblem {
                     Obstacle::Part => format!("the {body} is too near to the part"),
                     Obstacle::Floor => format!("the {body} is too near to the floor"),
                     Obstacle::Box(name) => format!("the {body} is too near to the box {name}"),
+                    Obstacle::UpperArm => format!("the {body} is too near to the upper arm"),
+                    Obstacle::BaseColumn => format!("the {body} is too near to the base column"),
                 }
             }
         }
@@ -103,6 +116,7 @@ impl PointProblem {
             Self::JointLimit { .. } => "joint_limit",
             Self::NearSingularity(_) => "near_singularity",
             Self::TooFast { .. } => "too_fast",
+            Self::RailTooFast { .. } => "rail_too_fast",
             Self::ConfigurationChange => "configuration_change",
             Self::Collision { .. } => "collision",
         }
@@ -116,6 +130,8 @@ pub struct PointCheck {
     pub joints: Option<Joints>,
     /// Turn about the nozzle's z axis against the path, radians within ±π.
     pub turn: f64,
+    /// Where the rail is, metres; 0 without one.
+    pub rail: f64,
     /// What is wrong with it.
     pub problem: Option<PointProblem>,
 }
@@ -148,6 +164,13 @@ impl PathCheck {
             .count()
     }
 
+    /// The least and the greatest position of the rail along the path, metres.
+    pub fn rail_range(&self) -> [f64; 2] {
+        let positions = self.points.iter().map(|point| point.rail);
+        let range = [f64::INFINITY, f64::NEG_INFINITY];
+        positions.fold(range, |[low, high], at| [low.min(at), high.max(at)])
+    }
+
     /// Why no program should be written for this arm, in words; none if it reaches every point.
     pub fn doubt(&self, arm: &str) -> Option<String> {
         let (num, all) = (self.num_reached(), self.points.len());
@@ -172,19 +195,26 @@ pub fn check_path(
     params: &CheckParams,
 ) -> Result<PathCheck, ArmError> {
     refuse_bad(placed, points, params)?;
-    let solver = Solver::new(placed, params.rail);
-    let mut candidates: Vec<Vec<Candidate>> = points
+    let rails = rail_positions(placed, points, params);
+    let solvers: Vec<Solver<'_>> = rails
         .iter()
-        .map(|point| candidates_of(&solver, point, params.num_turns))
+        .map(|rail| Solver::new(placed, *rail))
         .collect();
-    let chosen = free_chain(&solver, points, &mut candidates, params.num_turns);
+    let mut candidates: Vec<Vec<Candidate>> = solvers
+        .iter()
+        .zip(points)
+        .map(|(solver, point)| candidates_of(solver, point, params.num_turns))
+        .collect();
+    let chosen = free_chain(&solvers, points, &mut candidates, params.num_turns);
     let mut checked: Vec<PointCheck> = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
+        let (solver, rail) = (&solvers[i], rails[i]);
         let Some(candidate) = chosen[i].map(|index| candidates[i][index]) else {
             checked.push(PointCheck {
                 joints: None,
                 turn: 0.0,
-                problem: Some(why_not(&solver, point, params.num_turns)),
+                rail,
+                problem: Some(why_not(solver, point, params.num_turns)),
             });
             continue;
         };
@@ -192,23 +222,30 @@ pub fn check_path(
         let singular = solver.singularity(&candidate.joints);
         let before = i.checked_sub(1).and_then(|before| {
             let from: &PointCheck = &checked[before];
-            Some((
-                turned(&points[before], from.turn),
-                from.joints?,
-                points[before].speed,
-            ))
+            let end = WayEnd {
+                nozzle: turned(&points[before], from.turn),
+                joints: from.joints?,
+                rail: from.rail,
+            };
+            Some((end, points[before].speed))
         });
-        let to = (turned(point, turn), candidate.joints);
+        let to = WayEnd {
+            nozzle: turned(point, turn),
+            joints: candidate.joints,
+            rail,
+        };
         // What would break something comes first.
         let here = if candidate.is_collision == Some(true) {
             solver.collision(&candidate.joints)
         } else {
             None
         };
-        let problem = here.or_else(|| before.and_then(|from| way_problem(&solver, from, to)));
+        let problem = here
+            .or_else(|| before.and_then(|(from, speed)| way_problem(placed, &from, &to, speed)));
         checked.push(PointCheck {
             joints: Some(candidate.joints),
             turn,
+            rail,
             problem: problem.or(singular.map(PointProblem::NearSingularity)),
         });
     }
@@ -256,23 +293,36 @@ pub(super) fn refuse_bad(
     Ok(())
 }
 
+/// Where a straight move begins or ends.
+struct WayEnd {
+    nozzle: RigidTransform,
+    joints: Joints,
+    rail: f64,
+}
+
 /// Follows a straight move from one chosen solution towards the next, and says what is wrong with it.
 fn way_problem(
-    solver: &Solver<'_>,
-    (from, start, speed): (RigidTransform, Joints, f64),
-    (to, end): (RigidTransform, Joints),
+    placed: &PlacedArm,
+    start: &WayEnd,
+    end: &WayEnd,
+    speed: f64,
 ) -> Option<PointProblem> {
+    let (from, to) = (&start.nozzle, &end.nozzle);
     let distance = (to.translation.vector - from.translation.vector).norm();
     let angle = from.rotation.angle_to(&to.rotation);
-    let num = (distance / STEP[0]).max(angle / STEP[1]).ceil().max(1.0);
-    let allowed = move_time(&from, &to, speed).map(|time| time / num);
-    let mut at = start;
-    let mut trouble = None;
+    let ride = (end.rail - start.rail).abs();
+    let num = (distance.max(ride) / STEP[0]).max(angle / STEP[1]);
+    let num = num.ceil().max(1.0);
+    let allowed = move_time(from, to, speed);
+    let mut trouble = rail_problem(&placed.arm, ride, allowed);
+    let allowed = allowed.map(|time| time / num);
+    let mut at = start.joints;
     for k in 1..=num as usize {
+        let share = k as f64 / num;
+        let solver = Solver::new(placed, start.rail + (end.rail - start.rail) * share);
         let near = if k == num as usize {
-            end
+            end.joints
         } else {
-            let share = k as f64 / num;
             let pose = nalgebra::Isometry3::from_parts(
                 (from.translation.vector.lerp(&to.translation.vector, share)).into(),
                 from.rotation.slerp(&to.rotation, share),
@@ -292,10 +342,19 @@ fn way_problem(
             }
             nearest
         };
-        trouble = trouble.or_else(|| step_problem(solver, &at, &near, allowed));
+        trouble = trouble.or_else(|| step_problem(&solver, &at, &near, allowed));
         at = near;
     }
     trouble
+}
+
+/// Whether the rail gets as far in so many seconds, or in as many as it wants.
+fn rail_problem(arm: &Arm, ride: f64, allowed: Option<f64>) -> Option<PointProblem> {
+    /// The times of a run are sums, which are not exact.
+    const EXACT: f64 = 1e-6;
+    let (_, fastest) = arm.moving_rail()?;
+    let speed = ride / allowed?;
+    (speed > fastest * (1.0 + EXACT)).then_some(PointProblem::RailTooFast { speed })
 }
 
 /// What is wrong with a short step from one solution to the next, which may take so many seconds, or as many as it wants.

@@ -59,6 +59,12 @@ pub enum ArmError {
         /// To.
         high: f64,
     },
+    /// A text that describes no rail.
+    #[error("{text:?} is no rail")]
+    NoRail {
+        /// What was given.
+        text: String,
+    },
     /// A number of the arm that cannot be.
     #[error("{what} is {value}")]
     Value {
@@ -97,8 +103,11 @@ impl Advice for ArmError {
             }
             Self::Limits { .. } => "Give the lower limit first, then the upper one, in degrees".into(),
             Self::Rail { .. } => "Give from_mm below to_mm".into(),
+            Self::NoRail { .. } => {
+                "Give x, y or z, where it begins and ends in mm and, if it moves along the path, its top speed in mm/s: y,-2000,2000,1000".into()
+            }
             Self::Value { .. } => {
-                "Correct it: lengths in millimetres, angles in degrees, signs 1 or -1".into()
+                "Correct it: lengths in millimetres, angles in degrees, speeds above 0, signs 1 or -1".into()
             }
             Self::NoPoints => "Give a path with at least one point".into(),
             Self::NotFinite { .. } => "Check the numbers of base, tool and path".into(),

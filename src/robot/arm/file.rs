@@ -13,6 +13,7 @@
 //! direction = [0, 1, 0]
 //! from_mm = -2000
 //! to_mm = 2000
+//! speed_mm_s = 1000                                 # top speed; without it the rail stands still along a path
 //! ```
 //!
 //! Without `radii_mm` they are 10, 9 and 6 % of the reach, more than most arms have.
@@ -52,6 +53,7 @@ struct RailText {
     direction: [f64; 3],
     from_mm: f64,
     to_mm: f64,
+    speed_mm_s: Option<f64>,
 }
 
 impl Arm {
@@ -70,6 +72,7 @@ impl Arm {
             Ok(Rail {
                 direction,
                 range: [rail.from_mm / 1000.0, rail.to_mm / 1000.0],
+                speed: rail.speed_mm_s.map(|speed| speed / 1000.0),
             })
         });
         let mut arm = Self {

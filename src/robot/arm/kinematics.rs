@@ -12,7 +12,7 @@ use rs_opw_kinematics::{
 
 use super::{
     Arm, PlacedArm, PointProblem,
-    obstacles::{Body, Capsule, Obstacles},
+    obstacles::{Body, Capsule, Nearness, Obstacles, worst},
 };
 use crate::geometry::{rigid::RigidTransform, segment::Segment};
 
@@ -125,17 +125,32 @@ impl<'a> Solver<'a> {
         ]
     }
 
-    /// Whether gun or arm are too near to something.
+    /// The base column: its axis and its radius.
+    fn column(&self) -> (Segment, f64) {
+        let robot_from_foot = self.base_from_robot.inverse();
+        let [a1, _, _, c1, ..] = self.arm.lengths;
+        let [upper_arm, ..] = self.arm.radii;
+        let axis = Segment {
+            from: robot_from_foot * Point3::origin(),
+            to: robot_from_foot * Point3::new(0.0, 0.0, c1),
+        };
+        (axis, upper_arm.max(a1.abs()))
+    }
+
+    /// Every body of these that is too near to something.
+    fn pairs(&self, bodies: &[Capsule]) -> impl Iterator<Item = Nearness> {
+        let of_arm = self.obstacles.pairs_of_arm(bodies, self.column());
+        of_arm.chain(self.obstacles.pairs(bodies))
+    }
+
+    /// Whether gun or arm are too near to something: stops at the first.
     pub(super) fn collides(&self, joints: &Joints) -> bool {
-        !self.obstacles.is_empty() && self.obstacles.is_hit_by(&self.bodies(joints))
+        self.pairs(&self.bodies(joints)).next().is_some()
     }
 
     /// The same, with what to what; it takes longer.
     pub(super) fn collision(&self, joints: &Joints) -> Option<PointProblem> {
-        if self.obstacles.is_empty() {
-            return None;
-        }
-        let (body, obstacle) = self.obstacles.worst(&self.bodies(joints))?;
+        let (body, obstacle) = worst(self.pairs(&self.bodies(joints)))?;
         Some(PointProblem::Collision { body, obstacle })
     }
 
@@ -229,6 +244,12 @@ impl Arm {
         let fold = q3 + a2.atan2(c3);
         let ahead = c2 * q2.sin() + a2.hypot(c3) * (q2 + fold).sin() + a1;
         [ahead, fold.sin(), q5.sin()]
+    }
+
+    /// Which of the eight configurations, as one bit of eight.
+    pub(super) fn configuration_bit(&self, joints: &Joints) -> u8 {
+        let [ahead, up, unflipped] = self.configuration(joints).map(u8::from);
+        1 << (4 * ahead + 2 * up + unflipped)
     }
 
     /// Which of the eight configurations: wrist ahead, elbow up, wrist unflipped. Ahead and up are seen from joint 1, with

@@ -9,7 +9,10 @@
 //!
 //! Gun and arm have to stay clear of [`Obstacles`] at every point and on the way to it.
 //!
-//! Known limits: no accelerations. The rail stands still while the gun moves. Joint 3 of FANUC arms is coupled to joint 2 on
+//! An arm may stand on a [`Rail`]. One with a top speed moves along the path: `rail_plan` chooses where it is at every point.
+//! Any other stands still, and a better position of it is suggested.
+//!
+//! Known limits: no accelerations, neither of joints nor of the rail. Joint 3 of FANUC arms is coupled to joint 2 on
 //! the controller; here it is the angle against the upper arm, and so is its limit.
 
 mod chain;
@@ -20,10 +23,12 @@ mod kinematics;
 mod models;
 mod obstacles;
 mod place;
+mod rail;
+mod rail_plan;
 #[cfg(test)]
 mod tests;
 
-use nalgebra::{Point3, Unit, Vector3};
+use nalgebra::{Point3, Vector3};
 
 use crate::{geometry::rigid::RigidTransform, robot::Convention};
 
@@ -34,6 +39,7 @@ pub use self::{
     models::ARM_NAMES,
     obstacles::{Body, Obstacle, Obstacles},
     place::{PlaceSuggestion, suggest_base, suggest_rail},
+    rail::Rail,
 };
 
 /// A six-axis arm with a spherical wrist.
@@ -59,15 +65,6 @@ pub struct Arm {
     maker: Option<Convention>,
     /// The rail that it stands on.
     pub rail: Option<Rail>,
-}
-
-/// A straight rail below an arm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rail {
-    /// Which way it runs, in the frame of the path.
-    pub direction: Unit<Vector3<f64>>,
-    /// From and to, metres from where the calibration was made.
-    pub range: [f64; 2],
 }
 
 /// An arm as it stands in the cell.
@@ -111,6 +108,12 @@ impl Arm {
     /// is not known.
     pub(super) fn maker(&self) -> Option<Convention> {
         self.maker
+    }
+
+    /// The rail that moves it along the path, and its top speed, m/s.
+    pub fn moving_rail(&self) -> Option<(Rail, f64)> {
+        let rail = self.rail?;
+        Some((rail, rail.speed?))
     }
 
     /// How far the nozzle's end of the arm reaches from joint 2, metres.
@@ -170,15 +173,8 @@ impl Arm {
                 });
             }
         }
-        if let Some(Rail {
-            range: [low, high], ..
-        }) = self.rail
-            && !(low < high && low.abs().max(high.abs()) <= 100.0)
-        {
-            return Err(ArmError::Rail {
-                low: low * 1000.0,
-                high: high * 1000.0,
-            });
+        if let Some(rail) = self.rail {
+            rail.checked()?;
         }
         Ok(self)
     }

@@ -1,4 +1,4 @@
-//! What gun and arm must not run into: the part, boxes of the cell and its floor.
+//! What gun and arm must not run into: the part, boxes of the cell, its floor, and the arm itself.
 //!
 //! Upper arm, forearm, wrist and gun are capsules: all points within a radius of a straight segment. The part is the points
 //! that it was enrolled with, each standing for the surface up to their spacing around it. Boxes and floor stay where they
@@ -13,9 +13,13 @@
 //! angles_deg = [0, 0, 30]          # about x, y and z of the base, R = Rz·Ry·Rx; 0 without them
 //! ```
 //!
-//! Known limits: hoses, cables and what the arm carries besides the gun are no bodies, nor are its foot, which stands still,
-//! and its counterweights. The side of the part that was not enrolled is not there, and neither is a stand or a wall unless a
-//! box stands for it. The arm is not checked against itself.
+//! Of the arm itself gun and wrist must not run into the upper arm and the base column. The column reaches from the foot up to
+//! the height of joint 2; its radius is that of the upper arm, or the distance of joint 2 from joint 1 if that is more. Bodies
+//! that share a joint are not held against each other.
+//!
+//! Known limits: hoses, cables and what the arm carries besides the gun are no bodies, nor are its counterweights. Part, boxes
+//! and floor are not held against the base column, which stands still or runs along its rail. The side of the part that was not
+//! enrolled is not there, and neither is a stand or a wall unless a box stands for it.
 
 use std::{path::Path, sync::Arc};
 
@@ -76,7 +80,14 @@ pub enum Obstacle {
     Floor,
     /// A box of the cell, by its name.
     Box(String),
+    /// The upper arm, from joint 2 to joint 3.
+    UpperArm,
+    /// The base column, from the foot up around joint 1.
+    BaseColumn,
 }
+
+/// A body that is too near to something, and by how much: the room between them less the clearance, metres, below 0.
+pub(super) type Nearness = (f64, Body, Obstacle);
 
 /// All points within `radius` metres of the axis, in the frame of the path.
 #[derive(Clone, Copy, Debug)]
@@ -197,12 +208,8 @@ impl Obstacles {
         })
     }
 
-    pub(super) fn is_empty(&self) -> bool {
-        self.boxes.is_empty() && self.floor.is_none() && self.part.is_none()
-    }
-
-    /// Every body that is too near to something, and by how much: the room between them less the clearance, metres.
-    fn pairs(&self, bodies: &[Capsule]) -> impl Iterator<Item = (f64, Body, Obstacle)> {
+    /// Every body that is too near to something.
+    pub(super) fn pairs(&self, bodies: &[Capsule]) -> impl Iterator<Item = Nearness> {
         bodies.iter().flat_map(move |capsule| {
             let Capsule { body, axis, radius } = *capsule;
             let within = radius + self.clearance;
@@ -222,19 +229,37 @@ impl Obstacles {
         })
     }
 
-    /// Whether any body is too near to something: stops at the first.
-    pub(super) fn is_hit_by(&self, bodies: &[Capsule]) -> bool {
-        self.pairs(bodies).next().is_some()
+    /// Gun or wrist where they are too near to the upper arm or to the base column, which is given by its axis and radius.
+    pub(super) fn pairs_of_arm(
+        &self,
+        bodies: &[Capsule],
+        column: (Segment, f64),
+    ) -> impl Iterator<Item = Nearness> {
+        let (axis, radius) = column;
+        let column = std::iter::once((Obstacle::BaseColumn, axis, radius));
+        let upper_arm = bodies.iter().filter(|one| one.body == Body::UpperArm);
+        let upper_arm = upper_arm.map(|one| (Obstacle::UpperArm, one.axis, one.radius));
+        let own = column.chain(upper_arm);
+        own.flat_map(move |(obstacle, axis, radius)| {
+            let moving = bodies
+                .iter()
+                .filter(|one| matches!(one.body, Body::Gun | Body::Wrist));
+            moving.filter_map(move |one| {
+                let within = one.radius + radius + self.clearance;
+                let room = one.axis.distance_to_segment(&axis) - within;
+                (room < 0.0).then(|| (room, one.body, obstacle.clone()))
+            })
+        })
     }
+}
 
-    /// The body that is too near to something, and to what: of several the pair with the least room, whatever their order.
-    pub(super) fn worst(&self, bodies: &[Capsule]) -> Option<(Body, Obstacle)> {
-        let worst = self.pairs(bodies).min_by(|a, b| {
-            let room = a.0.total_cmp(&b.0);
-            room.then_with(|| (a.1, &a.2).cmp(&(b.1, &b.2)))
-        });
-        worst.map(|(_, body, obstacle)| (body, obstacle))
-    }
+/// The body that is too near to something, and to what: of several the pair with the least room, whatever their order.
+pub(super) fn worst(pairs: impl Iterator<Item = Nearness>) -> Option<(Body, Obstacle)> {
+    let worst = pairs.min_by(|a, b| {
+        let room = a.0.total_cmp(&b.0);
+        room.then_with(|| (a.1, &a.2).cmp(&(b.1, &b.2)))
+    });
+    worst.map(|(_, body, obstacle)| (body, obstacle))
 }
 
 impl BoxText {
@@ -345,14 +370,14 @@ mod tests {
         // Its face is at 900 mm: 50 + 20 mm before it.
         for (x, is_hit) in [(0.829, false), (0.831, true), (1.0, true), (1.171, false)] {
             let gun = [capsule(Body::Gun, [x, -1.0, 0.0], [x, 1.0, 0.0], 0.05)];
-            assert_eq!(obstacles.is_hit_by(&gun), is_hit, "{x}");
+            assert_eq!(obstacles.pairs(&gun).next().is_some(), is_hit, "{x}");
             let wanted = is_hit.then(|| (Body::Gun, Obstacle::Box("post".into())));
-            assert_eq!(obstacles.worst(&gun), wanted);
+            assert_eq!(worst(obstacles.pairs(&gun)), wanted);
         }
         // Along y it reaches to 200 mm.
         for (y, is_hit) in [(0.271, false), (0.269, true)] {
             let gun = [capsule(Body::Gun, [0.0, y, 0.0], [2.0, y, 0.0], 0.05)];
-            assert_eq!(obstacles.is_hit_by(&gun), is_hit, "{y}");
+            assert_eq!(obstacles.pairs(&gun).next().is_some(), is_hit, "{y}");
         }
         // The worst is named, in whatever order: the wrist is as near but thinner.
         let bodies = [
@@ -363,7 +388,7 @@ mod tests {
         for obstacles in [boxed(["a", "b"]), boxed(["b", "a"])] {
             for bodies in [bodies, backwards] {
                 let wanted = (Body::Forearm, Obstacle::Box("a".into()));
-                assert_eq!(obstacles.worst(&bodies), Some(wanted));
+                assert_eq!(worst(obstacles.pairs(&bodies)), Some(wanted));
             }
         }
     }
@@ -377,7 +402,7 @@ mod tests {
         for (z, is_hit) in [(-0.39, false), (-0.41, true), (-9.0, true)] {
             let arm = [capsule(Body::Wrist, [7.0, 0.0, 1.0], [7.0, 3.0, z], 0.08)];
             let wanted = is_hit.then_some((Body::Wrist, Obstacle::Floor));
-            assert_eq!(obstacles.worst(&arm), wanted, "{z}");
+            assert_eq!(worst(obstacles.pairs(&arm)), wanted, "{z}");
         }
     }
 
@@ -398,7 +423,7 @@ mod tests {
         let gun = |from: f64, to: f64| {
             // Between the points.
             let at = |x: f64| [x, 0.005, 0.005];
-            obstacles.worst(&[capsule(Body::Gun, at(from), at(to), 0.05)])
+            worst(obstacles.pairs(&[capsule(Body::Gun, at(from), at(to), 0.05)]))
         };
         // 50 mm of the gun, 20 of clearance, 10 of spacing.
         assert_eq!(gun(1.0, 1.9), None);
@@ -407,9 +432,9 @@ mod tests {
         assert_eq!(gun(3.0, 1.0), wanted);
         assert_eq!(gun(2.1, 3.0), None);
         let beside = capsule(Body::Gun, [1.0, 0.385, 0.0], [3.0, 0.385, 0.0], 0.05);
-        assert_eq!(obstacles.worst(&[beside]), None);
+        assert_eq!(worst(obstacles.pairs(&[beside])), None);
         let nothing = Obstacles::default().with_part(&[], &RigidTransform::identity());
-        assert!(nothing.is_empty() && !obstacles.is_empty());
+        assert!(nothing.part.is_none() && obstacles.part.is_some());
     }
 
     #[test]
@@ -443,7 +468,7 @@ mod tests {
         assert_eq!((found.floor, found.boxes.len()), (Some(-0.6), 2));
         let gun = [capsule(Body::Gun, [0.84, 0.0, 0.0], [0.84, 0.0, 0.0], 0.05)];
         assert_eq!(
-            found.worst(&gun),
+            worst(found.pairs(&gun)),
             Some((Body::Gun, Obstacle::Box("post".into())))
         );
         let refused = |error: ArmError| {

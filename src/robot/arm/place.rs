@@ -52,19 +52,17 @@ pub fn suggest_base(
     })
 }
 
-/// The same of a position of the rail, every 100 mm; none without a rail.
+/// The same of a position of the rail, every 100 mm; none without a rail, or with one that moves along the path.
 pub fn suggest_rail(
     placed: &PlacedArm,
     points: &[ArmPoint],
     params: &CheckParams,
     num_reached: usize,
 ) -> Result<Option<PlaceSuggestion>, ArmError> {
-    let Some(rail) = placed.arm.rail else {
+    let Some(rail) = placed.arm.rail.filter(|rail| rail.speed.is_none()) else {
         return Ok(None);
     };
-    let [low, high] = rail.range;
-    let num = ((high - low) / 0.1).ceil().clamp(1.0, 1000.0);
-    let shifts = (0..=num as usize).map(|i| [low + (high - low) * i as f64 / num, 0.0, 0.0]);
+    let shifts = rail.positions(0.1).into_iter().map(|at| [at, 0.0, 0.0]);
     best(
         shifts.collect(),
         points,
@@ -86,11 +84,16 @@ fn best(
     for shift in shifts {
         let (placed, rail) = at(shift);
         refuse_bad(&placed, points, params)?;
-        let solver = Solver::new(&placed, rail);
+        let solvers: Vec<Solver<'_>> = rails(&placed, rail)
+            .into_iter()
+            .map(|rail| Solver::new(&placed, rail))
+            .collect();
+        let reaches = |point: &ArmPoint| {
+            let mut at = solvers.iter();
+            at.any(|solver| is_reached(solver, point, NUM_TURNS))
+        };
         let samples = points.iter().step_by(every);
-        let num = samples
-            .filter(|point| is_reached(&solver, point, NUM_TURNS))
-            .count();
+        let num = samples.filter(|point| reaches(point)).count();
         let distance: f64 = shift.iter().map(|x| x * x).sum();
         ranked.push((num, distance, shift));
     }
@@ -108,4 +111,12 @@ fn best(
         }
     }
     Ok(found)
+}
+
+/// Where the rail may be while a place is compared: at this position, or, if it moves along the path, every half of the reach.
+fn rails(placed: &PlacedArm, rail: f64) -> Vec<f64> {
+    match placed.arm.moving_rail() {
+        Some((moving, _)) => moving.positions(placed.arm.reach() / 2.0),
+        None => vec![rail],
+    }
 }

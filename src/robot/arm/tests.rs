@@ -1,9 +1,12 @@
+mod moving_rail;
+mod own_arm;
+
 use std::{
     f64::consts::{FRAC_PI_2, PI},
     fmt::Write as _,
 };
 
-use nalgebra::{Isometry3, Matrix4, Point3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix4, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
@@ -240,6 +243,7 @@ fn row(arm: &PlacedArm, num: usize, length: f64) -> Vec<ArmPoint> {
             ),
             speed: 0.3,
             is_turn_free: false,
+            is_gun_on: true,
         })
         .collect()
 }
@@ -317,6 +321,7 @@ fn each_reason_is_named() {
         robot_from_nozzle: solver.forward(&straight).expect("finite"),
         speed: 0.3,
         is_turn_free: false,
+        is_gun_on: true,
     };
     let problem = check(&bare, &[point]).points[0].problem.clone();
     assert_eq!(
@@ -336,6 +341,7 @@ fn a_long_way_through_a_limit_or_a_fold_is_found_between_its_ends() {
         ),
         speed: 0.3,
         is_turn_free: false,
+        is_gun_on: true,
     };
     let found = check(&placed, &[across(-0.8), across(0.8)]);
     assert!(found.points.iter().all(|point| point.joints.is_some()));
@@ -535,6 +541,7 @@ fn a_better_place_is_suggested() {
     placed.arm.rail = Some(Rail {
         direction: Vector3::x_axis(),
         range: [-0.5, 2.0],
+        speed: None,
     });
     let rail = suggest_rail(&placed, &points, &params, num).expect("searched");
     let rail = rail.expect("a better one");
@@ -619,8 +626,40 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
     let wanted = Rail {
         direction: Vector3::y_axis(),
         range: [-2.0, 1.5],
+        speed: None,
     };
     assert_eq!(found, Some(wanted));
+    // The same as an option has it, and one that moves.
+    assert_eq!("y,-2000,1500".parse::<Rail>().expect("a rail"), wanted);
+    let moving = Rail {
+        direction: Unit::new_normalize(-Vector3::x()),
+        range: [-2.0, 1.5],
+        speed: Some(0.8),
+    };
+    let found: Rail = " -x, -2000, 1500, 800 ".parse().expect("a rail");
+    assert_eq!(found, moving);
+    let text_of = rail.replace("[0, 2, 0]", "[-3, 0, 0]");
+    let found = read(&format!("{text}{text_of}speed_mm_s = 800\n"));
+    assert_eq!(found.expect("an arm").rail, Some(moving));
+    for (option, wanted) in [
+        ("", "no rail"),
+        ("y", "no rail"),
+        ("y,1", "no rail"),
+        ("w,0,1", "no rail"),
+        ("y,0,1,2,3", "no rail"),
+        ("y,0,one", "no rail"),
+        ("y,5,-5", "runs from 5 to -5 mm"),
+        ("y,nan,5", "runs from"),
+        ("y,0,inf", "runs from"),
+        ("y,0,900000", "runs from"),
+        ("y,0,5,0", "speed"),
+        ("y,0,5,-1", "speed"),
+        ("y,0,5,nan", "speed"),
+    ] {
+        let error = option.parse::<Rail>().expect_err(option);
+        assert!(!error.advice().is_empty());
+        assert!(error.to_string().contains(wanted), "{option}: {error}");
+    }
     for (old, new, wanted) in [
         ("[-86, 160]", "[160, -86]", "joint 3"),
         ("210, 210", "210, 0", "speed of joint 2"),
@@ -641,6 +680,8 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
         rail.replace("2000", "nan"),
         rail.replace("-2000", "3000"),
         rail.replace("2, 0", "0, 0"),
+        format!("{rail}speed_mm_s = 0\n"),
+        format!("{rail}speed_mm_s = nan\n"),
     ] {
         let error = read(&format!("{text}{rail}")).expect_err("no rail");
         assert!(error.to_string().contains("rail"), "{error}");

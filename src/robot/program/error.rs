@@ -64,6 +64,12 @@ pub enum ProgramError {
         /// What was given.
         tool: String,
     },
+    /// The arm moves along a rail, which the language has no words for.
+    #[error("{} has no axis for the arm's rail", format.title())]
+    Rail {
+        /// The language.
+        format: ProgramFormat,
+    },
     /// No output of the controller.
     #[error("{} has no digital output {output}", format.title())]
     Output {
@@ -113,6 +119,9 @@ impl Advice for ProgramError {
             Self::Output { format, .. } => {
                 let [low, high] = format.outputs();
                 format!("Give a number from {low} to {high} with --gun-output")
+            }
+            Self::Rail { .. } => {
+                "Leave out the rail's speed so that it stands still, or write the program for KUKA, FANUC, ABB or Yaskawa".into()
             }
             Self::Length { .. } => "Give a length in millimetres within this range".into(),
         }

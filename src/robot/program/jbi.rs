@@ -21,7 +21,9 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines.add("/JOB");
     lines.add(format!("//NAME {}", name.to_uppercase()));
     lines.add("//POS");
-    lines.add(format!("///NPOS {},0,0,0,0,0", steps.len()));
+    // Of the robot, and of the base axis that is its rail.
+    let num_rails = steps.iter().filter(|step| step.rail.is_some()).count();
+    lines.add(format!("///NPOS {},{num_rails},0,0,0,0", steps.len()));
     lines.add(format!("///TOOL {}", program.tool(ProgramFormat::Jbi)));
     lines.add("///POSTYPE BASE");
     lines.add("///RECTAN");
@@ -36,6 +38,11 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
         let numbers = text::numbers(ProgramFormat::Jbi, &step.to);
         lines.add(format!("C{i:05}={}", numbers.join(",")));
     }
+    for (i, step) in steps.iter().enumerate() {
+        if let Some(rail) = step.rail {
+            lines.add(format!("BC{i:05}={}", text::rail_mm(rail)));
+        }
+    }
     begin(
         &mut lines,
         program,
@@ -44,10 +51,12 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     );
     lines.instruct(format!("DOUT OT#({output}) OFF"));
     for (i, step) in steps.iter().enumerate() {
+        let rail = step.rail.map(|_| format!(" BC{i:05}"));
+        let place = format!("C{i:05}{}", rail.unwrap_or_default());
         match step.motion {
             Motion::Joints => {
                 let share = text::fixed(JOINT_SPEED * 100.0, 2);
-                lines.instruct(format!("MOVJ C{i:05} VJ={share} PL=0"));
+                lines.instruct(format!("MOVJ {place} VJ={share} PL=0"));
             }
             Motion::Line(line) => {
                 let speed = text::fixed(line.speed * 1000.0, 1);
@@ -56,7 +65,7 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
                 } else {
                     " PL=0"
                 };
-                lines.instruct(format!("MOVL C{i:05} V={speed}{end}"));
+                lines.instruct(format!("MOVL {place} V={speed}{end}"));
                 if let Some(is_on) = line.gun {
                     let state = if is_on { "ON" } else { "OFF" };
                     lines.instruct(format!("DOUT OT#({output}) {state}"));
@@ -98,7 +107,11 @@ fn begin(lines: &mut Lines, program: &Program<'_>, attributes: &[&str], header: 
     for attribute in attributes {
         lines.add(attribute);
     }
-    lines.add("///GROUP1 RB1");
+    lines.add(if program.moves_on_rail() {
+        "///GROUP1 RB1,BS1"
+    } else {
+        "///GROUP1 RB1"
+    });
     lines.instruct("NOP");
     for comment in text::comments(header, WIDTH) {
         lines.instruct(format!("'{comment}"));

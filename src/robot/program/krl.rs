@@ -29,7 +29,7 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines.add(format!("BAS (#TOOL,{})", program.tool(ProgramFormat::Krl)));
     lines.add("BAS (#BASE,0)");
     if let Some(tool) = &settings.flange_from_nozzle {
-        lines.add(format!("$TOOL={}", frame(tool, None)));
+        lines.add(format!("$TOOL={}", frame(tool, None, None)));
     }
     lines.add(format!("$APO.CDIS={}", text::fixed(settings.blend.mm(), 3)));
     lines.add(format!("$OUT[{output}]=FALSE"));
@@ -38,7 +38,7 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
         match step.motion {
             // Linear moves keep the status and take the turn that is nearest: only here it is chosen.
             Motion::Joints => {
-                let to = frame(&step.to, step.configuration.as_deref());
+                let to = frame(&step.to, step.configuration.as_deref(), step.rail);
                 lines.instruct(format!("PTP {to}"));
             }
             Motion::Line(line) => {
@@ -55,7 +55,8 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
                     ));
                 }
                 let blend = if line.blend > 0.0 { " C_DIS" } else { "" };
-                lines.instruct(format!("LIN {}{blend}", frame(&step.to, None)));
+                let to = frame(&step.to, None, step.rail);
+                lines.instruct(format!("LIN {to}{blend}"));
             }
         }
     }
@@ -64,11 +65,13 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines
 }
 
-/// A pose, and how the arm stands there.
-fn frame(pose: &RigidTransform, configuration: Option<&str>) -> String {
+/// A pose, how the arm stands there, and where its rail is.
+fn frame(pose: &RigidTransform, configuration: Option<&str>, rail: Option<f64>) -> String {
     let numbers = text::numbers(ProgramFormat::Krl, pose);
     let named = ["X", "Y", "Z", "A", "B", "C"].iter().zip(numbers);
     let named = named.map(|(name, number)| format!("{name} {number}"));
-    let all: Vec<String> = named.chain(configuration.map(str::to_owned)).collect();
+    let rail = rail.map(|rail| format!("E1 {}", text::rail_mm(rail)));
+    let named = named.chain(configuration.map(str::to_owned)).chain(rail);
+    let all: Vec<String> = named.collect();
     format!("{{{}}}", all.join(","))
 }

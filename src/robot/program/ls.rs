@@ -60,7 +60,11 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
             "\tUF : 0, UT : {tool},\t\tCONFIG : '{configuration}',"
         ));
         points.add(format!("\tX = {x} mm,\tY = {y} mm,\tZ = {z} mm,"));
-        points.add(format!("\tW = {w} deg,\tP = {p} deg,\tR = {r} deg"));
+        let more = if step.rail.is_some() { "," } else { "" };
+        points.add(format!("\tW = {w} deg,\tP = {p} deg,\tR = {r} deg{more}"));
+        if let Some(rail) = step.rail {
+            points.add(format!("\tE1= {} mm", text::rail_mm(rail)));
+        }
         points.add("};");
     }
     add("  ", &format!("DO[{output}]=OFF"));

@@ -17,6 +17,10 @@
 //! Where an arm was checked to reach the path, and the controller is of its maker, the points also name the configuration in
 //! which it does, so that no other is taken (`configuration`).
 //!
+//! A rail that moves along the path is the first external axis of every position, in millimetres: E1 of KRL and LS, `eax_a` of
+//! RAPID (ABB's manual, "extjoint"), BC of JBI (Yaskawa's manual, "RECTAN"). Poses stay in the base frame, which does not move
+//! along. `URScript` and DRL have no such axis.
+//!
 //! LS and JBI hold 9999 instructions. A longer path is cut where the gun is off into several programs, which a main program
 //! calls. Their names hold a checksum of the whole: on a controller that still has parts of an earlier path, or misses
 //! some, the call fails, and no robot follows one path with the end of another.
@@ -259,6 +263,16 @@ impl ProgramFormat {
         }
     }
 
+    /// What it calls the axis of a rail; none if it has no external axes.
+    fn rail_axis(self) -> Option<&'static str> {
+        match self {
+            Self::Krl | Self::Ls => Some("E1"),
+            Self::Rapid => Some("eax_a"),
+            Self::Jbi => Some("BC, base axis 1"),
+            Self::UrScript | Self::Drl => None,
+        }
+    }
+
     /// The largest number of a tool; none if tools have names.
     fn most_tools(self) -> Option<u8> {
         match self {
@@ -335,7 +349,16 @@ impl Program<'_> {
         if !is_sound {
             return Err(ProgramError::NotFinite { point: 0 });
         }
+        if self.moves_on_rail() && format.rail_axis().is_none() {
+            return Err(ProgramError::Rail { format });
+        }
         Ok(())
+    }
+
+    /// Whether a rail moves the arm along the path.
+    fn moves_on_rail(&self) -> bool {
+        self.reach
+            .is_some_and(|(arm, _)| arm.arm.moving_rail().is_some())
     }
 
     /// The tool's number or name on the controller.
@@ -379,6 +402,11 @@ impl Program<'_> {
             None => format!("tool: {tool}, at the nozzle's mouth, z towards the part"),
         });
         lines.push("frame: robot base".into());
+        if let Some(axis) = format.rail_axis().filter(|_| self.moves_on_rail()) {
+            lines.push(format!(
+                "rail: {axis}, mm, 0 where the cell was calibrated, coupled to the arm; the frame does not move along"
+            ));
+        }
         if let Some((arm, _)) = self.reach {
             let is_named = steps.first().is_some_and(|s| s.configuration.is_some());
             lines.push(if is_named {

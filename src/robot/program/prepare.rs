@@ -36,6 +36,7 @@ pub fn arm_points(carried: &CarriedPath, frame: &RobotFrame, speed: f64) -> Vec<
         robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
         speed: point.speed.unwrap_or(speed),
         is_turn_free: point.is_round,
+        is_gun_on: point.is_gun_on,
     });
     points.collect()
 }
@@ -55,10 +56,16 @@ pub fn check_reach(
     let away = Translation3::new(0.0, 0.0, -settings.approach.0);
     let behind = |point: ArmPoint| ArmPoint {
         robot_from_nozzle: point.robot_from_nozzle * away,
+        is_gun_on: false,
         ..point
     };
-    points.insert(0, behind(first));
-    points.push(behind(last));
+    let (approach, retreat) = (behind(first), behind(last));
+    // The gun is off behind the last point, whatever the path says.
+    if let Some(last) = points.last_mut() {
+        last.is_gun_on = false;
+    }
+    points.insert(0, approach);
+    points.push(retreat);
     let mut check = check_path(arm, &points, &CheckParams::default())?;
     let retreat = check.points.pop();
     let approach = check.points.remove(0);

@@ -82,7 +82,8 @@ fn target(step: &Step) -> String {
     let pose = pose(&step.to);
     let inner = &pose[1..pose.len() - 1];
     let configuration = step.configuration.as_deref().unwrap_or("[0,0,0,0]");
-    format!("[{inner},{configuration},[9E9,9E9,9E9,9E9,9E9,9E9]]")
+    let rail = step.rail.map_or_else(|| "9E9".into(), text::rail_mm);
+    format!("[{inner},{configuration},[{rail},9E9,9E9,9E9,9E9,9E9]]")
 }
 
 /// As z5 and its kin are made: the tool turns within one and a half times the radius.

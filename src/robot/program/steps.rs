@@ -14,6 +14,8 @@ pub(super) struct Step {
     pub(super) to: RigidTransform,
     /// How the arm stands there, in the controller's words; none where that was not checked or is not known.
     pub(super) configuration: Option<String>,
+    /// Where the rail is that moves along the path, metres; none without one.
+    pub(super) rail: Option<f64>,
     pub(super) motion: Motion,
 }
 
@@ -75,6 +77,11 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
         let (arm, _) = checked?;
         configuration(format, arm, &point?.joints?)
     };
+    let rail = |point: Option<&PointCheck>| {
+        let (arm, _) = checked?;
+        arm.moving_rail()?;
+        Some(point?.rail)
+    };
     let at = |index: usize| checked.and_then(|(_, check)| check.points.get(index));
     // Behind a point, turned about the nozzle from there as the check has it.
     let behind = |point: &ProgramPoint, index: usize, end: Option<&PointCheck>| {
@@ -87,6 +94,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
     let mut steps = vec![Step {
         to: behind(first, 0, begin),
         configuration: stands(begin),
+        rail: rail(begin),
         motion: Motion::Joints,
     }];
     let mut is_on = false;
@@ -106,6 +114,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
         steps.push(Step {
             to: point.robot_from_nozzle,
             configuration: stands(at(i)),
+            rail: rail(at(i)),
             motion: Motion::Line(Line {
                 speed,
                 blend: settings.blend.0.min(BLEND_SHARE * neighbours),
@@ -119,6 +128,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
     steps.push(Step {
         to: behind(last, points.len() - 1, end),
         configuration: stands(end),
+        rail: rail(end),
         motion: Motion::Line(Line {
             speed,
             blend: 0.0,

@@ -1,4 +1,5 @@
 mod parse;
+mod rail;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -481,6 +482,7 @@ fn reached(arm: Arm, joints: &[Joints]) -> (PlacedArm, PathCheck) {
     let stands = |joints: &Joints| PointCheck {
         joints: Some(*joints),
         turn: 0.0,
+        rail: 0.0,
         problem: None,
     };
     let placed = PlacedArm {

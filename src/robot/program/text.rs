@@ -97,6 +97,11 @@ pub(super) fn fixed(value: f64, decimals: usize) -> String {
     text.to_owned()
 }
 
+/// A rail's position in millimetres.
+pub(super) fn rail_mm(metres: f64) -> String {
+    fixed(1000.0 * metres, 3)
+}
+
 /// The pose's numbers in the language's convention: micrometres, and angles to 1e-4° or 1e-6 rad.
 pub(super) fn numbers(format: ProgramFormat, pose: &RigidTransform) -> Vec<String> {
     let RobotPose { values, .. } = format.convention().write(pose);

@@ -68,6 +68,8 @@ pub struct Reach {
     pub base: Option<PlaceSuggestion>,
     /// Where on its rail it would.
     pub rail: Option<PlaceSuggestion>,
+    /// Between which positions, metres, its rail moves along the path; none of a rail that stands still.
+    pub rail_range: Option<[f64; 2]>,
     /// The path where it is not reached, and the boxes of the cell.
     pub(super) lines: LineSet,
 }
@@ -95,6 +97,7 @@ fn reason(problem: &PointProblem) -> String {
         PointProblem::JointLimit { joint, .. } => text!("paint-joint-limit", joint = *joint),
         PointProblem::NearSingularity(_) => text!("paint-near-singularity"),
         PointProblem::TooFast { joint, .. } => text!("paint-joint-too-fast", joint = *joint),
+        PointProblem::RailTooFast { .. } => text!("paint-rail-too-fast"),
         PointProblem::ConfigurationChange => text!("paint-arm-folds-over"),
         PointProblem::Collision { body, obstacle } => {
             let body = match body {
@@ -107,6 +110,8 @@ fn reason(problem: &PointProblem) -> String {
                 Obstacle::Part => text!("paint-near-part", body = body),
                 Obstacle::Floor => text!("paint-near-floor", body = body),
                 Obstacle::Box(name) => text!("paint-near-box", body = body, name = name),
+                Obstacle::UpperArm => text!("paint-near-upper-arm", body = body),
+                Obstacle::BaseColumn => text!("paint-near-base-column", body = body),
             }
         }
     }
@@ -237,8 +242,10 @@ fn found(
     let num = check.num_reached();
     let mut lines = unreached(planned, &check);
     lines.extend(outlines(&arm.obstacles, &robot_from_part));
+    let moving = arm.arm.moving_rail();
     let mut reach = Reach {
         arm: arm.arm.name.clone(),
+        rail_range: moving.map(|_| check.rail_range()),
         lines: LineSet::new(lines),
         check,
         base: None,

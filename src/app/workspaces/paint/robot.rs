@@ -43,6 +43,9 @@ pub(super) fn ui(
     fold(ui, text!("paint-more-robot"), theme.weak_text)
         .id_salt("robot")
         .show_unindented(ui, |ui| {
+            let label = text!("paint-rail");
+            field(ui, theme, &label, &mut setup.rail, "y,-2000,2000,1000")
+                .on_hover_text(text!("paint-rail-hint"));
             let label = text!("paint-tool");
             field(ui, theme, &label, &mut setup.tool, "1").on_hover_text(text!("paint-tool-hint"));
             let mut number = |text: String, value: &mut f64, range, unit: &str| {
@@ -193,6 +196,11 @@ pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session, theme:
 /// Why points are not reached, and from where more would be.
 fn reasons(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAction>) {
     collisions_ui(ui, reach, theme);
+    if let Some(range) = reach.rail_range {
+        let [from, to] = range.map(|at| format!("{:.0}", 1000.0 * at));
+        let words = text!("paint-rail-moves", from = from, to = to);
+        note(ui, &words, theme.weak_text);
+    }
     if reach.check.num_reached() == reach.check.points.len() {
         return;
     }

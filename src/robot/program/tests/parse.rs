@@ -18,6 +18,8 @@ pub(super) struct Move {
     pub(super) is_exact: bool,
     /// How the arm shall stand there, as it is written.
     pub(super) configuration: String,
+    /// The first external axis, metres; none where it is not written.
+    pub(super) rail: Option<f64>,
 }
 
 /// What was read.
@@ -117,8 +119,10 @@ fn krl(text: &str) -> Read {
                     .split_once(",S ")
                     .map_or_else(String::new, |(_, rest)| {
                         let rest = rest.split('}').next().expect("an end");
+                        let rest = rest.split(",E1").next().expect("a beginning");
                         format!("S {rest}")
                     }),
+                rail: (line.split_once(",E1 ")).map(|(_, rest)| numbers(rest)[0] / 1000.0),
             });
             read.is_gun_on = pending.take().unwrap_or(read.is_gun_on);
         }
@@ -144,7 +148,12 @@ fn ls(text: &str) -> Read {
         let mm = [value("X"), value("Y"), value("Z")];
         let configuration = between(body, "CONFIG : '", "',").to_owned();
         let to = fixed_xyz(&mm, value("W"), value("P"), value("R"));
-        (to, configuration)
+        let rail = body.split_once("deg,\r\n\tE1= ");
+        let rail = rail.map(|(_, rest)| {
+            assert!(rest.ends_with(" mm\r\n"), "{rest:?}");
+            numbers(rest)[0] / 1000.0
+        });
+        (to, configuration, rail)
     };
     read.name = between(head, "/PROG  ", "\r\n").into();
     let count = between(head, "LINE_COUNT\t= ", ";")
@@ -169,10 +178,11 @@ fn ls(text: &str) -> Read {
                 .next()
                 .and_then(|head| head.split(' ').next_back());
             let is_line = rest.starts_with('L');
-            let (to, configuration) = place(between(rest, "P[", "]"));
+            let (to, configuration, rail) = place(between(rest, "P[", "]"));
             read.moves.push(Move {
                 to,
                 configuration,
+                rail,
                 speed: is_line.then(|| speed.expect("one").parse::<f64>().expect("mm/s") / 1000.0),
                 is_gun_on: read.is_gun_on,
                 is_exact: rest.ends_with("FINE"),
@@ -203,9 +213,11 @@ fn rapid(text: &str) -> Read {
             let turn = Quaternion::new(n[3], n[4], n[5], n[6]);
             assert!((turn.norm() - 1.0).abs() < 1e-6);
             // Behind the target: its configuration and external axes.
-            let (target, _) = line.split_once(",[9E9,").expect("axes");
+            let unused = ",9E9,9E9,9E9,9E9,9E9]],";
+            let (target, _) = line.split_once(unused).expect("axes");
+            let (target, rail) = target.rsplit_once(",[").expect("external axes");
             let configuration = target.rsplit_once(",[").expect("a configuration").1;
-            let rest = between(line, ",[9E9,9E9,9E9,9E9,9E9,9E9]],", ";");
+            let rest = between(line, unused, ";");
             let (speed, rest) = rest.split_once("],").expect("a speed");
             let (tool, gun) = rest.split_once("\\WObj:=wobj0").expect("a frame");
             let is_exact = tool.starts_with("fine,");
@@ -216,6 +228,7 @@ fn rapid(text: &str) -> Read {
                 is_gun_on: read.is_gun_on,
                 is_exact,
                 configuration: configuration.trim_end_matches(']').into(),
+                rail: (rail != "9E9").then(|| rail.parse::<f64>().expect("mm") / 1000.0),
             });
             assert_eq!(line.starts_with("MoveLDO "), !gun.is_empty());
             if let Some(gun) = gun.strip_prefix(",doGun") {
@@ -254,6 +267,7 @@ fn urscript(text: &str) -> Read {
                 is_gun_on: read.is_gun_on,
                 is_exact: !is_line || value(" r=") == 0.0,
                 configuration: String::new(),
+                rail: None,
             });
         }
     }
@@ -263,15 +277,15 @@ fn urscript(text: &str) -> Read {
 
 fn jbi(text: &str) -> Read {
     let mut read = Read::default();
-    let mut places = Vec::new();
-    let (mut num_places, mut configuration) = (0, String::new());
+    let (mut places, mut rails) = (Vec::new(), Vec::new());
+    let (mut num_places, mut configuration) = ([0, 0], String::new());
     for line in text.split("\r\n") {
         if let Some(name) = line.strip_prefix("//NAME ") {
             read.name = name.into();
         } else if let Some(tool) = line.strip_prefix("///TOOL ") {
             read.tool = tool.into();
         } else if let Some(counts) = line.strip_prefix("///NPOS ") {
-            num_places = numbers(counts)[0] as usize;
+            num_places = [0, 1].map(|kind| numbers(counts)[kind] as usize);
         } else if let Some(numbers) = line.strip_prefix("///RCONF ") {
             assert_eq!(numbers.split(',').count(), 24);
             configuration = numbers.into();
@@ -282,6 +296,10 @@ fn jbi(text: &str) -> Read {
             assert_eq!(number, format!("{:05}", places.len()));
             let n = numbers(numbers_of);
             places.push((fixed_xyz(&n, n[3], n[4], n[5]), configuration.clone()));
+        } else if let Some(place) = line.strip_prefix("BC") {
+            let (number, mm) = place.split_once('=').expect("a place");
+            assert_eq!(number, format!("{:05}", rails.len()));
+            rails.push(mm.parse::<f64>().expect("mm") / 1000.0);
         } else if let Some(comment) = line.strip_prefix('\'') {
             assert!(comment.len() <= 32);
             read.comments.push(comment.into());
@@ -293,23 +311,31 @@ fn jbi(text: &str) -> Read {
             let mut words = line.split(' ');
             let is_line = words.next() == Some("MOVL");
             let number: usize = words.next().expect("a place")[1..].parse().expect("number");
-            let speed = words.next().expect("a speed");
+            let mut speed = words.next().expect("a speed");
+            let mut rail = None;
+            if let Some(of_rail) = speed.strip_prefix("BC") {
+                rail = Some(rails[of_rail.parse::<usize>().expect("a number")]);
+                speed = words.next().expect("a speed");
+            }
             let (to, configuration) = places[number].clone();
             read.moves.push(Move {
                 to,
                 configuration,
+                rail,
                 speed: is_line.then(|| speed[2..].parse::<f64>().expect("mm/s") / 1000.0),
                 is_gun_on: read.is_gun_on,
                 is_exact: words.next() == Some("PL=0"),
             });
         }
     }
-    assert_eq!(places.len(), num_places);
+    assert_eq!([places.len(), rails.len()], num_places);
+    let group = between(text, "///GROUP1 ", "\r\n");
+    assert!(group == "RB1,BS1" || (group == "RB1" && rails.is_empty()));
     // A job without positions says nothing of their frame.
     let of_positions = ["///POSTYPE BASE", "///RECTAN", "////FRAME BASE"];
     for line in of_positions {
         let is_there = text.contains(&format!("\r\n{line}\r\n"));
-        assert_eq!(is_there, num_places > 0, "{line}");
+        assert_eq!(is_there, num_places[0] > 0, "{line}");
     }
     for line in ["NOP", "END"] {
         assert!(text.contains(&format!("\r\n{line}\r\n")), "{line}");
@@ -341,6 +367,7 @@ fn drl(text: &str) -> Read {
                 is_gun_on: read.is_gun_on,
                 is_exact: !is_line || value(" radius=") == 0.0,
                 configuration: String::new(),
+                rail: None,
             });
         }
     }

@@ -381,6 +381,25 @@ fn boxes_of_the_cell_are_kept_clear_of_named_and_drawn() {
 }
 
 #[test]
+fn a_rail_that_moves_is_placed_along_the_path_and_a_wrong_one_is_refused() {
+    let mut bench = Bench::new();
+    bench.calibrate(1.2);
+    let still = bench.reached();
+    assert_eq!(still.rail_range, None);
+    bench.shell.session.program.rail = "y,-1000,1000,500".into();
+    bench.settle();
+    let moving = bench.reached();
+    let [low, high] = moving.rail_range.expect("it moves");
+    assert!(-1.0 <= low && low <= high && high <= 1.0, "{low} {high}");
+    assert!(moving.check.num_reached() >= still.check.num_reached());
+    bench.shell.session.program.rail = "y,1000".into();
+    bench.settle();
+    let reach = bench.paint.reach(&bench.shell.session).expect("an answer");
+    let error = reach.as_ref().expect_err("no rail");
+    assert!(error.what.contains("y,1000"), "{error:?}");
+}
+
+#[test]
 fn an_arm_without_its_nozzle_says_what_is_missing() {
     let mut bench = Bench::new();
     bench.calibrate(1.2);

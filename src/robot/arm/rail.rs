@@ -1,0 +1,80 @@
+//! A straight rail below an arm: a seventh axis.
+
+use std::str::FromStr;
+
+use nalgebra::{Unit, Vector3};
+
+use super::ArmError;
+
+/// A straight rail below an arm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rail {
+    /// Which way it runs, in the frame of the path.
+    pub direction: Unit<Vector3<f64>>,
+    /// From and to, metres from where the calibration was made.
+    pub range: [f64; 2],
+    /// Top speed, m/s, of a rail that moves along the path; none of one that stands still meanwhile.
+    pub speed: Option<f64>,
+}
+
+impl Rail {
+    pub(super) fn checked(self) -> Result<Self, ArmError> {
+        let [low, high] = self.range;
+        if !(low < high && low.abs().max(high.abs()) <= 100.0) {
+            return Err(ArmError::Rail {
+                low: low * 1000.0,
+                high: high * 1000.0,
+            });
+        }
+        if let Some(speed) = self.speed
+            && !(speed > 0.0 && speed <= 10.0)
+        {
+            return Err(ArmError::Value {
+                what: "the rail's speed in mm/s".into(),
+                value: speed * 1000.0,
+            });
+        }
+        Ok(self)
+    }
+
+    /// Even positions from one end to the other, at most `step` metres apart, and at most 1001 of them.
+    pub(super) fn positions(&self, step: f64) -> Vec<f64> {
+        let [low, high] = self.range;
+        let num = ((high - low) / step).ceil().clamp(1.0, 1000.0);
+        let positions = (0..=num as usize).map(|i| low + (high - low) * i as f64 / num);
+        positions.collect()
+    }
+}
+
+impl FromStr for Rail {
+    type Err = ArmError;
+
+    /// Axis of the path's frame, from, to and, if it moves along the path, top speed, in millimetres and seconds:
+    /// `y,-2000,2000,1000`. `-y` runs the other way.
+    fn from_str(text: &str) -> Result<Self, ArmError> {
+        let wrong = || ArmError::NoRail { text: text.into() };
+        let mut words = text.split(',').map(str::trim);
+        let direction = match words.next() {
+            Some("x") => Vector3::x(),
+            Some("y") => Vector3::y(),
+            Some("z") => Vector3::z(),
+            Some("-x") => -Vector3::x(),
+            Some("-y") => -Vector3::y(),
+            Some("-z") => -Vector3::z(),
+            _ => return Err(wrong()),
+        };
+        let numbers: Result<Vec<f64>, _> = words.map(str::parse::<f64>).collect();
+        let numbers = numbers.map_err(|_no_number| wrong())?;
+        let (low, high, speed) = match numbers[..] {
+            [low, high] => (low, high, None),
+            [low, high, speed] => (low, high, Some(speed)),
+            _ => return Err(wrong()),
+        };
+        let rail = Self {
+            direction: Unit::new_normalize(direction),
+            range: [low / 1000.0, high / 1000.0],
+            speed: speed.map(|speed| speed / 1000.0),
+        };
+        rail.checked()
+    }
+}

@@ -1,0 +1,419 @@
+//! Where a rail that moves along a path is at every point.
+//!
+//! Positions every 100 mm (farther apart on rails of more than 10 m) are tried at every point: which of the arm's eight
+//! configurations reach it from there, within the joints' limits, not singular and clear of all obstacles. Dynamic programming
+//! over point, position and configuration then finds the cheapest run of the rail. It stands, or moves from one position to
+//! another at an even speed, over as many points as that takes. What a move costs, in positions moved:
+//!
+//! - its length, a little more at half the top speed and more at the full one, and [`START`] for each move: few, slow ones win;
+//! - [`GUN`] times as much while the gun is on, so that it rather stands along a stroke;
+//! - up to [`BORDER`] over the whole path for standing where the next position does not reach.
+//!
+//! A point that is not reached, a move too fast for the rail and an arm that folds over cost more than all of that. So where
+//! the rail can run such that every point is reached by one configuration, the cheapest such run is found, among runs between
+//! these positions. The run is a proposal: every point, and the way to it, is then checked with the rail where it is.
+//!
+//! Known limits: how fast joints turn does not count here. Near the border of its reach an arm may be too slow, which the check
+//! then says.
+
+use super::{
+    Arm, ArmPoint, CheckParams, PlacedArm,
+    chain::{angle_of, move_time, turned, turns_of},
+    kinematics::Solver,
+};
+use crate::geometry::parallel::{map_in_order, num_cores};
+
+/// Between two positions, metres, and the most of them.
+const STEP: f64 = 0.1;
+const MAX_POSITIONS: f64 = 100.0;
+/// Turns that are tried of a round jet.
+const NUM_TURNS: usize = 8;
+/// Shares of the top speed at which it moves, and what a way costs at each.
+const PACES: [(f64, f64); 3] = [(0.25, 1.0), (0.5, 1.25), (1.0, 1.5)];
+/// Costs of a move; see above.
+const START: f64 = 4.0;
+const GUN: f64 = 4.0;
+const BORDER: f64 = 4.0;
+/// A point that is not reached; and a move that is too fast, or the arm folding over: one of them is better than a point that
+/// is missed, two are not. All else together costs less.
+const MISSED: f64 = 1e7;
+const JUMP: f64 = 0.9 * MISSED;
+/// The configurations of an arm.
+const NUM_CONFIGURATIONS: usize = 8;
+
+/// Where the rail is at every point, metres: 0 without one.
+pub(super) fn rail_positions(
+    placed: &PlacedArm,
+    points: &[ArmPoint],
+    params: &CheckParams,
+) -> Vec<f64> {
+    let Some((rail, speed)) = placed.arm.moving_rail() else {
+        return vec![params.rail; points.len()];
+    };
+    let [low, high] = rail.range;
+    let positions = rail.positions(STEP.max((high - low) / MAX_POSITIONS));
+    let solvers: Vec<Solver<'_>> = positions
+        .iter()
+        .map(|position| Solver::new(placed, *position))
+        .collect();
+    let reached = map_in_order(
+        points.len(),
+        num_cores(),
+        || (),
+        |(), i| {
+            let at = solvers.iter();
+            at.map(|solver| configurations(&placed.arm, solver, &points[i]))
+                .collect::<Vec<u8>>()
+        },
+    );
+    let mut now = 0.0;
+    let times = points.iter().enumerate().map(|(i, point)| {
+        if let Some(before) = i.checked_sub(1).map(|before| &points[before]) {
+            let (from, to) = (&before.robot_from_nozzle, &point.robot_from_nozzle);
+            // A turn on the spot takes as long as it wants: no time that could be counted on.
+            now += move_time(from, to, before.speed).unwrap_or(0.0);
+        }
+        now
+    });
+    Plan {
+        times: times.collect(),
+        is_gun_on: points.iter().map(|point| point.is_gun_on).collect(),
+        reached,
+        positions,
+        speed,
+    }
+    .run()
+}
+
+/// The configurations that reach a point at any turn of the nozzle, a bit for each.
+fn configurations(arm: &Arm, solver: &Solver<'_>, point: &ArmPoint) -> u8 {
+    let mut found = 0;
+    for turn in turns_of(point, NUM_TURNS) {
+        let pose = turned(point, angle_of(turn, NUM_TURNS));
+        for joints in solver.solutions(&pose, None) {
+            let bit = arm.configuration_bit(&joints);
+            let is_reached = found & bit == 0
+                && solver.beyond_limit(&joints).is_none()
+                && solver.singularity(&joints).is_none()
+                && !solver.collides(&joints);
+            if is_reached {
+                found |= bit;
+            }
+        }
+    }
+    found
+}
+
+/// What a run of the rail is chosen by.
+struct Plan {
+    /// When the nozzle is at each point, seconds.
+    times: Vec<f64>,
+    is_gun_on: Vec<bool>,
+    /// Of each point and position the configurations that reach it.
+    reached: Vec<Vec<u8>>,
+    /// Even, metres.
+    positions: Vec<f64>,
+    /// Top speed, m/s.
+    speed: f64,
+}
+
+/// Point, position and configuration.
+type State = (usize, usize, usize);
+
+/// The cheapest run to each state of a point: its cost, and the state before.
+type Costs = Vec<[(f64, Option<State>); NUM_CONFIGURATIONS]>;
+
+impl Plan {
+    fn run(mut self) -> Vec<f64> {
+        let num = self.times.len();
+        // What no position reaches is missed wherever the rail is: it may as well pass.
+        for here in &mut self.reached {
+            if here.iter().all(|found| *found == 0) {
+                here.fill(u8::MAX);
+            }
+        }
+        let borders: Vec<Vec<f64>> = self.reached.iter().map(|here| border(here)).collect();
+        let own = |(point, position, configuration): State| {
+            let is_reached = self.reached[point][position] & (1 << configuration) != 0;
+            if is_reached {
+                BORDER / num as f64 * borders[point][position]
+            } else {
+                MISSED
+            }
+        };
+        let nothing = [(f64::INFINITY, None); NUM_CONFIGURATIONS];
+        let mut costs: Vec<Costs> = vec![vec![nothing; self.positions.len()]; num];
+        for (position, here) in costs[0].iter_mut().enumerate() {
+            for (configuration, cost) in here.iter_mut().enumerate() {
+                cost.0 = own((0, position, configuration));
+            }
+        }
+        for point in 0..num - 1 {
+            let (least, cheapest) = least_of(&costs[point]);
+            for position in 0..self.positions.len() {
+                for configuration in 0..NUM_CONFIGURATIONS {
+                    let (cost, _) = costs[point][position][configuration];
+                    let next = (point + 1, position, configuration);
+                    let from = (point, position, configuration);
+                    relax(&mut costs, next, cost + own(next), from);
+                    // Folding over, or a move that the rail cannot make, from wherever that is cheapest.
+                    let from = (point, cheapest.0, cheapest.1);
+                    relax(&mut costs, next, least + JUMP + own(next), from);
+                }
+                // A run that has jumped already may as well jump to the end of the move.
+                let is_cheap = |(cost, _): &(f64, Option<State>)| *cost < least + JUMP / 2.0;
+                if !costs[point][position].iter().any(is_cheap) {
+                    continue;
+                }
+                for (end, to, passing, way) in self.moves(point, position) {
+                    for configuration in 0..NUM_CONFIGURATIONS {
+                        let (cost, _) = costs[point][position][configuration];
+                        let next = (end, to, configuration);
+                        if passing & (1 << configuration) != 0 {
+                            let from = (point, position, configuration);
+                            relax(&mut costs, next, cost + way + own(next), from);
+                        }
+                    }
+                }
+            }
+        }
+        self.back(&costs)
+    }
+
+    /// Every move from a position at a point: the point at which it ends, where, the configurations that reach all between,
+    /// and its cost.
+    fn moves(
+        &self,
+        point: usize,
+        position: usize,
+    ) -> impl Iterator<Item = (usize, usize, u8, f64)> {
+        let others = (0..self.positions.len()).filter(move |to| *to != position);
+        let all = others.flat_map(|to| PACES.map(|pace| (to, pace)));
+        all.filter_map(move |(to, (pace, price))| {
+            let way = (self.positions[to] - self.positions[position]).abs();
+            let arrives = self.times[point] + way / (pace * self.speed);
+            // Sums of times are not exact.
+            let end = self.times.partition_point(|time| *time < arrives - 1e-9);
+            if end <= point || end >= self.times.len() {
+                return None;
+            }
+            let mut passing = self.reached[end][to];
+            for between in point + 1..end {
+                if passing == 0 {
+                    return None;
+                }
+                let share = self.share(point, end, between);
+                let at = position as f64 + (to as f64 - position as f64) * share;
+                let here = &self.reached[between];
+                passing &= here[at.floor() as usize] & here[at.ceil() as usize];
+            }
+            let is_spraying = self.is_gun_on[point..end].contains(&true);
+            let length = position.abs_diff(to) as f64;
+            let cost = (START + length * price) * if is_spraying { GUN } else { 1.0 };
+            Some((end, to, passing, cost))
+        })
+    }
+
+    /// How much of the time from one point to another has passed at a point between them, 0..1.
+    fn share(&self, from: usize, to: usize, between: usize) -> f64 {
+        let all = self.times[to] - self.times[from];
+        if all > 0.0 {
+            (self.times[between] - self.times[from]) / all
+        } else {
+            0.0
+        }
+    }
+
+    /// The positions of the cheapest run.
+    fn back(&self, costs: &[Costs]) -> Vec<f64> {
+        let last = costs.len() - 1;
+        let (_, (position, configuration)) = least_of(&costs[last]);
+        let mut at = (last, position, configuration);
+        let mut run = vec![self.positions[position]; costs.len()];
+        while let (_, Some(from)) = costs[at.0][at.1][at.2] {
+            let (start, end) = (self.positions[from.1], self.positions[at.1]);
+            for (i, place) in run[from.0..at.0].iter_mut().enumerate() {
+                *place = start + (end - start) * self.share(from.0, at.0, from.0 + i);
+            }
+            at = from;
+        }
+        run
+    }
+}
+
+/// How near the border of what is reached each position is: 1 beside it, 0.5 one farther, 0 within.
+fn border(here: &[u8]) -> Vec<f64> {
+    let is_missed = |position: usize| here.get(position).is_some_and(|found| *found == 0);
+    let all = (0..here.len()).map(|at| {
+        let within =
+            |steps: usize| is_missed(at + steps) || at.checked_sub(steps).is_some_and(is_missed);
+        if within(1) {
+            1.0
+        } else if within(2) {
+            0.5
+        } else {
+            0.0
+        }
+    });
+    all.collect()
+}
+
+/// The cheapest state of a point.
+fn least_of(costs: &Costs) -> (f64, (usize, usize)) {
+    let mut least = (f64::INFINITY, (0, 0));
+    for (position, here) in costs.iter().enumerate() {
+        for (configuration, (cost, _)) in here.iter().enumerate() {
+            if *cost < least.0 {
+                least = (*cost, (position, configuration));
+            }
+        }
+    }
+    least
+}
+
+fn relax(costs: &mut [Costs], to: State, cost: f64, from: State) {
+    let known = &mut costs[to.0][to.1][to.2];
+    if cost < known.0 {
+        *known = (cost, Some(from));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::RangeInclusive;
+
+    use rand::{RngExt as _, SeedableRng as _};
+    use rand_pcg::Pcg64;
+
+    use super::*;
+
+    /// Points 0.1 s apart, positions 0.1 m apart; each point is reached from these positions, by the first configuration.
+    fn plan(reached: Vec<RangeInclusive<usize>>, speed: f64) -> Plan {
+        let positions = (0..11).map(|i| 0.1 * f64::from(i)).collect();
+        let reached = reached.into_iter().map(|within| {
+            let bits = (0..11).map(|position| u8::from(within.contains(&position)));
+            bits.collect()
+        });
+        let reached: Vec<Vec<u8>> = reached.collect();
+        Plan {
+            times: (0..reached.len()).map(|i| 0.1 * i as f64).collect(),
+            is_gun_on: vec![true; reached.len()],
+            reached,
+            positions,
+            speed,
+        }
+    }
+
+    /// The fastest that the rail moves from one point to the next, m/s.
+    fn fastest(run: &[f64]) -> f64 {
+        let speeds = run.windows(2).map(|pair| (pair[1] - pair[0]).abs() / 0.1);
+        speeds.fold(0.0, f64::max)
+    }
+
+    fn num_moves(run: &[f64]) -> usize {
+        run.windows(2)
+            .filter(|pair| (pair[1] - pair[0]).abs() > 0.0)
+            .count()
+    }
+
+    #[test]
+    fn it_stands_still_in_the_middle_of_what_reaches_every_point() {
+        let run = plan(vec![2..=6; 30], 1.0).run();
+        assert_eq!(run, vec![0.4; 30]);
+        let mut all = vec![0..=6; 15];
+        all.extend(vec![3..=10; 15]);
+        let run = plan(all, 1.0).run();
+        assert_eq!(num_moves(&run), 0, "{run:?}");
+        assert!((0.3..=0.6 + 1e-9).contains(&run[0]), "{run:?}");
+    }
+
+    #[test]
+    fn it_moves_in_time_within_its_speed_and_while_the_gun_is_off() {
+        let mut all = vec![0..=2; 20];
+        all.extend(vec![0..=10; 20]);
+        all.extend(vec![8..=10; 20]);
+        let run = plan(all, 1.0).run();
+        assert!(run[..20].iter().all(|at| *at <= 0.2 + 1e-9), "{run:?}");
+        assert!(run[40..].iter().all(|at| *at >= 0.8 - 1e-9), "{run:?}");
+        assert!(fastest(&run) <= 1.0 + 1e-6, "{run:?}");
+        // It has two seconds for 0.6 m.
+        assert!(fastest(&run) <= 0.5 + 1e-6, "{run:?}");
+        // Half a second without paint is enough for 0.4 m at 1 m/s.
+        let mut all = vec![1..=3; 30];
+        all.extend(vec![5..=9; 30]);
+        for point in &mut all[20..40] {
+            *point = 1..=9;
+        }
+        let mut plan = plan(all, 1.0);
+        plan.is_gun_on[27..32].fill(false);
+        let run = plan.run();
+        assert_eq!(num_moves(&run[..28]), 0, "{run:?}");
+        assert_eq!(num_moves(&run[32..]), 0, "{run:?}");
+        assert!(num_moves(&run[27..33]) > 0, "{run:?}");
+    }
+
+    #[test]
+    fn what_cannot_be_reached_in_time_is_one_jump_and_not_a_row_of_missed_points() {
+        let mut all = vec![0..=2; 20];
+        all.extend(vec![8..=10; 20]);
+        let run = plan(all.clone(), 0.5).run();
+        assert!(run[..20].iter().all(|at| *at <= 0.2 + 1e-9), "{run:?}");
+        assert!(run[20..].iter().all(|at| *at >= 0.8 - 1e-9), "{run:?}");
+        assert_eq!(run, plan(all, 0.5).run());
+        // A point that no position reaches does not matter.
+        let mut all = vec![2..=6; 30];
+        all[12] = 12..=12;
+        assert_eq!(plan(all, 1.0).run(), vec![0.4; 30]);
+    }
+
+    #[test]
+    fn wherever_a_run_reaches_every_point_one_is_found() {
+        let mut random = Pcg64::seed_from_u64(6);
+        for _ in 0..200 {
+            // A run at 1 m/s between any positions, and what reaches around it.
+            let mut hidden = vec![random.random_range(0..11)];
+            let mut within = vec![hidden[0]..=hidden[0]];
+            while within.len() < 60 {
+                let at: usize = hidden[hidden.len() - 1];
+                let to: usize = random.random_range(0..11);
+                let way = at.abs_diff(to);
+                for step in 1..=way {
+                    let at = if to > at { at + step } else { at - step };
+                    within.push(at..=at);
+                }
+                let stands = random.random_range(1..6);
+                within.extend(std::iter::repeat_n(to..=to, stands));
+                hidden.push(to);
+            }
+            let wider = within.iter().map(|range| {
+                let more = random.random_range(0..3);
+                range.start().saturating_sub(more)..=range.end() + more
+            });
+            let wider: Vec<RangeInclusive<usize>> = wider.collect();
+            let run = plan(wider.clone(), 1.0).run();
+            assert!(fastest(&run) <= 1.0 + 1e-6, "{run:?}");
+            for (at, within) in run.iter().zip(&wider) {
+                let (low, high) = (*within.start() as f64, *within.end() as f64);
+                let at = at / 0.1;
+                assert!(
+                    at > low - 1e-6 && at < high + 1e-6,
+                    "{at} {within:?}: {run:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn one_configuration_along_the_path_is_better_than_less_way() {
+        // The first reaches from the left and then from the right, the second in turn but never throughout.
+        let mut plan = plan(vec![0..=10; 40], 1.0);
+        for (i, here) in plan.reached.iter_mut().enumerate() {
+            for (position, found) in here.iter_mut().enumerate() {
+                let first = if i < 20 { position <= 5 } else { position >= 5 };
+                let second = position == 1 && i < 30;
+                *found = u8::from(first) | (u8::from(second) << 1);
+            }
+        }
+        assert_eq!(plan.run(), vec![0.5; 40]);
+    }
+}
