@@ -26,7 +26,7 @@
 //! without notice.
 //!
 //! Features, both on by default: `cli`, the command line and the reports; `window`, the window. Without them only the
-//! algorithms build.
+//! algorithms build. Off by default: `plant`, what the command line tells other systems.
 
 #[cfg(feature = "window")]
 #[doc(hidden)]
@@ -54,6 +54,9 @@ pub mod library;
 pub mod paint;
 #[doc(hidden)]
 pub mod pipeline;
+#[cfg(feature = "plant")]
+#[doc(hidden)]
+pub mod plant;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod report;

@@ -18,6 +18,8 @@ mod input;
 mod inspect;
 mod interrupt;
 mod library;
+#[cfg(feature = "plant")]
+mod mqtt;
 mod output;
 mod path;
 mod program;

@@ -17,6 +17,8 @@ use super::{
     trace::TraceChoice,
     verdict::outcome_of,
 };
+#[cfg(feature = "plant")]
+use crate::plant::mqtt::messages_schema;
 use crate::{
     history::Traceability,
     library::{LibraryLoad, PartMeta},
@@ -78,9 +80,9 @@ pub(super) struct ReportArgs {
     /// Mark the scenes as simulated in the reports; files of partsight simulate are marked already
     #[arg(long)]
     simulated: bool,
-    /// Print the JSON schema of a report, and nothing else
-    #[arg(long, exclusive = true)]
-    schema: bool,
+    /// Print a JSON schema, and nothing else; without a name that of a report
+    #[arg(long, value_enum, value_name = "NAME", num_args = 0..=1, require_equals = true, default_missing_value = "pose-report", exclusive = true)]
+    schema: Option<Schema>,
     /// Print what each convention's numbers mean, and nothing else
     #[arg(long, exclusive = true)]
     conventions: bool,
@@ -96,9 +98,28 @@ enum Format {
     Pdf,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Schema {
+    /// A pose report
+    PoseReport,
+    /// The messages of serve --mqtt
+    #[cfg(feature = "plant")]
+    Mqtt,
+}
+
+impl Schema {
+    fn json(self) -> String {
+        match self {
+            Self::PoseReport => PoseReport::json_schema(),
+            #[cfg(feature = "plant")]
+            Self::Mqtt => messages_schema(),
+        }
+    }
+}
+
 pub(super) fn run(args: &ReportArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    if args.schema {
-        console.line(&PoseReport::json_schema().trim_end());
+    if let Some(schema) = args.schema {
+        console.line(&schema.json().trim_end());
         return Ok(Outcome::Accepted);
     }
     if args.conventions {

@@ -14,6 +14,8 @@ use std::{
 use clap::{Args, ValueEnum};
 
 use self::session::ServeSession;
+#[cfg(feature = "plant")]
+use super::mqtt::MqttChoice;
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
@@ -107,6 +109,9 @@ pub(super) struct ServeArgs {
     /// Do not write to the history
     #[arg(long, conflicts_with = "history")]
     no_history: bool,
+    #[cfg(feature = "plant")]
+    #[command(flatten)]
+    mqtt: MqttChoice,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -173,6 +178,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let listeners = listeners.collect::<Result<Vec<_>, _>>().advised()?;
     let recipe = args.recipe.recipe()?;
     let trace = args.trace.of_parts(None)?;
+    #[cfg(feature = "plant")]
+    let mqtt = args.mqtt.access(args.convention)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let Some(robot) = args.calibration.frame(console)? else {
         return Err(advised_error(
@@ -191,6 +198,10 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
         .flatten();
     announce(&server, &listeners, &parts, &load, console);
+    #[cfg(feature = "plant")]
+    let mqtt = mqtt
+        .map(|mqtt| mqtt.start(&server, args.transform.into(), &load, &trace, console))
+        .transpose()?;
     let format = if args.json {
         OutputFormat::Json
     } else {
@@ -223,6 +234,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         has_run: false,
         failure: None,
         num_inspected: 0,
+        #[cfg(feature = "plant")]
+        mqtt,
     };
     server.run(&mut session);
     session.finish()

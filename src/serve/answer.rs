@@ -2,6 +2,9 @@
 
 use std::time::{Duration, Instant};
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::{
     error::Advice,
     geometry::rigid::{RigidTransform, row_major},
@@ -40,7 +43,8 @@ impl Request {
 }
 
 /// What an answer says of the inspection. The numbers are part of the protocols.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum VerdictCode {
     /// Nothing was inspected since the start.
     #[default]
@@ -83,7 +87,8 @@ impl VerdictCode {
 }
 
 /// How the camera is, in one word. The numbers are part of the protocols.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum CameraState {
     /// It is being opened.
     #[default]
@@ -114,16 +119,16 @@ impl CameraState {
 }
 
 /// How the camera is.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct CameraStatus {
     /// In one word.
     pub state: CameraState,
-    /// Why it gives nothing.
+    /// Why it gives nothing; null while it does.
     pub trouble: Option<Trouble>,
 }
 
 /// Why there is no pose: for programs and for people.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Trouble {
     /// A word that stays the same in later versions; empty if there is nothing to say.
     pub reason: String,

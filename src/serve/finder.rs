@@ -2,6 +2,9 @@
 
 use std::time::Instant;
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use super::answer::{Answer, Found, PathStep, Trouble, VerdictCode, in_words};
 use crate::{
     geometry::rigid::RigidTransform,
@@ -15,7 +18,8 @@ use crate::{
 };
 
 /// Which of the poses goes out; see [`crate::robot`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum PoseKind {
     /// Where the part is: for paths in the part's own frame.
     #[default]

@@ -23,6 +23,7 @@ mod client;
 mod finder;
 mod listen;
 mod protocol;
+mod record;
 mod server;
 
 pub use self::{
@@ -39,5 +40,6 @@ pub use self::{
         binary::{ANSWER_BYTES, MAX_NUMBERS, REQUEST_BYTES},
         parsed::Parsed,
     },
+    record::InspectionRecord,
     server::{Asked, ClientEvent, ClientNews, Inspector, ServeError, Server, ServerSettings},
 };

@@ -25,6 +25,7 @@ use super::{
     client::Client,
     listen::{ListenAddress, Listener},
     protocol::{Protocol, bad_request::BadRequest},
+    record::InspectionRecord,
 };
 use crate::{
     error::{Advice, guarded, lock},
@@ -67,6 +68,10 @@ impl Asked {
 pub trait Inspector {
     /// Takes a frame that was captured after the trigger, and inspects it.
     fn inspect(&mut self, asked: &Asked) -> Found;
+
+    /// The last inspection with its number, for others than the client that asked. Called right after its answer was sent;
+    /// has to return soon.
+    fn recorded(&mut self, _record: InspectionRecord) {}
 
     /// The answer to the last inspection is on its way: time for what nobody waits for.
     fn answered(&mut self);
@@ -286,6 +291,11 @@ impl Server {
         &self.addresses
     }
 
+    /// The number of this start, 1..=[`MAX_COUNT`].
+    pub fn boot(&self) -> u32 {
+        self.shared.boot
+    }
+
     /// Inspects what is asked for, until the inspector ends the service. Once only.
     pub fn run(&mut self, inspector: &mut dyn Inspector) {
         let Some(jobs) = self.jobs.take() else {
@@ -312,7 +322,8 @@ impl Server {
         });
         *lock(&self.shared.last) = Arc::clone(&inspected);
         // Of a client that went away meanwhile it is the last inspection all the same.
-        let _ = job.reply.send(inspected);
+        let _ = job.reply.send(Arc::clone(&inspected));
+        inspector.recorded(InspectionRecord::of(&inspected, self.shared.situation()));
         inspector.answered();
     }
 

@@ -29,6 +29,12 @@ use crate::{
         scene::{EmptyCell, SceneCloud, scene_from_image},
     },
 };
+#[cfg(feature = "plant")]
+use crate::{
+    cli::mqtt::{end_link, show_news},
+    plant::mqtt::MqttLink,
+    serve::InspectionRecord,
+};
 
 /// The inspections of a service, on the thread that runs its server.
 pub(super) struct ServeSession<'a> {
@@ -59,6 +65,8 @@ pub(super) struct ServeSession<'a> {
     /// Why the service cannot go on.
     pub(super) failure: Option<anyhow::Error>,
     pub(super) num_inspected: u64,
+    #[cfg(feature = "plant")]
+    pub(super) mqtt: Option<MqttLink>,
 }
 
 /// An inspection that is to be shown and kept.
@@ -116,6 +124,13 @@ impl Inspector for ServeSession<'_> {
         found
     }
 
+    #[cfg(feature = "plant")]
+    fn recorded(&mut self, record: InspectionRecord) {
+        if let Some(mqtt) = &self.mqtt {
+            mqtt.inspected(record);
+        }
+    }
+
     fn answered(&mut self) {
         let Some(last) = self.last.take() else {
             return;
@@ -131,6 +146,11 @@ impl Inspector for ServeSession<'_> {
             show_event(&event, self.console);
         }
         self.look_at_camera();
+        #[cfg(feature = "plant")]
+        if let Some(mqtt) = &self.mqtt {
+            mqtt.set_camera(self.camera.status());
+            show_news(mqtt, self.console);
+        }
         if self.interrupt.came() || self.failure.is_some() {
             ControlFlow::Break(())
         } else {
@@ -212,6 +232,10 @@ impl ServeSession<'_> {
         let console = self.console;
         if let Some(suspicion) = self.mirrored.suspicion() {
             console.warn(&suspicion, &suspicion);
+        }
+        #[cfg(feature = "plant")]
+        if let Some(mqtt) = self.mqtt {
+            end_link(mqtt, console);
         }
         if let Some(recording) = self.recording {
             recording.finish(console);

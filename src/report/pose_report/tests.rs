@@ -3,7 +3,7 @@ use std::sync::OnceLock;
 use super::*;
 use crate::{
     geometry::rigid::{RigidTransform, from_euler_zyx},
-    kit::{scene_of, shipped_library},
+    kit::{conforms, scene_of, shipped_library},
     library::Library,
     pipeline::{Unwatched, run},
     report::{Picture, stage_pictures},
@@ -231,97 +231,6 @@ fn the_published_schema_is_that_of_the_types() {
         published == made,
         "assets/pose-report.schema.json is not what the types give: UPDATE_SNAPSHOTS=1 rewrites it"
     );
-}
-
-/// Holds a value against the part of JSON schema that the published one uses.
-fn conforms(
-    value: &serde_json::Value,
-    schema: &serde_json::Value,
-    root: &serde_json::Value,
-) -> Result<(), String> {
-    let wrong = |why: &str| Err(format!("{why}: {value} against {schema}"));
-    if let Some(reference) = schema.get("$ref").and_then(|reference| reference.as_str()) {
-        let pointer = reference.trim_start_matches('#');
-        return conforms(
-            value,
-            root.pointer(pointer).ok_or("a dangling reference")?,
-            root,
-        );
-    }
-    for any in ["anyOf", "oneOf"] {
-        if let Some(choices) = schema.get(any).and_then(|choices| choices.as_array()) {
-            return if choices
-                .iter()
-                .any(|choice| conforms(value, choice, root).is_ok())
-            {
-                Ok(())
-            } else {
-                wrong(any)
-            };
-        }
-    }
-    if let Some(only) = schema.get("const") {
-        return if only == value {
-            Ok(())
-        } else {
-            wrong("const")
-        };
-    }
-    if let Some(choices) = schema.get("enum").and_then(|choices| choices.as_array()) {
-        return if choices.contains(value) {
-            Ok(())
-        } else {
-            wrong("enum")
-        };
-    }
-    let is = |name: &str| match name {
-        "object" => value.is_object(),
-        "array" => value.is_array(),
-        "string" => value.is_string(),
-        "number" => value.is_number(),
-        "integer" => value.is_u64(),
-        "boolean" => value.is_boolean(),
-        "null" => value.is_null(),
-        _ => false,
-    };
-    let fits = match schema.get("type") {
-        Some(serde_json::Value::String(name)) => is(name),
-        Some(serde_json::Value::Array(names)) => {
-            names.iter().filter_map(|name| name.as_str()).any(is)
-        }
-        _ => true,
-    };
-    if !fits {
-        return wrong("type");
-    }
-    if let (Some(fields), Some(properties)) = (
-        value.as_object(),
-        schema.get("properties").and_then(|p| p.as_object()),
-    ) {
-        for required in schema
-            .get("required")
-            .and_then(|r| r.as_array())
-            .into_iter()
-            .flatten()
-        {
-            let name = required.as_str().unwrap_or_default();
-            if !fields.contains_key(name) {
-                return wrong(name);
-            }
-        }
-        for (name, field) in fields {
-            let property = properties
-                .get(name)
-                .ok_or_else(|| format!("{name} is not in the schema"))?;
-            conforms(field, property, root)?;
-        }
-    }
-    if let (Some(items), Some(each)) = (value.as_array(), schema.get("items")) {
-        for item in items {
-            conforms(item, each, root)?;
-        }
-    }
-    Ok(())
 }
 
 #[test]

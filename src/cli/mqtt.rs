@@ -1,0 +1,116 @@
+//! Verdicts and states over MQTT, as options.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::console::{Advised as _, Console, advised_error, with_advice};
+use crate::{
+    history::Traceability,
+    library::LibraryLoad,
+    plant::mqtt::{
+        BrokerAccess, BrokerAddress, LibraryMessage, LinkNews, LinkSubject, MqttLink, PoseFormat,
+    },
+    robot::Convention,
+    serve::{PoseKind, Server},
+};
+
+/// Where verdicts and states are published.
+#[derive(Clone, Debug, Args)]
+pub(super) struct MqttChoice {
+    /// Publish every verdict and the state of the cell at this MQTT broker; poses as --as
+    #[arg(long, value_name = "mqtt[s]://[USER@]HOST[:PORT]/PREFIX", value_parser = parse_broker)]
+    mqtt: Option<BrokerAddress>,
+    /// The file whose first line is the user's password at the broker
+    #[arg(long, value_name = "FILE", requires = "mqtt")]
+    mqtt_password_file: Option<PathBuf>,
+    /// Certificates, PEM, of the authority that signed the broker's; without it the system's own
+    #[arg(long, value_name = "FILE", requires = "mqtt")]
+    mqtt_ca: Option<PathBuf>,
+}
+
+fn parse_broker(text: &str) -> Result<BrokerAddress, String> {
+    text.parse::<BrokerAddress>()
+        .map_err(|error| with_advice(&error))
+}
+
+/// A broker that can be connected to.
+pub(super) struct ChosenBroker {
+    access: BrokerAccess,
+    convention: Convention,
+}
+
+impl MqttChoice {
+    /// The broker, if one was given, with its password and certificates read.
+    pub(super) fn access(
+        &self,
+        convention: Option<Convention>,
+    ) -> anyhow::Result<Option<ChosenBroker>> {
+        let Some(broker) = &self.mqtt else {
+            return Ok(None);
+        };
+        let Some(convention) = convention else {
+            return Err(advised_error(
+                "--mqtt publishes poses, and no convention is chosen",
+                "Choose one with --as; partsight report --conventions explains all of them",
+            ));
+        };
+        let password = self.mqtt_password_file.as_deref();
+        let access = BrokerAccess::new(broker.clone(), password, self.mqtt_ca.as_deref());
+        Ok(Some(ChosenBroker {
+            access: access.advised()?,
+            convention,
+        }))
+    }
+}
+
+impl ChosenBroker {
+    /// Connects, without waiting for it.
+    pub(super) fn start(
+        &self,
+        server: &Server,
+        kind: PoseKind,
+        load: &LibraryLoad,
+        trace: &Traceability,
+        console: &Console,
+    ) -> anyhow::Result<MqttLink> {
+        if let Some(doubt) = self.access.doubt() {
+            console.warn(&doubt, &doubt);
+        }
+        let subject = LinkSubject {
+            boot: server.boot(),
+            library: LibraryMessage {
+                identity: load.identity(),
+                num_parts: load.parts.len(),
+            },
+            pose: PoseFormat {
+                kind,
+                convention: self.convention,
+            },
+            trace: trace.clone(),
+        };
+        MqttLink::start(&self.access, subject).advised()
+    }
+}
+
+/// Shows what happened to the connection.
+pub(super) fn show_news(link: &MqttLink, console: &Console) {
+    while let Some(news) = link.news() {
+        match news {
+            LinkNews::Connected {
+                num_waiting,
+                num_dropped,
+            } => console.note(&format_args!(
+                "MQTT: connected; {num_waiting} inspections waited, {num_dropped} were dropped since the start"
+            )),
+            LinkNews::Lost(trouble) => console.warn(&format_args!("MQTT: {trouble}"), &trouble),
+        }
+    }
+}
+
+/// Sends what waits, for a few seconds at most, and ends the connection.
+pub(super) fn end_link(link: MqttLink, console: &Console) {
+    if let Err(unsent) = link.end() {
+        console.warn(&format_args!("MQTT: {unsent}"), &unsent);
+    }
+}

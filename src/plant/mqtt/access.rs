@@ -1,0 +1,270 @@
+//! What is needed to connect to a broker: its address, a password and the certificates that it may show.
+
+use std::{path::Path, sync::Arc};
+
+use rumqttc::{MqttOptions, TlsConfiguration, Transport};
+use rustls::{
+    ClientConfig, RootCertStore,
+    crypto::ring,
+    pki_types::{CertificateDer, pem::PemObject as _},
+};
+use thiserror::Error;
+
+use super::address::BrokerAddress;
+use crate::{
+    error::Advice,
+    files::{FileError, crc32, read_limited, read_text},
+};
+
+/// A password is one line.
+const MAX_PASSWORD_BYTES: u64 = 4096;
+/// The certificates of a whole system are a quarter of this.
+const MAX_CA_BYTES: u64 = 1 << 20;
+
+/// A broker, and what lets the program in there.
+#[derive(Clone)]
+pub struct BrokerAccess {
+    /// Where it is.
+    pub broker: BrokerAddress,
+    password: String,
+    tls: Option<Arc<ClientConfig>>,
+}
+
+/// Why a broker cannot be used as it was given.
+#[derive(Debug, Error)]
+pub enum AccessError {
+    /// The password or the certificates cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Nobody has the password.
+    #[error("a password is given, but no user")]
+    NoUser,
+    /// The file holds nothing.
+    #[error("{path}: the file holds no password")]
+    NoPassword {
+        /// Which file.
+        path: String,
+    },
+    /// The connection is not encrypted.
+    #[error("certificates are given, but mqtt:// is not encrypted")]
+    NotEncrypted,
+    /// The file holds none.
+    #[error("{path}: the file holds no certificate in PEM form")]
+    NoCertificate {
+        /// Which file.
+        path: String,
+    },
+    /// The system holds none.
+    #[error("this system has no certificates by which a broker could be known")]
+    NoSystemCertificates,
+    /// The library for encryption refuses.
+    #[error("encrypted connections cannot be prepared: {source}")]
+    Tls {
+        /// What it says.
+        source: rustls::Error,
+    },
+}
+
+impl Advice for AccessError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::NoUser => "Name the user in the address: mqtt://USER@HOST/PREFIX".into(),
+            Self::NoPassword { .. } => "Write the password into the file's first line".into(),
+            Self::NotEncrypted => "Begin the address with mqtts://, or leave --mqtt-ca out".into(),
+            Self::NoCertificate { .. } => {
+                "Give the certificate of the authority that signed the broker's, as PEM".into()
+            }
+            Self::NoSystemCertificates => {
+                "Name the certificate of the authority that signed the broker's with --mqtt-ca"
+                    .into()
+            }
+            Self::Tls { .. } => "Report this with the message".into(),
+        }
+    }
+}
+
+impl BrokerAccess {
+    /// Reads the password, the first line of its file, and the certificates of authorities, PEM; without a file the
+    /// system's own.
+    pub fn new(
+        broker: BrokerAddress,
+        password_file: Option<&Path>,
+        ca_file: Option<&Path>,
+    ) -> Result<Self, AccessError> {
+        if password_file.is_some() && broker.user.is_none() {
+            return Err(AccessError::NoUser);
+        }
+        if ca_file.is_some() && !broker.is_encrypted {
+            return Err(AccessError::NotEncrypted);
+        }
+        let password = password_file.map(read_password).transpose()?;
+        let tls = broker.is_encrypted.then(|| tls_config(ca_file));
+        Ok(Self {
+            password: password.unwrap_or_default(),
+            tls: tls.transpose()?.map(Arc::new),
+            broker,
+        })
+    }
+
+    /// A doubt, if others on the network can read along.
+    pub fn doubt(&self) -> Option<Unencrypted> {
+        let host = &self.broker.host;
+        let address = host.trim_matches(['[', ']']).parse::<std::net::IpAddr>();
+        let is_here = host == "localhost" || address.is_ok_and(|address| address.is_loopback());
+        (!self.broker.is_encrypted && !is_here).then(|| Unencrypted {
+            broker: self.broker.clone(),
+        })
+    }
+
+    /// For the client library, without a last will.
+    pub(super) fn options(&self) -> MqttOptions {
+        let BrokerAddress {
+            user, host, port, ..
+        } = &self.broker;
+        // The same after every start: the broker then ends a connection that broke without its noticing as soon as the
+        // new one is there, and its last will does not come after the new state.
+        let id = format!("partsight-{:08x}", crc32(self.broker.prefix.as_bytes()));
+        let mut options = MqttOptions::new(id, host, *port);
+        options.set_keep_alive(super::link::KEEP_ALIVE);
+        options.set_max_packet_size(MAX_PACKET_BYTES, MAX_PACKET_BYTES);
+        if let Some(user) = user {
+            options.set_credentials(user, &self.password);
+        }
+        if let Some(tls) = &self.tls {
+            let tls = TlsConfiguration::Rustls(Arc::clone(tls));
+            options.set_transport(Transport::tls_with_config(tls));
+        }
+        options
+    }
+}
+
+/// Far more than a message has; the client library refuses to send longer ones.
+const MAX_PACKET_BYTES: usize = 1 << 20;
+
+fn read_password(path: &Path) -> Result<String, AccessError> {
+    let text = read_text(path, MAX_PASSWORD_BYTES)?;
+    match text.lines().next() {
+        Some(line) if !line.is_empty() => Ok(line.to_owned()),
+        _ => Err(AccessError::NoPassword {
+            path: path.display().to_string(),
+        }),
+    }
+}
+
+fn tls_config(ca_file: Option<&Path>) -> Result<ClientConfig, AccessError> {
+    let mut roots = RootCertStore::empty();
+    if let Some(path) = ca_file {
+        let bytes = read_limited(path, MAX_CA_BYTES)?;
+        let found = CertificateDer::pem_slice_iter(&bytes);
+        roots.add_parsable_certificates(found.filter_map(Result::ok));
+        if roots.is_empty() {
+            return Err(AccessError::NoCertificate {
+                path: path.display().to_string(),
+            });
+        }
+    } else {
+        let found = rustls_native_certs::load_native_certs();
+        roots.add_parsable_certificates(found.certs);
+        if roots.is_empty() {
+            return Err(AccessError::NoSystemCertificates);
+        }
+    }
+    let config = ClientConfig::builder_with_provider(Arc::new(ring::default_provider()))
+        .with_safe_default_protocol_versions()
+        .map_err(|source| AccessError::Tls { source })?;
+    Ok(config.with_root_certificates(roots).with_no_client_auth())
+}
+
+/// Others can read what is sent to a broker.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error(
+    "the connection to {broker} is not encrypted: whoever is on the way can read and change verdicts, poses and the password"
+)]
+pub struct Unencrypted {
+    broker: BrokerAddress,
+}
+
+impl Advice for Unencrypted {
+    fn advice(&self) -> String {
+        "Use mqtts://, or a network of the plant's own".into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    fn access(address: &str, files: [Option<&Path>; 2]) -> Result<BrokerAccess, AccessError> {
+        let [password, ca] = files;
+        BrokerAccess::new(address.parse().expect(address), password, ca)
+    }
+
+    #[test]
+    fn the_password_is_the_first_line_of_its_file() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("password");
+        for (text, password) in [
+            ("secret", "secret"),
+            ("two words\r\nmore\n", "two words"),
+            ("\u{feff}secret\n", "secret"),
+        ] {
+            fs::write(&path, text).expect("written");
+            let found = access("mqtt://me@broker/cell", [Some(&path), None]).expect(text);
+            let login = found.options().credentials().expect("a user");
+            assert_eq!(
+                (login.username, login.password),
+                ("me".into(), password.into())
+            );
+        }
+        for text in ["", "\nsecret"] {
+            fs::write(&path, text).expect("written");
+            let error = access("mqtt://me@broker/cell", [Some(&path), None])
+                .err()
+                .expect("empty");
+            assert!(matches!(error, AccessError::NoPassword { .. }), "{error}");
+        }
+        let error = access("mqtt://broker/cell", [Some(&path), None])
+            .err()
+            .expect("whose?");
+        assert!(matches!(error, AccessError::NoUser) && error.advice().contains("USER"));
+    }
+
+    #[test]
+    fn certificates_are_for_encrypted_connections_and_have_to_be_some() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("ca.pem");
+        let error = access("mqtt://broker/cell", [None, Some(&path)])
+            .err()
+            .expect("not encrypted");
+        assert!(matches!(error, AccessError::NotEncrypted), "{error}");
+        let error = access("mqtts://broker/cell", [None, Some(&path)])
+            .err()
+            .expect("missing");
+        assert!(matches!(error, AccessError::File(_)), "{error}");
+        fs::write(&path, "no certificate").expect("written");
+        let error = access("mqtts://broker/cell", [None, Some(&path)])
+            .err()
+            .expect("none");
+        assert!(
+            matches!(error, AccessError::NoCertificate { .. }),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_connection_that_leaves_the_computer_unencrypted_is_doubted() {
+        for (address, is_doubted) in [
+            ("mqtt://localhost/cell", false),
+            ("mqtt://127.0.0.1/cell", false),
+            ("mqtt://[::1]/cell", false),
+            ("mqtt://10.0.0.2/cell", true),
+            ("mqtt://broker/cell", true),
+        ] {
+            let found = access(address, [None, None]).expect(address);
+            assert_eq!(found.doubt().is_some(), is_doubted, "{address}");
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! Where the broker is, and under which topics the cell publishes.
+
+use std::{fmt, str::FromStr};
+
+use thiserror::Error;
+
+use crate::error::Advice;
+
+/// A broker and the beginning of the topics: `mqtt[s]://[user@]host[:port]/TOPIC_PREFIX`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BrokerAddress {
+    /// True with `mqtts`.
+    pub is_encrypted: bool,
+    /// The name at the broker; none for a broker that asks for none.
+    pub user: Option<String>,
+    /// A name or an IP address; IPv6 in brackets.
+    pub host: String,
+    /// 1883 or, encrypted, 8883 where none is given.
+    pub port: u16,
+    /// Without a slash at its ends.
+    pub prefix: String,
+}
+
+/// Longest topic prefix, bytes: some brokers allow 256 for a whole topic.
+const MAX_PREFIX_BYTES: usize = 200;
+
+/// Why a text is no address of a broker.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum AddressError {
+    /// It begins otherwise.
+    #[error("{text} does not begin with mqtt:// or mqtts://")]
+    Scheme {
+        /// What was given.
+        text: String,
+    },
+    /// It has a password, which other users of this computer could read.
+    #[error(
+        "the address has a password, which everybody who lists the programs of this computer can read"
+    )]
+    Password,
+    /// There is no host, or none that can be one.
+    #[error("{host:?} is no name or IP address of a broker")]
+    Host {
+        /// What was given.
+        host: String,
+    },
+    /// A certificate does not name an IPv6 address in brackets.
+    #[error("an encrypted connection needs the broker's name, not {host}")]
+    EncryptedIpv6 {
+        /// What was given.
+        host: String,
+    },
+    /// No number from 1 to 65535.
+    #[error("{port:?} is no port")]
+    Port {
+        /// What was given.
+        port: String,
+    },
+    /// No topics can begin like this.
+    #[error("{prefix:?} is no beginning of a topic")]
+    Prefix {
+        /// What was given.
+        prefix: String,
+    },
+}
+
+impl Advice for AddressError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Password => {
+                "Write the password into a file that only you can read, and name it with --mqtt-password-file".into()
+            }
+            Self::Prefix { .. } => format!(
+                "Give 1 to {MAX_PREFIX_BYTES} letters, digits and slashes, without +, # and a $ at the beginning, such as mqtt://broker/hall3/cell7"
+            ),
+            Self::EncryptedIpv6 { .. } => {
+                "Give the name that stands in the broker's certificate".into()
+            }
+            Self::Scheme { .. } | Self::Host { .. } | Self::Port { .. } => {
+                "Give an address such as mqtt://broker/cell7 or mqtts://user@192.168.1.5:8883/hall3/cell7".into()
+            }
+        }
+    }
+}
+
+impl FromStr for BrokerAddress {
+    type Err = AddressError;
+
+    fn from_str(text: &str) -> Result<Self, AddressError> {
+        let (is_encrypted, rest) = if let Some(rest) = text.strip_prefix("mqtts://") {
+            (true, rest)
+        } else if let Some(rest) = text.strip_prefix("mqtt://") {
+            (false, rest)
+        } else {
+            let text = text.to_owned();
+            return Err(AddressError::Scheme { text });
+        };
+        let (place, prefix) = rest.split_once('/').unwrap_or((rest, ""));
+        let (user, place) = match place.rsplit_once('@') {
+            Some((user, place)) => (Some(user), place),
+            None => (None, place),
+        };
+        if user.is_some_and(|user| user.contains(':')) {
+            return Err(AddressError::Password);
+        }
+        let (host, port) = host_and_port(place, if is_encrypted { 8883 } else { 1883 })?;
+        if is_encrypted && host.starts_with('[') {
+            let host = host.to_owned();
+            return Err(AddressError::EncryptedIpv6 { host });
+        }
+        if !is_prefix(prefix) {
+            let prefix = prefix.to_owned();
+            return Err(AddressError::Prefix { prefix });
+        }
+        Ok(Self {
+            is_encrypted,
+            user: user.filter(|user| !user.is_empty()).map(str::to_owned),
+            host: host.to_owned(),
+            port,
+            prefix: prefix.to_owned(),
+        })
+    }
+}
+
+fn host_and_port(place: &str, usual: u16) -> Result<(&str, u16), AddressError> {
+    // The colons of an IPv6 address stand in brackets.
+    let end = place.find(']').map_or(0, |end| end + 1);
+    let (host, port) = match place[end..].split_once(':') {
+        Some((rest, port)) => (&place[..end + rest.len()], Some(port)),
+        None => (place, None),
+    };
+    let is_letter = |c: char| c.is_alphanumeric() || "-._".contains(c);
+    let is_host = match host.strip_prefix('[') {
+        Some(inner) => inner
+            .strip_suffix(']')
+            .is_some_and(|inner| inner.parse::<std::net::Ipv6Addr>().is_ok()),
+        None => !host.is_empty() && host.chars().all(is_letter),
+    };
+    if !is_host {
+        let host = host.to_owned();
+        return Err(AddressError::Host { host });
+    }
+    let port = match port {
+        None => usual,
+        Some(text) => match text.parse() {
+            Ok(port) if port > 0 => port,
+            _ => return Err(AddressError::Port { port: text.into() }),
+        },
+    };
+    Ok((host, port))
+}
+
+/// Topics of a client have no wildcards, and those of the broker itself begin with `$`.
+fn is_prefix(prefix: &str) -> bool {
+    let is_bad = |c: char| matches!(c, '+' | '#') || c.is_control();
+    (1..=MAX_PREFIX_BYTES).contains(&prefix.len())
+        && !prefix.starts_with('$')
+        && !prefix.contains(is_bad)
+        && prefix.split('/').all(|level| !level.is_empty())
+}
+
+/// Without the prefix: as it is named in messages.
+impl fmt::Display for BrokerAddress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let scheme = if self.is_encrypted { "mqtts" } else { "mqtt" };
+        write!(f, "{scheme}://{}:{}", self.host, self.port)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_address_has_its_parts() {
+        for (text, user, host, port, prefix) in [
+            ("mqtt://broker/cell7", None, "broker", 1883, "cell7"),
+            ("mqtts://broker/a/b", None, "broker", 8883, "a/b"),
+            ("mqtt://me@10.0.0.2:11/c", Some("me"), "10.0.0.2", 11, "c"),
+            ("mqtt://me@[::1]/c", Some("me"), "[::1]", 1883, "c"),
+            ("mqtt://a@b@[fe80::1]:9/c", Some("a@b"), "[fe80::1]", 9, "c"),
+        ] {
+            let read: BrokerAddress = text.parse().expect(text);
+            assert_eq!(read.is_encrypted, text.starts_with("mqtts"));
+            assert_eq!(read.user.as_deref(), user, "{text}");
+            let rest = (read.host.as_str(), read.port, read.prefix.as_str());
+            assert_eq!(rest, (host, port, prefix), "{text}");
+        }
+    }
+
+    #[test]
+    fn nonsense_is_refused_with_what_to_do() {
+        let long = format!("mqtt://broker/{}", "x".repeat(MAX_PREFIX_BYTES + 1));
+        for (text, words) in [
+            ("broker/cell", "does not begin"),
+            ("http://broker/cell", "does not begin"),
+            ("mqtt://me:secret@broker/cell", "password"),
+            ("mqtt:///cell", "no name"),
+            ("mqtt://a b/cell", "no name"),
+            ("mqtt://[::1/cell", "no name"),
+            ("mqtt://[nonsense]/cell", "no name"),
+            ("mqtt://::1/cell", "no name"),
+            ("mqtts://[::1]/cell", "name, not"),
+            ("mqtt://broker:0/cell", "no port"),
+            ("mqtt://broker:70000/cell", "no port"),
+            ("mqtt://broker:/cell", "no port"),
+            ("mqtt://broker", "no beginning of a topic"),
+            ("mqtt://broker/", "no beginning of a topic"),
+            ("mqtt://broker/a//b", "no beginning of a topic"),
+            ("mqtt://broker/a/", "no beginning of a topic"),
+            ("mqtt://broker/+/a", "no beginning of a topic"),
+            ("mqtt://broker/a/#", "no beginning of a topic"),
+            ("mqtt://broker/$SYS", "no beginning of a topic"),
+            ("mqtt://broker/a\nb", "no beginning of a topic"),
+            (&long, "no beginning of a topic"),
+        ] {
+            let error = text.parse::<BrokerAddress>().expect_err(text);
+            assert!(error.to_string().contains(words), "{text}: {error}");
+            assert!(!error.advice().is_empty());
+            assert!(!error.to_string().contains("secret"));
+        }
+    }
+}

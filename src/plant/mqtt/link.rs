@@ -1,0 +1,393 @@
+//! The connection to the broker, and the inspections that wait for it.
+
+use std::{
+    collections::VecDeque,
+    ops::ControlFlow,
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    thread::{self, JoinHandle},
+    time::{Duration, Instant},
+};
+
+use jiff::{SignedDuration, Timestamp};
+use rumqttc::{Client, Event, LastWill, MqttOptions, Outgoing, Packet, QoS};
+
+use super::{
+    access::BrokerAccess,
+    address::BrokerAddress,
+    message::{InspectionMessage, LibraryMessage, MESSAGE_SCHEMA, PoseMessage, StateMessage},
+    news::{LinkError, LinkNews, LinkTrouble, Unsent},
+};
+use crate::{
+    error::{guarded, lock},
+    history::Traceability,
+    robot::Convention,
+    serve::{Answer, CameraStatus, InspectionRecord, PoseKind},
+};
+
+/// So many inspections wait for the broker at most; the oldest are dropped first.
+pub const MAX_UNSENT: usize = 1000;
+
+/// A broker that hears nothing for one and a half times as long takes the cell for offline.
+pub(super) const KEEP_ALIVE: Duration = Duration::from_secs(15);
+/// Before the second attempt to connect; each further pause is twice as long, up to the longest.
+const FIRST_PAUSE: Duration = Duration::from_millis(500);
+const LONGEST_PAUSE: Duration = Duration::from_secs(30);
+/// At the end of the program what waits has so long to go out.
+const END_TIMEOUT: Duration = Duration::from_secs(3);
+/// Messages that the client library takes over; one is on its way at a time.
+const CHANNEL: usize = 8;
+
+/// In which numbers poses are given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PoseFormat {
+    /// Which pose.
+    pub kind: PoseKind,
+    /// How it is written.
+    pub convention: Convention,
+}
+
+/// What stays the same in all messages of a start.
+#[derive(Clone, Debug)]
+pub struct LinkSubject {
+    /// The number of this start, [`crate::serve::Server::boot`].
+    pub boot: u32,
+    /// The enrolled parts.
+    pub library: LibraryMessage,
+    /// In which numbers poses are given.
+    pub pose: PoseFormat,
+    /// What inspections are traced by.
+    pub trace: Traceability,
+}
+
+/// An inspection that waits for the broker.
+struct Waiting {
+    record: InspectionRecord,
+    inspected_at: Timestamp,
+    captured_at: Option<Timestamp>,
+}
+
+/// What the broker has not acknowledged yet.
+enum InFlight {
+    State,
+    Inspection(Waiting),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    Running,
+    /// What waits goes out, then the state becomes offline.
+    Ending,
+    Ended,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Told {
+    Connected,
+    Lost,
+}
+
+struct Outbox {
+    phase: Phase,
+    state: StateMessage,
+    /// True if the broker does not know the state.
+    is_state_due: bool,
+    waiting: VecDeque<Waiting>,
+    in_flight: Option<InFlight>,
+    /// While connected.
+    client: Option<Client>,
+    /// What the person at the screen was told last.
+    told: Option<Told>,
+    news: VecDeque<LinkNews>,
+}
+
+impl Outbox {
+    fn drop_oldest(&mut self) {
+        while self.waiting.len() > MAX_UNSENT {
+            self.waiting.pop_front();
+            self.state.num_dropped += 1;
+            self.is_state_due = true;
+        }
+    }
+}
+
+struct Shared {
+    broker: BrokerAddress,
+    subject: LinkSubject,
+    outbox: Mutex<Outbox>,
+    phase_changed: Condvar,
+}
+
+/// The connection to a broker. Dropped, it is ended as by [`Self::end`].
+pub struct MqttLink {
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl MqttLink {
+    /// Connects on a thread of its own, and again whenever the connection is lost.
+    pub fn start(access: &BrokerAccess, subject: LinkSubject) -> Result<Self, LinkError> {
+        let state = StateMessage {
+            schema: MESSAGE_SCHEMA,
+            program: format!("Partsight {}", env!("CARGO_PKG_VERSION")),
+            boot: subject.boot,
+            since: Timestamp::now(),
+            online: true,
+            camera: Some(CameraStatus::default()),
+            library: subject.library.clone(),
+            num_dropped: 0,
+        };
+        let shared = Arc::new(Shared {
+            broker: access.broker.clone(),
+            subject,
+            outbox: Mutex::new(Outbox {
+                phase: Phase::Running,
+                state,
+                is_state_due: true,
+                waiting: VecDeque::new(),
+                in_flight: None,
+                client: None,
+                told: None,
+                news: VecDeque::new(),
+            }),
+            phase_changed: Condvar::new(),
+        });
+        let theirs = Arc::clone(&shared);
+        let options = access.options();
+        let thread = thread::Builder::new()
+            .name("mqtt".into())
+            .spawn(move || theirs.run(&options))
+            .map_err(|source| LinkError::NoThread { source })?;
+        Ok(Self {
+            shared,
+            thread: Some(thread),
+        })
+    }
+
+    /// Publishes an inspection once the broker is there.
+    pub fn inspected(&self, record: InspectionRecord) {
+        let inspected_at = Timestamp::now();
+        let age = record.answer().age_ms;
+        let age = age.map(|age| SignedDuration::from_millis(age.into()));
+        let waiting = Waiting {
+            record,
+            inspected_at,
+            captured_at: age.and_then(|age| inspected_at.checked_sub(age).ok()),
+        };
+        let mut outbox = lock(&self.shared.outbox);
+        outbox.waiting.push_back(waiting);
+        outbox.drop_oldest();
+        self.shared.send_next(&mut outbox);
+    }
+
+    /// Publishes how the camera is, if that is new.
+    pub fn set_camera(&self, camera: CameraStatus) {
+        let mut outbox = lock(&self.shared.outbox);
+        if outbox.state.camera.as_ref() != Some(&camera) {
+            outbox.state.camera = Some(camera);
+            outbox.is_state_due = true;
+            self.shared.send_next(&mut outbox);
+        }
+    }
+
+    /// The oldest news that was not taken yet.
+    pub fn news(&self) -> Option<LinkNews> {
+        lock(&self.shared.outbox).news.pop_front()
+    }
+
+    /// Sends what waits, for a few seconds at most, and takes leave of the broker.
+    pub fn end(mut self) -> Result<(), Unsent> {
+        self.take_leave()
+    }
+
+    fn take_leave(&mut self) -> Result<(), Unsent> {
+        let Some(thread) = self.thread.take() else {
+            return Ok(());
+        };
+        let shared = &self.shared;
+        let until = Instant::now() + END_TIMEOUT;
+        let mut outbox = lock(&shared.outbox);
+        outbox.phase = Phase::Ending;
+        outbox.state = outbox.state.offline();
+        outbox.is_state_due = true;
+        shared.send_next(&mut outbox);
+        shared.phase_changed.notify_all();
+        while outbox.phase != Phase::Ended && Instant::now() < until {
+            let left = until.saturating_duration_since(Instant::now());
+            outbox = shared.wait(outbox, left);
+        }
+        let is_in_flight = matches!(outbox.in_flight, Some(InFlight::Inspection(_)));
+        let num = outbox.waiting.len() as u64 + u64::from(is_in_flight) + outbox.state.num_dropped;
+        let has_ended = outbox.phase == Phase::Ended;
+        drop(outbox);
+        if has_ended {
+            // A fault of the thread has been told.
+            let _ = thread.join();
+        }
+        // Else it waits for the network, which nobody can interrupt; it ends with the program.
+        if num > 0 {
+            let broker = shared.broker.clone();
+            return Err(Unsent { num, broker });
+        }
+        Ok(())
+    }
+}
+
+impl Drop for MqttLink {
+    fn drop(&mut self) {
+        // Nobody is left to be told.
+        let _ = self.take_leave();
+    }
+}
+
+impl Shared {
+    fn run(&self, options: &MqttOptions) {
+        let mut pause = FIRST_PAUSE;
+        loop {
+            let begun = Instant::now();
+            let ended = guarded(|| self.connection(options.clone()));
+            let Err(trouble) = ended.unwrap_or_else(|fault| Err(fault.into())) else {
+                break;
+            };
+            // A connection that breaks right away, again and again, is a cause to wait as well.
+            if begun.elapsed() > LONGEST_PAUSE {
+                pause = FIRST_PAUSE;
+            }
+            if self.lost(trouble, pause).is_break() {
+                break;
+            }
+            pause = (pause * 2).min(LONGEST_PAUSE);
+        }
+        lock(&self.outbox).phase = Phase::Ended;
+        self.phase_changed.notify_all();
+    }
+
+    /// One connection, until it breaks or the program has taken leave.
+    fn connection(&self, mut options: MqttOptions) -> Result<(), LinkTrouble> {
+        let will = lock(&self.outbox).state.offline().to_json();
+        options.set_last_will(LastWill::new(
+            self.topic("state"),
+            will,
+            QoS::AtLeastOnce,
+            true,
+        ));
+        // A client of its own for every connection: what is on its way is remembered here, not there.
+        let (client, mut connection) = Client::new(options, CHANNEL);
+        for event in connection.iter() {
+            match event.map_err(|error| LinkTrouble::of(error, &self.broker))? {
+                Event::Incoming(Packet::ConnAck(_)) => self.connected(client.clone()),
+                Event::Incoming(Packet::PubAck(_)) => {
+                    let mut outbox = lock(&self.outbox);
+                    outbox.in_flight = None;
+                    self.send_next(&mut outbox);
+                }
+                Event::Outgoing(Outgoing::Disconnect) => break,
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn connected(&self, client: Client) {
+        let mut outbox = lock(&self.outbox);
+        outbox.client = Some(client);
+        // The broker may have lost it, or published the last will.
+        outbox.is_state_due = true;
+        if outbox.told != Some(Told::Connected) {
+            outbox.told = Some(Told::Connected);
+            let news = LinkNews::Connected {
+                num_waiting: outbox.waiting.len(),
+                num_dropped: outbox.state.num_dropped,
+            };
+            outbox.news.push_back(news);
+        }
+        self.send_next(&mut outbox);
+    }
+
+    /// Puts what was on its way back, tells of the loss once, and waits before the next attempt; `Break` if there is none.
+    fn lost(&self, trouble: LinkTrouble, pause: Duration) -> ControlFlow<()> {
+        let mut outbox = lock(&self.outbox);
+        outbox.client = None;
+        if let Some(InFlight::Inspection(waiting)) = outbox.in_flight.take() {
+            outbox.waiting.push_front(waiting);
+            outbox.drop_oldest();
+        }
+        if outbox.phase != Phase::Running {
+            return ControlFlow::Break(());
+        }
+        if outbox.told != Some(Told::Lost) {
+            outbox.told = Some(Told::Lost);
+            outbox.news.push_back(LinkNews::Lost(trouble));
+        }
+        let until = Instant::now() + pause;
+        while outbox.phase == Phase::Running && Instant::now() < until {
+            let left = until.saturating_duration_since(Instant::now());
+            outbox = self.wait(outbox, left);
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn wait<'a>(
+        &self,
+        outbox: MutexGuard<'a, Outbox>,
+        at_most: Duration,
+    ) -> MutexGuard<'a, Outbox> {
+        let waited = self.phase_changed.wait_timeout(outbox, at_most);
+        waited.unwrap_or_else(PoisonError::into_inner).0
+    }
+
+    /// Hands the next message to the client library, if the broker has acknowledged the one before.
+    fn send_next(&self, outbox: &mut Outbox) {
+        let Some(client) = &outbox.client else {
+            return;
+        };
+        if outbox.in_flight.is_some() {
+            return;
+        }
+        let is_ending = outbox.phase != Phase::Running;
+        // At the end what waits goes out before the state says that nobody is there.
+        let is_state_next = outbox.is_state_due && (!is_ending || outbox.waiting.is_empty());
+        // Handing over fails once the connection is over: `lost` puts what was on its way back.
+        if is_state_next {
+            outbox.is_state_due = false;
+            outbox.in_flight = Some(InFlight::State);
+            let json = outbox.state.to_json();
+            let _ = client.try_publish(self.topic("state"), QoS::AtLeastOnce, true, json);
+        } else if let Some(waiting) = outbox.waiting.pop_front() {
+            let json = self.message(&waiting).to_json();
+            outbox.in_flight = Some(InFlight::Inspection(waiting));
+            let _ = client.try_publish(self.topic("inspection"), QoS::AtLeastOnce, false, json);
+        } else if is_ending {
+            let _ = client.try_disconnect();
+            outbox.client = None;
+        }
+    }
+
+    fn topic(&self, name: &str) -> String {
+        format!("{}/{name}", self.broker.prefix)
+    }
+
+    fn message(&self, waiting: &Waiting) -> InspectionMessage {
+        let answer = waiting.record.answer();
+        let PoseFormat { kind, convention } = self.subject.pose;
+        let has = |mark| answer.marks & mark != 0;
+        InspectionMessage {
+            schema: MESSAGE_SCHEMA,
+            boot: answer.boot,
+            sequence: answer.sequence,
+            inspected_at: waiting.inspected_at,
+            captured_at: waiting.captured_at,
+            age_ms: answer.age_ms,
+            verdict: answer.verdict,
+            simulated: has(Answer::SIMULATED),
+            approximate: has(Answer::APPROXIMATE),
+            number: (answer.number > 0).then_some(answer.number),
+            pose: answer.pose.map(|pose| PoseMessage {
+                transform: kind,
+                in_convention: convention.write(&pose),
+            }),
+            part: Some(answer.part).filter(|part| !part.is_empty()),
+            trouble: Some(answer.trouble).filter(|trouble| !trouble.reason.is_empty()),
+            traceability: self.subject.trace.clone(),
+        }
+    }
+}

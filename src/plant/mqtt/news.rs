@@ -1,0 +1,160 @@
+//! What happens to the connection, for the person at the screen.
+
+use std::io;
+
+use rumqttc::{ConnectReturnCode, ConnectionError};
+use thiserror::Error;
+
+use super::address::BrokerAddress;
+use crate::{
+    error::{Advice, Fault},
+    files::words_of,
+};
+
+/// Something about the connection, for the person at the screen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LinkNews {
+    /// It is there, for the first time or again.
+    Connected {
+        /// Inspections that waited for it.
+        num_waiting: usize,
+        /// Inspections dropped since the start.
+        num_dropped: u64,
+    },
+    /// It is not; told once until it is there again.
+    Lost(LinkTrouble),
+}
+
+/// Why there is no connection.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum LinkTrouble {
+    /// Nothing answers there.
+    #[error("{broker} cannot be reached: {cause}")]
+    Unreachable {
+        /// Which broker.
+        broker: BrokerAddress,
+        /// What the system says.
+        cause: String,
+    },
+    /// The broker does not let the program in.
+    #[error("{broker} refuses the connection: {cause}")]
+    Refused {
+        /// Which broker.
+        broker: BrokerAddress,
+        /// What it says.
+        cause: &'static str,
+    },
+    /// No encrypted connection comes about.
+    #[error("no encrypted connection to {broker}: {cause}")]
+    Tls {
+        /// Which broker.
+        broker: BrokerAddress,
+        /// What the library for encryption says.
+        cause: String,
+    },
+    /// It was there, and broke.
+    #[error("the connection to {broker} was lost: {cause}")]
+    Broken {
+        /// Which broker.
+        broker: BrokerAddress,
+        /// What the client library says.
+        cause: String,
+    },
+    /// The program itself failed.
+    #[error(transparent)]
+    Fault(#[from] Fault),
+}
+
+impl LinkTrouble {
+    pub(super) fn of(error: ConnectionError, broker: &BrokerAddress) -> Self {
+        let broker = broker.clone();
+        match error {
+            ConnectionError::Io(error) => Self::Unreachable {
+                broker,
+                cause: words_of(&error),
+            },
+            ConnectionError::NetworkTimeout => Self::Unreachable {
+                broker,
+                cause: "nothing answers".into(),
+            },
+            ConnectionError::ConnectionRefused(code) => Self::Refused {
+                broker,
+                cause: match code {
+                    ConnectReturnCode::BadUserNamePassword | ConnectReturnCode::NotAuthorized => {
+                        "the user or the password is wrong, or the user may not connect"
+                    }
+                    ConnectReturnCode::BadClientId => "it does not take the client identifier",
+                    ConnectReturnCode::RefusedProtocolVersion => "it does not speak MQTT 3.1.1",
+                    ConnectReturnCode::ServiceUnavailable | ConnectReturnCode::Success => {
+                        "it is not available"
+                    }
+                },
+            },
+            ConnectionError::Tls(error) => Self::Tls {
+                broker,
+                cause: error.to_string(),
+            },
+            ConnectionError::MqttState(error) => Self::Broken {
+                broker,
+                cause: error.to_string(),
+            },
+            error => Self::Broken {
+                broker,
+                cause: error.to_string(),
+            },
+        }
+    }
+}
+
+impl Advice for LinkTrouble {
+    fn advice(&self) -> String {
+        match self {
+            Self::Unreachable { .. } => {
+                "Check the broker and the network; inspections go on, and connecting is tried again by itself".into()
+            }
+            Self::Refused { .. } => {
+                "Check the user in --mqtt, --mqtt-password-file and the broker's list of users; connecting is tried again by itself".into()
+            }
+            Self::Tls { .. } => {
+                "Check that --mqtt names the host that stands in the broker's certificate, and --mqtt-ca the authority that signed it".into()
+            }
+            Self::Broken { .. } => {
+                "Check the broker and the network, and that no other program publishes under this topic prefix; connecting is tried again by itself".into()
+            }
+            Self::Fault(fault) => fault.advice(),
+        }
+    }
+}
+
+/// Why there is no link at all.
+#[derive(Debug, Error)]
+pub enum LinkError {
+    /// The system gives no thread.
+    #[error("the thread for MQTT cannot be started: {source}")]
+    NoThread {
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+impl Advice for LinkError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoThread { .. } => "Close other programs and start again".into(),
+        }
+    }
+}
+
+/// At the end of the program some inspections had not gone out.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{num} inspections did not reach {broker}")]
+pub struct Unsent {
+    pub(super) num: u64,
+    pub(super) broker: BrokerAddress,
+}
+
+impl Advice for Unsent {
+    fn advice(&self) -> String {
+        "Look them up in the history: partsight history list".into()
+    }
+}
