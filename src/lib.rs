@@ -25,8 +25,8 @@
 //! What this page lists is the library. The modules behind it are public for the program and its tests; they change
 //! without notice.
 //!
-//! Features, both on by default: `cli`, the command line and the reports; `window`, the window. Without them only the
-//! algorithms build. Off by default: `plant`, what the command line tells other systems.
+//! Features, both on by default: `cli`, the command line, pictures and reports; `window`, the window. Without them only
+//! the algorithms build. Off by default: `plant`, what the command line tells other systems.
 
 #[cfg(feature = "window")]
 #[doc(hidden)]
@@ -57,7 +57,6 @@ pub mod pipeline;
 #[cfg(feature = "plant")]
 #[doc(hidden)]
 pub mod plant;
-#[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod report;
 #[doc(hidden)]
@@ -82,7 +81,8 @@ mod kit;
 
 pub use self::{
     capture::{
-        CaptureError, Captured, DepthSource, Image, NextCapture, SourceSpec, open as open_source,
+        CaptureError, CaptureWarning, Captured, DepthSource, Image, NextCapture, SourceSpec,
+        open as open_source, read_image,
     },
     error::{Advice, Fault},
     files::{FileContent, FileError, open as open_file, save_cloud},
@@ -95,14 +95,17 @@ pub use self::{
     },
     library::{
         EnrolError, EnrolParams, EnrolWarning, Enrolled, Library, LibraryError, LibraryFolder,
-        LibraryLoad, Part, PartDescription, PartName, SprayPath, enrol_captured, enrol_mesh,
-        enrol_scan,
+        LibraryLoad, LibraryPlace, Part, PartDescription, PartName, SprayPath, enrol_captured,
+        enrol_mesh, enrol_scan, open_library,
     },
     pipeline::{
-        AcceptParams, Cancelled, Inspection, PoseChoice, ProgressObserver, Recipe, Rejection,
-        Stage, Timings, Unwatched, Verdict, run,
+        AcceptParams, Cancelled, Inspection, NamedRecipe, PoseChoice, ProgressObserver, Recipe,
+        RecipeError, RecipeFile, RecipeLabel, Rejection, Stage, Timings, Unwatched, Verdict,
+        parameters::Setting,
+        run,
         scan::{ScanInspection, run_scan},
     },
+    report::InspectionLine,
     robot::{Convention, RobotFrame, RobotPose},
     scan::{Scan, ScanParams, Shot, assemble},
     simulate::{CellSetup, PartKind, PartModel, Side, SimulatedFrame, frame as simulated_frame},
@@ -110,14 +113,14 @@ pub use self::{
         confirm::{ConfirmParams, ConfirmedMatch, ConfirmedRanking, Evidence},
         contour::{Contour, ContourParams},
         pose::{
-            PoseError, PoseEstimate, PoseMethod, PoseWarning, align, icp::IcpParams,
-            icp_ga::IcpGaParams,
+            AlignParams, PoseError, PoseEstimate, PoseMethod, PoseWarning, align, align_with,
+            icp::IcpParams, icp_ga::IcpGaParams,
         },
         project::{PlaneImage, ProjectParams},
         rank::{MatchRanking, RankParams},
         reference::{Reference, ReferenceParams},
         scene::{SceneCloud, scene_from_cloud, scene_from_frame, scene_from_image},
-        segment::{NoPart, SegmentParams, Segmentation, SegmentedPart},
+        segment::{NoPart, PointLabel, SegmentParams, Segmentation, SegmentedPart},
         signature::{FanSignature, SignatureParams},
     },
     units::{Metres, Radians},

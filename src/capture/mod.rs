@@ -27,7 +27,7 @@ pub use self::open::{SourceListing, list, open};
 pub use self::rate::FrameRate;
 #[cfg(feature = "cli")]
 pub(crate) use self::read::may_be_capture;
-pub(crate) use self::read::read_image;
+pub use self::read::read_image;
 pub use self::recording::{Recorder, Replay};
 pub use self::simulated::SimulatedCell;
 pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};

@@ -27,7 +27,7 @@ pub(crate) fn may_be_capture(path: &Path) -> bool {
 }
 
 /// Reads what a camera saw. A file without a single reading is an image without points: the camera was covered.
-pub(crate) fn read_image(path: &Path) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
+pub fn read_image(path: &Path) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
     image_of(files::open(path), path)
 }
 

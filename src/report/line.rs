@@ -1,7 +1,6 @@
 //! The inspection as one line of JSON.
 
 use jiff::Timestamp;
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
@@ -142,7 +141,8 @@ struct RankLine<'a> {
 }
 
 /// How long each stage took, milliseconds.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct TimingsLine {
     /// Segmentation.
     pub segment: f64,
@@ -307,6 +307,11 @@ impl<'a> InspectionLine<'a> {
 }
 
 impl InspectionLine<'_> {
+    /// `ok`, `unknown`, `no_part` or `unreadable`.
+    pub fn status(&self) -> &'static str {
+        self.status
+    }
+
     /// The line itself, without its end.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("numbers and text have a JSON form")

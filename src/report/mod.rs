@@ -1,23 +1,37 @@
 //! What an inspection leaves behind: a line of JSON for machines, pictures of its stages and the pose report for people.
+//!
+//! The library alone has the line; pictures and reports need the feature `cli`.
 
+#[cfg(feature = "cli")]
 mod canvas;
+#[cfg(feature = "cli")]
 mod chart;
+#[cfg(feature = "cli")]
 mod evaluation;
+#[cfg(feature = "cli")]
 mod film;
+#[cfg(feature = "cli")]
 mod folder;
+#[cfg(feature = "cli")]
 mod lettering;
 mod line;
+#[cfg(feature = "cli")]
 mod pictures;
+#[cfg(feature = "cli")]
 pub mod pose_report;
+#[cfg(feature = "cli")]
 mod runner_up_picture;
+#[cfg(feature = "cli")]
 mod scaling;
+#[cfg(feature = "cli")]
 mod score_plots;
 
+pub use self::line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine};
+#[cfg(feature = "cli")]
 pub use self::{
     evaluation::evaluation_picture,
     film::{FilmPicture, film_picture},
     folder::{ReportError, ReportFolder},
-    line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
     pictures::{Picture, binary_picture, segmentation_picture, stage_pictures, strip, write_png},
     runner_up_picture::runner_up_picture,
     scaling::{TimeCurve, scaling_picture, stacked},

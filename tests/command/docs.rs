@@ -18,6 +18,7 @@ fn pages() -> Vec<(PathBuf, String)> {
         "assets",
         "reference_parts",
         "fuzz",
+        "python",
     ];
     let entries = folders.map(|folder| fs::read_dir(root.join(folder)).expect("a folder"));
     let paths = entries.into_iter().flatten();

@@ -1,0 +1,275 @@
+//! Which enrolled part hangs in a scene, and where.
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods as _, ndarray::IxDyn};
+use partsight::{
+    InspectionLine, NamedRecipe, PointLabel, PoseEstimate, RigidTransform, SceneCloud, run,
+    stages::pose::Uncertainty,
+};
+use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*};
+
+use crate::{
+    arrays::{matrix_of, points_of, shape_of},
+    error::refused,
+    interrupt::SignalWatch,
+    library::Library,
+    recipe::Recipe,
+    scene::Scene,
+};
+
+/// What an inspection found. Nothing but an accepted part is to be relied upon.
+#[pyclass(frozen, module = "partsight")]
+pub(crate) struct Inspection {
+    name: String,
+    scene: Arc<SceneCloud>,
+    recipe: NamedRecipe,
+    found: partsight::Inspection,
+    /// True if the named part was enrolled without a camera.
+    is_part_simulated: bool,
+}
+
+/// Inspects a scene: which enrolled part is it, and where?
+///
+/// Without a recipe that of the library is used. The same scene, library and recipe give the same result, to the bit, on
+/// any number of threads. Ctrl-C stops it between two stages.
+#[pyfunction]
+#[pyo3(signature = (scene, library, recipe = None))]
+pub(crate) fn inspect(
+    py: Python<'_>,
+    scene: &Scene,
+    library: &Library,
+    recipe: Option<&Recipe>,
+) -> PyResult<Inspection> {
+    let recipe = recipe.map_or(&library.recipe, |given| &given.recipe);
+    if recipe.reference_params() != library.recipe.reference_params() {
+        return Err(refused(
+            "the library was prepared by other parameters of projection, contour or signature than the recipe's",
+            "Open the library with the recipe: Library.open(path, recipe=recipe)",
+        ));
+    }
+    let loaded = library.loaded();
+    let cloud = &scene.scene;
+    let found = py.detach(|| {
+        let watch = SignalWatch::new();
+        run(cloud, &loaded.library, recipe, &watch).map_err(|cancelled| {
+            let raised = watch.into_raised();
+            raised.unwrap_or_else(|| PyKeyboardInterrupt::new_err(cancelled.to_string()))
+        })
+    })?;
+    let named = found
+        .verdict
+        .guess()
+        .filter(|_| !found.verdict.is_unknown());
+    let best = found.ranking.entries.first();
+    let part = best.and_then(|best| loaded.parts.get(best.reference));
+    Ok(Inspection {
+        name: scene.name.clone(),
+        scene: scene.scene.clone(),
+        recipe: recipe.clone(),
+        is_part_simulated: named.and(part).is_some_and(|part| part.simulated),
+        found,
+    })
+}
+
+#[pymethods]
+impl Inspection {
+    /// True if the part was named and may be relied upon.
+    #[getter]
+    fn accepted(&self) -> bool {
+        self.found.verdict.is_accepted()
+    }
+
+    /// `ok`, a part of the library; `unknown`, something else; or `no_part`.
+    #[getter]
+    fn status(&self) -> &'static str {
+        self.line().status()
+    }
+
+    /// The best guess, accepted or not; `None` unless the status is `ok`.
+    #[getter]
+    fn part(&self) -> Option<&str> {
+        let verdict = &self.found.verdict;
+        verdict.guess().filter(|_| !verdict.is_unknown())
+    }
+
+    /// The probability that the best match is there, at its pose, 0..1.
+    #[getter]
+    fn score(&self) -> Option<f64> {
+        self.found.verdict.score().map(|[score, _]| score)
+    }
+
+    /// Its lead over the next part, 0..1.
+    #[getter]
+    fn margin(&self) -> Option<f64> {
+        self.found.verdict.score().map(|[_, margin]| margin)
+    }
+
+    /// Why it is not accepted, in words; `None` if it is.
+    #[getter]
+    fn reason(&self) -> Option<String> {
+        self.found.verdict.complaint().map(|[why, _]| why)
+    }
+
+    /// The same for programs, such as `low_score`; docs/guide/files.md lists them.
+    #[getter]
+    fn reason_kind(&self) -> Option<String> {
+        let refusal = self.found.verdict.refusal();
+        refusal.map(|refusal| refusal.kind().to_string())
+    }
+
+    /// What to do about it, in words; `None` if it is accepted.
+    #[getter]
+    fn advice(&self) -> Option<String> {
+        self.found.verdict.complaint().map(|[_, what]| what)
+    }
+
+    /// True if what was taken for the part reaches the picture's edge: some of it may be missing.
+    #[getter]
+    fn touches_edge(&self) -> bool {
+        self.found.touches_edge()
+    }
+
+    /// True if no camera read the scene, or the named part when it was enrolled: no robot may move by it.
+    #[getter]
+    fn is_simulated(&self) -> bool {
+        self.scene.cloud.is_simulated || self.is_part_simulated
+    }
+
+    /// The pose of the first-ranked part, accepted or not; `None` if there is none.
+    #[getter]
+    fn pose(&self) -> Option<Pose> {
+        let pose = self.found.pose.as_ref()?.as_ref().ok()?;
+        let reference = self.found.reference().map(str::to_owned);
+        let is_approximate = self.found.verdict.is_approximate();
+        Some(Pose::of(pose, reference, is_approximate))
+    }
+
+    /// The points that were inspected, as `Scene.points`: a new array each time.
+    #[getter]
+    fn cloud<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
+        points_of(py, &self.scene.cloud)
+    }
+
+    /// What each point of `cloud` was taken for, a value of `Segment` as uint8, of the shape (H, W) or (N,): a new array
+    /// each time. The background planes are `Segment.BACKGROUND` and above.
+    #[getter]
+    fn segments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<u8>>> {
+        let labels = self.found.segmentation.labels.iter();
+        let values = labels.map(|label| match label {
+            PointLabel::NoReading => 0,
+            PointLabel::Rest => 1,
+            PointLabel::Part => 2,
+            PointLabel::Background(plane) => plane.saturating_add(3),
+        });
+        let shape = shape_of(&self.scene.cloud);
+        PyArray1::from_vec(py, values.collect()).reshape(IxDyn(&shape))
+    }
+
+    /// How long each stage took, and the `total`, in milliseconds.
+    #[getter]
+    fn timings_ms(&self) -> BTreeMap<&'static str, f64> {
+        let timings = &self.found.timings;
+        let stages = [
+            ("segment", timings.segment),
+            ("project", timings.project),
+            ("contour", timings.contour),
+            ("signature", timings.signature),
+            ("rank", timings.rank),
+            ("pose", timings.pose),
+            ("total", timings.total),
+        ];
+        let in_ms = |(stage, took): (_, std::time::Duration)| (stage, took.as_secs_f64() * 1e3);
+        stages.map(in_ms).into()
+    }
+
+    /// The line that `partsight inspect --json` writes of the same file, ranking included.
+    fn to_json(&self) -> String {
+        self.line().to_json()
+    }
+
+    fn __repr__(&self) -> String {
+        let verdict = match (self.accepted(), self.part()) {
+            (true, Some(part)) => format!("{part}, accepted"),
+            (_, Some(part)) => format!("{part}, not accepted"),
+            (_, None) => self.status().replace('_', " "),
+        };
+        format!("<Inspection {:?}: {verdict}>", self.name)
+    }
+}
+
+impl Inspection {
+    fn line(&self) -> InspectionLine<'_> {
+        let line = InspectionLine::of(&self.name, &self.found).by(&self.recipe);
+        if self.scene.cloud.is_simulated {
+            line.of_simulated_file()
+        } else {
+            line
+        }
+    }
+}
+
+/// Where the part is, and how well that is known. Names and units are those of the JSON line.
+#[pyclass(frozen, module = "partsight")]
+pub(crate) struct Pose {
+    camera_from_part: RigidTransform,
+    /// The reference whose coordinates part space is.
+    #[pyo3(get)]
+    reference: Option<String>,
+    /// How it was found: `global`, `icp` or `icp-ga`.
+    #[pyo3(get)]
+    method: &'static str,
+    /// Root mean square distance of the closest points, metres.
+    #[pyo3(get)]
+    rms_m: f64,
+    /// Share of what was seen that lies on the reference, 0..1.
+    #[pyo3(get)]
+    overlap: f64,
+    /// The part's middle is within this of the truth in 95 of 100 cases, metres; `None` if nothing holds it.
+    #[pyo3(get)]
+    shift_bound_m: Option<f64>,
+    /// Likewise its turn, radians.
+    #[pyo3(get)]
+    turn_bound_rad: Option<f64>,
+    /// How the part could move and still fit; `None` if the pose is constrained.
+    #[pyo3(get)]
+    unconstrained: Option<String>,
+    /// Why the search ended: `converged`, `below_target`, `iteration_limit` or `no_progress`.
+    #[pyo3(get)]
+    stopped: &'static str,
+    /// True if another pose fits nearly as well.
+    #[pyo3(get)]
+    ambiguous: bool,
+    /// True if it may be another model of the part, so that the pose is only about right.
+    #[pyo3(get)]
+    approximate: bool,
+}
+
+impl Pose {
+    fn of(pose: &PoseEstimate, reference: Option<String>, is_approximate: bool) -> Self {
+        let held = pose.uncertainty.filter(Uncertainty::is_held);
+        let freedom = pose.uncertainty.and_then(|bounds| bounds.freedom);
+        Self {
+            camera_from_part: pose.camera_from_part(),
+            reference,
+            method: pose.method.name(),
+            rms_m: pose.fit.rms_m,
+            overlap: pose.fit.overlap,
+            shift_bound_m: held.map(|bounds| bounds.shift.0),
+            turn_bound_rad: held.map(|bounds| bounds.turn.0),
+            unconstrained: freedom.map(|freedom| freedom.to_string()),
+            stopped: pose.stopped.name(),
+            ambiguous: pose.is_ambiguous(),
+            approximate: is_approximate,
+        }
+    }
+}
+
+#[pymethods]
+impl Pose {
+    /// Takes part space to camera space, 4×4, metres: a new array each time.
+    #[getter]
+    fn camera_from_part<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        matrix_of(py, &self.camera_from_part)
+    }
+}

@@ -1,0 +1,28 @@
+//! The Python package `partsight`: numpy arrays and files in, typed results out.
+//!
+//! Every class is immutable or locks what changes, so that objects may be shared between threads. Whatever takes longer
+//! than a copy runs without the interpreter's lock; [`interrupt`] says how Ctrl-C stops it. Types are in
+//! `package/partsight/__init__.pyi`, texts for `help()` beside each function.
+
+mod alignment;
+mod arrays;
+mod error;
+mod inspection;
+mod interrupt;
+mod library;
+mod recipe;
+mod scene;
+
+/// Recognises car body parts in depth captures and estimates their pose.
+#[pyo3::pymodule]
+mod _partsight {
+    #[pymodule_export]
+    use crate::{
+        alignment::{Alignment, align, read_points},
+        error::PartsightError,
+        inspection::{Inspection, Pose, inspect},
+        library::Library,
+        recipe::Recipe,
+        scene::{Scene, SimulatedFrame, simulate_frame},
+    };
+}

@@ -1,0 +1,210 @@
+//! The enrolled parts.
+
+use std::{
+    collections::BTreeMap,
+    path::PathBuf,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
+
+use jiff::Timestamp;
+use numpy::PyArrayDyn;
+use partsight::{
+    EnrolParams, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, NamedRecipe,
+    PartDescription, PartName, enrol_captured,
+    library::{MAX_TITLE, most_similar},
+    open_library,
+};
+use pyo3::prelude::*;
+
+use crate::{
+    arrays::points_of,
+    error::{advised, refused, warn},
+    recipe::Recipe,
+    scene::Scene,
+};
+
+/// A library of enrolled parts, prepared for inspections.
+#[pyclass(frozen, module = "partsight")]
+pub(crate) struct Library {
+    place: LibraryPlace,
+    /// By which its references are prepared.
+    pub(crate) recipe: NamedRecipe,
+    /// Replaced whole when a part was enrolled.
+    loaded: Mutex<Arc<LibraryLoad>>,
+}
+
+impl Library {
+    /// What is enrolled now; it stays as it is for whoever holds it.
+    pub(crate) fn loaded(&self) -> Arc<LibraryLoad> {
+        self.lock().clone()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Arc<LibraryLoad>> {
+        // It is only ever replaced whole.
+        self.loaded.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn load(
+        py: Python<'_>,
+        recipe: Option<&Recipe>,
+        open: impl Send + FnOnce() -> Result<LibraryPlace, LibraryError>,
+    ) -> PyResult<Self> {
+        let recipe = recipe.map_or_else(NamedRecipe::default, |given| given.recipe.clone());
+        let params = recipe.reference_params();
+        let (place, load) = py
+            .detach(|| {
+                let place = open()?;
+                let load = place.load(&params)?;
+                Ok((place, load))
+            })
+            .map_err(|error: LibraryError| advised(error))?;
+        for problem in &load.problems {
+            warn(py, problem)?;
+        }
+        for warning in &load.warnings {
+            warn(py, warning)?;
+        }
+        Ok(Self {
+            place,
+            recipe,
+            loaded: Mutex::new(Arc::new(load)),
+        })
+    }
+}
+
+#[pymethods]
+impl Library {
+    /// Opens a library's folder; without a path your own, as the window and the commands use it, which is filled with the
+    /// eight shipped parts the first time.
+    ///
+    /// Parts are prepared by the parameters of the recipe. A damaged part is left out with a `UserWarning`.
+    #[staticmethod]
+    #[pyo3(signature = (path = None, *, recipe = None))]
+    fn open(py: Python<'_>, path: Option<PathBuf>, recipe: Option<&Recipe>) -> PyResult<Self> {
+        Self::load(py, recipe, move || open_library(path.as_deref()))
+    }
+
+    /// Opens a library's folder, which is made if it is not there.
+    #[staticmethod]
+    #[pyo3(signature = (path, *, recipe = None))]
+    fn create(py: Python<'_>, path: PathBuf, recipe: Option<&Recipe>) -> PyResult<Self> {
+        Self::load(py, recipe, move || {
+            LibraryFolder::open_or_create(&path).map(LibraryPlace::Given)
+        })
+    }
+
+    /// Its folder; `None` of the parts inside the program, where there is no folder for your own.
+    #[getter]
+    fn path(&self) -> Option<PathBuf> {
+        self.place.folder().map(|folder| folder.path().to_owned())
+    }
+
+    /// The names of the parts that an inspection may find, in order.
+    #[getter]
+    fn parts(&self) -> Vec<String> {
+        let loaded = self.loaded();
+        let names = loaded.parts.iter().map(|part| part.part_name().to_string());
+        let mut names: Vec<String> = names.collect();
+        names.sort();
+        names.dedup();
+        names
+    }
+
+    /// The titles of all references by their names; a part may have several references.
+    #[getter]
+    fn titles(&self) -> BTreeMap<String, String> {
+        let loaded = self.loaded();
+        let titled = loaded
+            .parts
+            .iter()
+            .map(|part| (part.name.to_string(), part.shown_title().to_owned()));
+        titled.collect()
+    }
+
+    /// The cloud of a reference in part space, metres, float32 of the shape (N, 3): a new array each time.
+    fn points<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
+        let loaded = self.loaded();
+        let mut references = loaded.library.references.iter();
+        let Some(found) = references.find(|reference| reference.enrolled_as == name) else {
+            return Err(advised(LibraryError::NoSuchPart {
+                path: self.place.location().into(),
+                name: name.to_owned(),
+                available: self.titles().into_keys().collect(),
+            }));
+        };
+        points_of(py, &found.cloud)
+    }
+
+    /// Enrols the part that stands in a capture, seen from one side; part space is the camera's space of that moment.
+    ///
+    /// A part of the same name goes to the library's trash. What is odd about the part, or which other it cannot be told
+    /// from, is a `UserWarning`. Inspections that began before use the library as it was.
+    #[pyo3(signature = (scene, name, *, title = "", notes = ""))]
+    fn enrol(
+        &self,
+        py: Python<'_>,
+        scene: &Scene,
+        name: &str,
+        title: &str,
+        notes: &str,
+    ) -> PyResult<()> {
+        let folder = match &self.place {
+            LibraryPlace::Given(folder) | LibraryPlace::User(folder) => folder,
+            LibraryPlace::Program(reason) => {
+                return Err(refused(
+                    reason,
+                    "Open a folder of your own: Library.create(path)",
+                ));
+            }
+        };
+        let found = title.chars().count();
+        if found > MAX_TITLE {
+            let message = format!("the title has {found} characters, at most {MAX_TITLE} are kept");
+            return Err(refused(message, "Put the rest into the notes"));
+        }
+        let about = PartDescription {
+            name: PartName::new(name).map_err(advised)?,
+            title: title.to_owned(),
+            notes: notes.to_owned(),
+            from: scene.name.clone(),
+            at: Timestamp::now(),
+            simulated: scene.scene.cloud.is_simulated,
+        };
+        let params = EnrolParams {
+            segment: self.recipe.segment.clone(),
+            ..EnrolParams::default()
+        };
+        let cloud = &scene.scene;
+        let enrolled = py
+            .detach(|| enrol_captured(cloud, &about, &params))
+            .map_err(advised)?;
+        let params = self.recipe.reference_params();
+        let load = py
+            .detach(|| {
+                folder.save(&enrolled.part)?;
+                let load = Arc::new(folder.load(&params)?);
+                *self.lock() = load.clone();
+                Ok(load)
+            })
+            .map_err(|error: LibraryError| advised(error))?;
+        for warning in &enrolled.warnings {
+            warn(py, warning)?;
+        }
+        let coverage = enrolled.part.meta.coverage;
+        let similar = most_similar(&enrolled.reference, coverage, &load.library);
+        similar.map_or(Ok(()), |similar| warn(py, &similar))
+    }
+
+    /// The number of references.
+    fn __len__(&self) -> usize {
+        self.loaded().parts.len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "<Library {:?}, {} references>",
+            self.place.location(),
+            self.__len__()
+        )
+    }
+}

@@ -1,0 +1,262 @@
+//! What a depth camera saw: from a file, from arrays or simulated.
+
+use std::{path::PathBuf, sync::Arc};
+
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods as _};
+use partsight::{
+    CellSetup, DepthFrame, Distortion, Intrinsics, PartKind, PointCloud, SceneCloud, Side,
+    read_image, scene_from_cloud, scene_from_frame, scene_from_image, simulated_frame,
+};
+use pyo3::{prelude::*, types::PyAny};
+
+use crate::{
+    arrays::{Depths, NO_POINT, cloud_of, depths_of, matrix_of, points_of},
+    error::{advised, refused, warn_about},
+};
+
+/// What a depth camera saw: points in camera space, x right, y down, z forward, in metres.
+#[pyclass(frozen, module = "partsight")]
+pub(crate) struct Scene {
+    pub(crate) name: String,
+    pub(crate) scene: Arc<SceneCloud>,
+}
+
+impl Scene {
+    fn new(name: String, scene: SceneCloud) -> Self {
+        Self {
+            name,
+            scene: Arc::new(scene),
+        }
+    }
+}
+
+#[pymethods]
+impl Scene {
+    /// Reads a capture: PCD, PLY, XYZ or CSV text, or a depth PNG with its camera beside it.
+    ///
+    /// Clouds are in metres; `scan.ply#units=mm#up=z` reads one in millimetres whose z points up. What is odd about a file
+    /// is a `UserWarning`. A file without a single reading is an empty scene: the camera was covered.
+    #[staticmethod]
+    fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let name = path.display().to_string();
+        let (scene, warnings) = py
+            .detach(|| {
+                read_image(&path).map(|(image, warnings)| (scene_from_image(image), warnings))
+            })
+            .map_err(advised)?;
+        for warning in &warnings {
+            let advice = partsight::Advice::advice(warning);
+            warn_about(py, format_args!("{name}: {warning}"), &advice)?;
+        }
+        Ok(Self::new(name, scene))
+    }
+
+    /// The scene of a depth image of the shape (H, W).
+    ///
+    /// Depths are along the optical axis, in units of `metres_per_unit`; 0, and of floats also what is negative or not
+    /// finite, is no reading. `fx`, `fy`, `cx` and `cy` are in pixels, with pixel centres at whole numbers; the image is
+    /// without lens distortion. `is_simulated` marks what no camera read.
+    #[staticmethod]
+    #[pyo3(signature = (depth, fx, fy, cx, cy, metres_per_unit, *, name = "array", is_simulated = false))]
+    #[expect(clippy::too_many_arguments, reason = "the numbers of a camera")]
+    fn from_depth(
+        py: Python<'_>,
+        depth: &Bound<'_, PyAny>,
+        fx: f64,
+        fy: f64,
+        cx: f64,
+        cy: f64,
+        metres_per_unit: f64,
+        name: &str,
+        is_simulated: bool,
+    ) -> PyResult<Self> {
+        for (value, what) in [(fx, "fx"), (fy, "fy"), (metres_per_unit, "metres_per_unit")] {
+            if !(value.is_finite() && value > 0.0) {
+                let message = format!("{what} is {value}, not a number above 0");
+                return Err(refused(message, "Take it from the camera's calibration"));
+            }
+        }
+        if !(cx.is_finite() && cy.is_finite()) {
+            let message = format!("the principal point is {cx}, {cy}");
+            return Err(refused(message, "Take it from the camera's calibration"));
+        }
+        let (depths, grid) = depths_of(depth)?;
+        let intrinsics = Intrinsics {
+            width: grid.width,
+            height: grid.height,
+            fx,
+            fy,
+            cx,
+            cy,
+            distortion: Distortion::NONE,
+        };
+        let scene = py.detach(|| match depths {
+            Depths::Units(depth) => scene_from_frame(&DepthFrame {
+                intrinsics,
+                metres_per_unit,
+                depth,
+                is_simulated,
+            }),
+            Depths::Floats(depth) => {
+                scene_of_floats(&depth, intrinsics, metres_per_unit, is_simulated)
+            }
+        });
+        Ok(Self::new(name.to_owned(), scene))
+    }
+
+    /// The scene of points in camera space, in metres, of the shape (N, 3), or (H, W, 3) with the camera's rows and columns.
+    ///
+    /// Rows and columns help: without them the points are put back onto a picture, if one camera at the origin can have
+    /// seen them all. Points that are not finite are no readings. `is_simulated` marks what no camera read.
+    #[staticmethod]
+    #[pyo3(signature = (points, *, name = "array", is_simulated = false))]
+    fn from_points(
+        py: Python<'_>,
+        points: &Bound<'_, PyAny>,
+        name: &str,
+        is_simulated: bool,
+    ) -> PyResult<Self> {
+        let cloud = PointCloud {
+            is_simulated,
+            ..cloud_of(points)?
+        };
+        let scene = py.detach(|| scene_from_cloud(cloud));
+        Ok(Self::new(name.to_owned(), scene))
+    }
+
+    /// What it was opened as; the `scene` of the JSON line.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The points in metres, float32, of the shape (H, W, 3), NaN without a reading, or (N, 3): a new array each time.
+    ///
+    /// Of an image finer than the method needs they are fewer than its pixels.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
+        points_of(py, &self.scene.cloud)
+    }
+
+    /// `(fx, fy, cx, cy)` of the camera in pixels of `points`; `None` if no camera is known.
+    #[getter]
+    fn intrinsics(&self) -> Option<(f64, f64, f64, f64)> {
+        self.scene.intrinsics.map(four_numbers)
+    }
+
+    /// True if no camera read it.
+    #[getter]
+    fn is_simulated(&self) -> bool {
+        self.scene.cloud.is_simulated
+    }
+
+    fn __repr__(&self) -> String {
+        let num_readings = self.scene.cloud.num_finite();
+        format!("<Scene {:?}, {num_readings} readings>", self.name)
+    }
+}
+
+fn four_numbers(camera: Intrinsics) -> (f64, f64, f64, f64) {
+    (camera.fx, camera.fy, camera.cx, camera.cy)
+}
+
+/// A depth frame has whole units only, so the depths become points on the camera's rays.
+fn scene_of_floats(
+    depth: &[f32],
+    camera: Intrinsics,
+    metres_per_unit: f64,
+    is_simulated: bool,
+) -> SceneCloud {
+    let point = |(i, depth): (usize, &f32)| {
+        let z = f64::from(*depth) * metres_per_unit;
+        let (u, v) = ((i % camera.width) as f64, (i / camera.width) as f64);
+        let point = camera.point_at(u, v, z).cast::<f32>();
+        let is_reading = z > 0.0 && point.iter().all(|x| x.is_finite());
+        if is_reading { point } else { NO_POINT }
+    };
+    let mut scene = scene_from_cloud(PointCloud {
+        points: depth.iter().enumerate().map(point).collect(),
+        grid: Some(partsight::Grid {
+            width: camera.width,
+            height: camera.height,
+        }),
+        is_simulated,
+        ..PointCloud::default()
+    });
+    if scene.cloud.grid.is_some() {
+        // It was fitted to the points; this is the one that made them.
+        let block_side = scene.reduced.as_ref().map_or(1, |from| from.block_side);
+        scene.intrinsics = Some(camera.in_blocks(block_side));
+    }
+    scene
+}
+
+/// A frame of the simulated cell, with the truth.
+#[pyclass(frozen, module = "partsight")]
+pub(crate) struct SimulatedFrame {
+    frame: partsight::SimulatedFrame,
+}
+
+#[pymethods]
+impl SimulatedFrame {
+    /// The depths in units of `metres_per_unit`, uint16 of the shape (H, W); 0 is no reading. A new array each time.
+    #[getter]
+    fn depth<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u16>>> {
+        let Intrinsics { width, height, .. } = self.frame.frame.intrinsics;
+        PyArray1::from_slice(py, &self.frame.frame.depth).reshape([height, width])
+    }
+
+    /// `(fx, fy, cx, cy)` in pixels.
+    #[getter]
+    fn intrinsics(&self) -> (f64, f64, f64, f64) {
+        four_numbers(self.frame.frame.intrinsics)
+    }
+
+    /// Metres that one unit of `depth` stands for.
+    #[getter]
+    fn metres_per_unit(&self) -> f64 {
+        self.frame.frame.metres_per_unit
+    }
+
+    /// The truth, 4×4: takes the coordinates of the simulated model to the camera's. An enrolled part has other
+    /// coordinates, those of the camera that saw it.
+    #[getter]
+    fn camera_from_model<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        matrix_of(py, &self.frame.truth.camera_from_part)
+    }
+
+    /// The scene that it shows.
+    fn scene(&self, py: Python<'_>) -> Scene {
+        let scene = py.detach(|| scene_from_frame(&self.frame.frame));
+        Scene::new("simulated".into(), scene)
+    }
+}
+
+/// Takes a frame of a simulated cell: a part in front of a wall and a floor, with a Kinect's noise.
+///
+/// The seed draws the pose, the cell and the noise; the same arguments give the same frame.
+#[pyfunction]
+#[pyo3(signature = (part = "fender", *, side = "left", seed = 1))]
+pub(crate) fn simulate_frame(
+    py: Python<'_>,
+    part: &str,
+    side: &str,
+    seed: u64,
+) -> PyResult<SimulatedFrame> {
+    let kind = PartKind::from_name(part).ok_or_else(|| {
+        let names = PartKind::ALL.map(PartKind::name).join(", ");
+        refused(
+            format!("there is no simulated part {part:?}"),
+            &format!("Name one of {names}"),
+        )
+    })?;
+    let side = Side::from_name(side).ok_or_else(|| {
+        refused(
+            format!("there is no side {side:?}"),
+            "Name one of left, right",
+        )
+    })?;
+    let setup = CellSetup::with_part(kind, side, 0, seed);
+    let frame = py.detach(|| simulated_frame(&setup));
+    Ok(SimulatedFrame { frame })
+}
