@@ -4,7 +4,10 @@ use std::{io, path::PathBuf};
 
 use thiserror::Error;
 
-use super::kinect::{KinectError, KinectWarning};
+use super::{
+    genicam::{GenicamError, GenicamWarning},
+    kinect::{KinectError, KinectWarning},
+};
 use crate::{
     error::Advice,
     files::{FileError, FileWarning, advice_on, words_of},
@@ -41,6 +44,9 @@ pub enum CaptureError {
     /// A Kinect.
     #[error(transparent)]
     Kinect(#[from] KinectError),
+    /// A GenICam camera.
+    #[error(transparent)]
+    Genicam(#[from] GenicamError),
     /// A folder without anything to replay.
     #[error("{}: no recording, and no file of a camera", path.display())]
     NoFrames {
@@ -119,6 +125,7 @@ impl CaptureError {
                 Recovery::AskAgain
             }
             Self::Kinect(error) => error.recovery(),
+            Self::Genicam(error) => error.recovery(),
             Self::FolderGone { .. }
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }
@@ -157,6 +164,7 @@ impl Advice for CaptureError {
                 )
             }
             Self::Kinect(error) => error.advice(),
+            Self::Genicam(error) => error.advice(),
             Self::NoFrames { path } => format!(
                 "Give the folder that holds the frames; partsight capture --out {} makes one",
                 path.display()
@@ -182,6 +190,9 @@ pub enum CaptureWarning {
     /// About a Kinect.
     #[error(transparent)]
     Kinect(#[from] KinectWarning),
+    /// About a GenICam camera.
+    #[error(transparent)]
+    Genicam(#[from] GenicamWarning),
     /// A recording whose end is missing.
     #[error("the recording was cut off; its {num_frames} whole frames are replayed")]
     CutOff {
@@ -208,6 +219,7 @@ impl Advice for CaptureWarning {
         match self {
             Self::File(warning) => warning.advice(),
             Self::Kinect(warning) => warning.advice(),
+            Self::Genicam(warning) => warning.advice(),
             Self::CutOff { .. } => {
                 "Record again if the end matters; leave room on the disk and stop before pulling out a stick".into()
             }

@@ -1,4 +1,4 @@
-//! Where frames come from: the simulated cell, recordings, a watched folder, a Kinect.
+//! Where frames come from: the simulated cell, recordings, a watched folder, a Kinect, a GenICam camera.
 //!
 //! ```text
 //! SourceSpec ─► open ─► DepthSource ─► Feed ─► Captured, to be inspected, recorded or shown
@@ -8,8 +8,10 @@
 //! A [`DepthSource`] is opened, used and dropped on one thread: some camera libraries want that. [`Feed`] is that
 //! thread; whoever can wait for frames on its own thread may also use a source directly.
 
+mod driver_search;
 mod error;
 mod feed;
+mod genicam;
 mod kinect;
 mod open;
 mod rate;
@@ -22,6 +24,7 @@ mod watched;
 
 pub use self::error::{CaptureError, CaptureWarning, Recovery};
 pub use self::feed::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus};
+pub use self::genicam::{GenicamError, GenicamWarning};
 pub use self::kinect::{KinectError, KinectWarning};
 pub use self::open::{SourceListing, list, open};
 pub use self::rate::FrameRate;
@@ -32,7 +35,7 @@ pub use self::recording::{Recorder, Replay};
 pub use self::simulated::SimulatedCell;
 pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};
 pub use self::spec::{
-    CellScene, KinectSpec, Pace, RecordingSpec, SimulatedPose, SimulatedSpec, SourceSpec,
-    SpecError, WatchedFrom, WatchedSpec,
+    CellScene, GenicamFormat, GenicamSpec, KinectSpec, Pace, RecordingSpec, SimulatedPose,
+    SimulatedSpec, SourceSpec, SpecError, WatchedFrom, WatchedSpec,
 };
 pub use self::watched::WatchedFolder;

@@ -2,7 +2,7 @@
 
 use super::{
     error::CaptureError,
-    kinect,
+    genicam, kinect,
     recording::Replay,
     simulated::SimulatedCell,
     source::DepthSource,
@@ -17,6 +17,7 @@ pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
         SourceSpec::Recording(spec) => Box::new(Replay::open(spec)?),
         SourceSpec::Watched(spec) => Box::new(WatchedFolder::new(spec)),
         SourceSpec::Kinect(spec) => kinect::open(spec)?,
+        SourceSpec::Genicam(spec) => genicam::open(spec)?,
     })
 }
 
@@ -38,5 +39,6 @@ pub fn list() -> Vec<SourceListing> {
         spec: Some(SourceSpec::Simulated(SimulatedSpec::default())),
         trouble: None,
     };
-    [simulated].into_iter().chain(kinect::list()).collect()
+    let cameras = kinect::list().into_iter().chain(genicam::list());
+    [simulated].into_iter().chain(cameras).collect()
 }

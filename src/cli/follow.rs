@@ -77,6 +77,9 @@ Sources:
                             options: pace=step|as-taken|10 (frames a second) camera=intrinsics.json
   watch:DIR                 new files in a folder, each once it is complete; option: from=all for those there, too
   kinect   kinect:SERIAL    a Kinect
+  genicam  genicam:ID       a 3-D camera of GigE Vision or USB3 Vision; ID as --list shows it, or its IP address
+                            options: camera=intrinsics.json (where the camera does not tell its numbers)
+                            format=Coord3D_C16|Coord3D_ABC32f|Mono16
 Options stand before the colon: simulated,side=right,noise=2:fender
 
 Examples:

@@ -49,9 +49,10 @@ impl NewFrame {
     pub fn of_source(spec: &SourceSpec) -> Self {
         match spec {
             SourceSpec::Watched(_) => Self::WrittenAfter,
-            SourceSpec::Simulated(_) | SourceSpec::Recording(_) | SourceSpec::Kinect(_) => {
-                Self::SecondArrived
-            }
+            SourceSpec::Simulated(_)
+            | SourceSpec::Recording(_)
+            | SourceSpec::Kinect(_)
+            | SourceSpec::Genicam(_) => Self::SecondArrived,
         }
     }
 }

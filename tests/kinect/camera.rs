@@ -4,14 +4,14 @@ use std::{env, ffi::OsStr, fs, time::Duration};
 
 use partsight::{
     capture::{
-        CaptureError, Image, KinectError, KinectSpec, NextCapture, Recovery, SourceSpec, list, open,
+        CaptureError, Image, KinectError, KinectSpec, NextCapture, Recovery, SourceSpec, open,
     },
     error::Advice as _,
 };
 
 use crate::{
     kit::compile_c,
-    next_capture, open_kinect,
+    listed, next_capture, open_kinect,
     own_process::{self, is_own},
     skipped, trouble, trouble_of,
 };
@@ -81,10 +81,10 @@ fn the_newest_frame_comes_in_millimetres_with_the_cameras_own_focal_length() {
 fn every_camera_is_listed_and_opened_by_its_serial_number() {
     let test = "camera::every_camera_is_listed_and_opened_by_its_serial_number";
     with_camera(test, "well", || {
-        let titles: Vec<String> = list().into_iter().map(|listed| listed.title).collect();
-        assert_eq!(titles, ["Simulated cell", "Kinect A00362", "Kinect B00417"]);
+        let titles: Vec<String> = listed().into_iter().map(|listed| listed.title).collect();
+        assert_eq!(titles, ["Kinect A00362", "Kinect B00417"]);
         calls();
-        let spec = list()
+        let spec = listed()
             .pop()
             .and_then(|last| last.spec)
             .expect("can be opened");
@@ -113,10 +113,13 @@ fn while_it_is_open_here_it_is_listed_as_in_use() {
     let test = "camera::while_it_is_open_here_it_is_listed_as_in_use";
     with_camera(test, "well", || {
         let kinect = open_kinect().expect("opens");
-        let error = list().pop().and_then(|last| last.trouble).expect("in use");
+        let error = listed()
+            .pop()
+            .and_then(|last| last.trouble)
+            .expect("in use");
         assert!(matches!(trouble_of(error), KinectError::InUse));
         drop(kinect);
-        assert!(list().pop().is_some_and(|last| last.trouble.is_none()));
+        assert!(listed().pop().is_some_and(|last| last.trouble.is_none()));
     });
 }
 
@@ -208,7 +211,7 @@ fn no_permission() {
 #[test]
 fn no_permission_is_listed() {
     with_camera("camera::no_permission_is_listed", "no permission", || {
-        let kinects = list().split_off(1);
+        let kinects = listed();
         assert_eq!(kinects.len(), 2);
         for kinect in kinects {
             let error: CaptureError = kinect.trouble.expect("not permitted");

@@ -22,7 +22,8 @@ use std::{
 };
 
 use partsight::capture::{
-    CaptureError, Captured, DepthSource, KinectError, KinectSpec, NextCapture, SourceSpec, open,
+    CaptureError, Captured, DepthSource, KinectError, KinectSpec, NextCapture, SourceListing,
+    SourceSpec, list, open,
 };
 
 /// Longer than any step of a test takes, so that only one that hangs comes to its end.
@@ -31,6 +32,13 @@ const PATIENCE: Duration = Duration::from_mins(1);
 /// The Kinect that the environment provides.
 fn open_kinect() -> Result<Box<dyn DepthSource>, CaptureError> {
     open(&SourceSpec::Kinect(KinectSpec::default()))
+}
+
+/// The Kinects among the sources, and why one cannot be opened.
+fn listed() -> Vec<SourceListing> {
+    let mut found = list();
+    found.retain(|listed| listed.title.starts_with("Kinect"));
+    found
 }
 
 /// Why it does not open.

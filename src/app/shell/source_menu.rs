@@ -1,5 +1,7 @@
 //! What Capture and Live take scenes from: the menu that it is chosen in.
 
+use std::mem::discriminant;
+
 use egui::{Button, RichText, ScrollArea, Ui, Vec2};
 
 use super::{
@@ -15,7 +17,7 @@ use crate::{
         language::text,
         ui::theme::{font, space},
     },
-    capture::{KinectSpec, SimulatedSpec, SourceSpec},
+    capture::{GenicamSpec, KinectSpec, SimulatedSpec, SourceSpec},
 };
 
 /// Width of a column, logical pixels.
@@ -86,6 +88,7 @@ pub(super) fn now(source: &Source) -> String {
                 )
             }
             SourceSpec::Kinect(_) => "Kinect".to_owned(),
+            SourceSpec::Genicam(_) => shortened(&spec.title(), 22),
         },
     }
 }
@@ -126,12 +129,7 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         Source::Cell(_) | Source::File(_) | Source::Scan(_) => None,
     };
     heading(ui, text!("shell-cameras-and-folders"));
-    let is_kinect = matches!(camera, Some(SourceSpec::Kinect(_)));
-    if ui.selectable_label(is_kinect, "Kinect").clicked() {
-        let spec = SourceSpec::Kinect(KinectSpec::default());
-        actions.push(Action::Live(LiveAction::Use(spec)));
-        ui.close();
-    }
+    cameras(ui, camera, actions);
     let is_recording = matches!(camera, Some(SourceSpec::Recording(_)));
     let is_watched = matches!(camera, Some(SourceSpec::Watched(_)));
     for (is_chosen, text, says, ask) in [
@@ -200,6 +198,19 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         let entry = ui.selectable_label(is_chosen, name);
         if entry.on_hover_text(path.display().to_string()).clicked() {
             actions.push(Action::Open(path.clone()));
+            ui.close();
+        }
+    }
+}
+
+fn cameras(ui: &mut Ui, chosen: Option<&SourceSpec>, actions: &mut Vec<Action>) {
+    for (name, spec) in [
+        ("Kinect", SourceSpec::Kinect(KinectSpec::default())),
+        ("GenICam", SourceSpec::Genicam(GenicamSpec::default())),
+    ] {
+        let is_chosen = chosen.is_some_and(|chosen| discriminant(chosen) == discriminant(&spec));
+        if ui.selectable_label(is_chosen, name).clicked() {
+            actions.push(Action::Live(LiveAction::Use(spec)));
             ui.close();
         }
     }

@@ -8,8 +8,10 @@
 //! recording:captures/monday      recording,pace=step:captures/monday
 //! watch:/mnt/scanner             watch,from=all:/mnt/scanner
 //! kinect      kinect:A00366813142045A
+//! genicam     genicam:192.168.5.20              genicam,camera=scanner.json:Vendor-3D-1234
 //! ```
 
+mod genicam;
 mod options;
 mod simulated;
 
@@ -17,6 +19,7 @@ use std::{fmt, path::PathBuf, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
+pub use self::genicam::{GenicamFormat, GenicamSpec};
 use self::options::{Options, escaped};
 pub use self::simulated::{CellScene, SimulatedPose, SimulatedSpec};
 use super::recording::is_sequence;
@@ -34,6 +37,8 @@ pub enum SourceSpec {
     Watched(WatchedSpec),
     /// A Kinect.
     Kinect(KinectSpec),
+    /// A GenICam camera.
+    Genicam(GenicamSpec),
 }
 
 /// A folder of frames to be replayed.
@@ -92,7 +97,7 @@ pub struct KinectSpec {
 pub enum SpecError {
     /// The word before the colon.
     #[error(
-        "{text:?} is no source, expected one that begins with simulated, recording, watch or kinect"
+        "{text:?} is no source, expected one that begins with simulated, recording, watch, kinect or genicam"
     )]
     UnknownKind {
         /// The whole text.
@@ -148,6 +153,7 @@ const SIMULATED: &str = "simulated";
 const RECORDING: &str = "recording";
 const WATCH: &str = "watch";
 const KINECT: &str = "kinect";
+const GENICAM: &str = "genicam";
 
 impl SourceSpec {
     /// True for the simulated cell itself; a recording says by itself whether it was simulated.
@@ -159,7 +165,7 @@ impl SourceSpec {
     /// are dropped rather than queued.
     pub fn is_live(&self) -> bool {
         match self {
-            Self::Simulated(_) | Self::Kinect(_) => true,
+            Self::Simulated(_) | Self::Kinect(_) | Self::Genicam(_) => true,
             Self::Recording(recording) => {
                 matches!(recording.pace, Some(Pace::AsTaken | Pace::PerSecond(_)))
             }
@@ -171,7 +177,7 @@ impl SourceSpec {
     /// captures that stand for themselves.
     pub fn is_followed(&self) -> bool {
         match self {
-            Self::Simulated(_) | Self::Kinect(_) => true,
+            Self::Simulated(_) | Self::Kinect(_) | Self::Genicam(_) => true,
             Self::Recording(recording) => is_sequence(&recording.folder),
             Self::Watched(_) => false,
         }
@@ -192,6 +198,7 @@ impl SourceSpec {
             Self::Simulated(spec) => spec.title(),
             Self::Recording(spec) => format!("Recording {}", spec.folder.display()),
             Self::Watched(spec) => format!("Folder {}", spec.folder.display()),
+            Self::Genicam(spec) => spec.title(),
             Self::Kinect(KinectSpec { serial: None, .. }) => "Kinect".into(),
             Self::Kinect(KinectSpec {
                 serial: Some(serial),
@@ -249,6 +256,10 @@ impl FromStr for SourceSpec {
                         .value("library", "a path", |path| Some(PathBuf::from(path)))?,
                 }))
             }
+            GENICAM => {
+                let options = Options::split(GENICAM, options, GenicamSpec::OPTIONS)?;
+                GenicamSpec::read(what, &options).map(Self::Genicam)
+            }
             _ => Err(SpecError::UnknownKind {
                 text: text.to_owned(),
             }),
@@ -298,6 +309,7 @@ impl fmt::Display for SourceSpec {
                 }
                 write!(f, ":{}", folder.display())
             }
+            Self::Genicam(spec) => spec.write(f),
             Self::Kinect(KinectSpec { serial, library }) => {
                 f.write_str(KINECT)?;
                 if let Some(library) = library {
@@ -353,6 +365,9 @@ mod tests {
             "kinect",
             "kinect:A00366813142045A",
             "kinect,library=/opt/a%2Cb%3Ac%25/lib:A0",
+            "genicam",
+            "genicam:192.168.5.20",
+            "genicam,format=Mono16,camera=my camera.json,library=/opt/a%2Cb:Vendor, 3D:1",
         ] {
             assert_eq!(read(text).to_string(), text);
             let json = serde_json::to_string(&read(text)).unwrap();
@@ -392,6 +407,9 @@ mod tests {
             ("recording,pace=0:x", "frames a second"),
             ("recording,pace=-1:x", "frames a second"),
             ("recording,pace=inf:x", "frames a second"),
+            ("genicam,format=Mono8", "Mono16 if it is depth"),
+            ("genicam,camera=:x", "expected a file"),
+            ("genicam,scale=1", "format camera library"),
             ("watch,speed=3:x", "has no option \"speed\""),
             ("simulated:bonnet", "expected"),
             ("simulated,noise=9", "from 0 to 5"),

@@ -351,7 +351,10 @@ fn source(session: &Session) -> Result<SceneSource, UserError> {
 fn num_frames(spec: &SourceSpec) -> usize {
     match spec {
         SourceSpec::Watched(_) => 1,
-        SourceSpec::Simulated(_) | SourceSpec::Recording(_) | SourceSpec::Kinect(_) => USUAL_FRAMES,
+        SourceSpec::Simulated(_)
+        | SourceSpec::Recording(_)
+        | SourceSpec::Kinect(_)
+        | SourceSpec::Genicam(_) => USUAL_FRAMES,
     }
 }
 

@@ -1,0 +1,323 @@
+//! A GenICam camera (GigE Vision, USB3 Vision), through aravis.
+//!
+//! Depth comes as `Coord3D_C16`, points as `Coord3D_ABC32f`; what their values stand for is read from the camera
+//! (`scan3d`) or, of depth, from a file in the form of those beside depth images. `Mono16` is depth only if a
+//! person says so, because most cameras send grey values in it.
+//!
+//! Pixel format and acquisition mode are set; exposure, region and all else stay as the camera has them.
+
+mod aravis;
+mod error;
+mod scan3d;
+
+use std::{
+    ffi::CString,
+    net::IpAddr,
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+
+pub use self::error::{GenicamError, GenicamWarning};
+use self::{
+    aravis::{Aravis, Device, Frame, Library},
+    scan3d::{Decoder, FOCAL_LENGTH, Scan3d},
+};
+use super::{
+    driver_search::DriverNames,
+    error::{CaptureError, CaptureWarning},
+    open::SourceListing,
+    source::{Captured, DepthSource, Image, NextCapture, SkippedCapture},
+    spec::{GenicamFormat, GenicamSpec, SourceSpec},
+};
+use crate::files::DepthCamera;
+
+/// Names a file or a folder with aravis; the source's own setting goes before it.
+const VARIABLE: &str = "PARTSIGHT_ARAVIS";
+
+const NAMES: &[&str] = if cfg!(target_os = "macos") {
+    &[
+        "libaravis-0.8.0.dylib",
+        "libaravis-0.8.dylib",
+        // Homebrew's folder on Apple's own processors is none of those that the system looks into.
+        "/opt/homebrew/lib/libaravis-0.8.0.dylib",
+    ]
+} else if cfg!(windows) {
+    &["libaravis-0.8-0.dll", "aravis-0.8-0.dll"]
+} else {
+    &["libaravis-0.8.so.0", "libaravis-0.8.so"]
+};
+
+/// A camera that sends nothing while it is waited for so long is lost. The library needs about 5 s to notice that a
+/// GigE camera is gone, which is the better message.
+const SILENCE: Duration = Duration::from_secs(8);
+
+/// An open camera whose stream runs. Dropped, it stops the stream and lets the camera go.
+pub(super) struct Genicam {
+    /// `None` once it is lost.
+    device: Option<Device>,
+    title: String,
+    format: GenicamFormat,
+    decoder: Decoder,
+    /// Whole frames and others.
+    num_frames: u64,
+    /// How long it was waited for since the last frame. Pauses in which nobody waited do not count.
+    silent_for: Duration,
+    warnings: Vec<CaptureWarning>,
+}
+
+/// Opens the camera of that ID, or the first one that answers, and starts its stream.
+pub(super) fn open(spec: &GenicamSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
+    Ok(Box::new(Genicam::open(spec)?))
+}
+
+/// The cameras that answer, or why there is none, with aravis where the environment or the system has it. Takes about
+/// a second, for which cameras may answer.
+pub(super) fn list() -> Vec<SourceListing> {
+    let found = library(&GenicamSpec::default()).and_then(|aravis| match &aravis.devices()[..] {
+        [] => Err(GenicamError::NoDevice),
+        found => Ok(found.iter().map(|device| device.id.clone()).collect()),
+    });
+    let ids: Vec<String> = match found {
+        Ok(ids) => ids,
+        Err(error) => {
+            return vec![SourceListing {
+                title: "GenICam".into(),
+                spec: None,
+                trouble: Some(error.into()),
+            }];
+        }
+    };
+    let listing = |id| {
+        let spec = SourceSpec::Genicam(GenicamSpec {
+            device: Some(id),
+            ..GenicamSpec::default()
+        });
+        SourceListing {
+            title: spec.title(),
+            spec: Some(spec),
+            trouble: None,
+        }
+    };
+    ids.into_iter().map(listing).collect()
+}
+
+fn library(spec: &GenicamSpec) -> Result<Aravis, GenicamError> {
+    let driver = DriverNames {
+        variable: VARIABLE,
+        names: NAMES,
+    };
+    let (found, name) = driver.find(spec.library.as_deref(), Library::load)?;
+    found
+        .complete()
+        .map_err(|symbol| GenicamError::MissingSymbol {
+            library: name,
+            symbol,
+        })
+}
+
+/// The ID that opens the camera asked for, or the first one that answers.
+fn find_device(aravis: Aravis, wanted: Option<&str>) -> Result<String, GenicamError> {
+    // Also where an address is known: the library keeps cameras that are gone until it searches again.
+    let found = aravis.devices();
+    let Some(wanted) = wanted else {
+        let first = found.into_iter().next().ok_or(GenicamError::NoDevice)?;
+        return Ok(first.id);
+    };
+    let asked = found
+        .iter()
+        .find(|device| device.id == wanted || device.address.as_deref() == Some(wanted));
+    match asked {
+        Some(device) => Ok(device.id.clone()),
+        // The search does not reach behind a router, the camera may.
+        None if wanted.parse::<IpAddr>().is_ok() => Ok(wanted.to_owned()),
+        None if found.is_empty() => Err(GenicamError::NoDevice),
+        None => Err(GenicamError::NoSuchDevice {
+            device: wanted.to_owned(),
+            found: found.into_iter().map(|device| device.id).collect(),
+        }),
+    }
+}
+
+/// The pixel format to set: the one asked for, else depth whose numbers are known, else points.
+fn choose(
+    asked: Option<GenicamFormat>,
+    offered: Vec<String>,
+    knows_camera: bool,
+) -> Result<GenicamFormat, GenicamError> {
+    let is_offered = |format: &GenicamFormat| offered.iter().any(|name| name == format.name());
+    if let Some(format) = asked {
+        return if is_offered(&format) {
+            Ok(format)
+        } else {
+            Err(GenicamError::FormatNotOffered {
+                format: format.name(),
+                offered,
+            })
+        };
+    }
+    let preferred = if knows_camera {
+        [GenicamFormat::Coord3dC16, GenicamFormat::Coord3dAbc32f]
+    } else {
+        [GenicamFormat::Coord3dAbc32f, GenicamFormat::Coord3dC16]
+    };
+    preferred
+        .into_iter()
+        .find(is_offered)
+        .ok_or(GenicamError::NoDepthFormat { offered })
+}
+
+impl Genicam {
+    fn open(spec: &GenicamSpec) -> Result<Self, CaptureError> {
+        let file = spec.camera.as_deref().map(DepthCamera::read).transpose()?;
+        let aravis = library(spec)?;
+        let id = find_device(aravis, spec.device.as_deref())?;
+        let mut device = aravis.open(&id).map_err(not_opened)?;
+        if !device.has_control() {
+            return Err(GenicamError::InUse.into());
+        }
+        // Of a camera with several sensors or maps, formats are those of the selected one; others have no such node.
+        let _ = device.set(c"ComponentSelector", c"Range");
+        let offered = device.pixel_formats().map_err(not_opened)?;
+        let knows_camera = file.is_some() || device.has(FOCAL_LENGTH).map_err(not_opened)?;
+        let format = choose(spec.format, offered, knows_camera)?;
+        let name = CString::new(format.name()).unwrap_or_default();
+        device.set(c"PixelFormat", &name).map_err(not_opened)?;
+        let nodes = Scan3d::read(&device, format).map_err(not_opened)?;
+        let (decoder, warnings) = nodes.decoder(format, file)?;
+        if device.has(c"AcquisitionMode").map_err(not_opened)? {
+            let set = device.set(c"AcquisitionMode", c"Continuous");
+            set.map_err(not_opened)?;
+        }
+        device
+            .start()
+            .map_err(|said| GenicamError::NotStarted { said })?;
+        let spec = GenicamSpec {
+            device: Some(id),
+            ..spec.clone()
+        };
+        Ok(Self {
+            device: Some(device),
+            title: spec.title(),
+            format,
+            decoder,
+            num_frames: 0,
+            silent_for: Duration::ZERO,
+            warnings,
+        })
+    }
+
+    /// What one frame is: a capture, or a frame that is skipped and counted.
+    fn next_of(&self, frame: &Frame<'_>) -> NextCapture {
+        let name = format!("GenICam frame {}", self.num_frames);
+        let part = || {
+            let part = frame.part(self.format.number());
+            part.ok_or_else(|| format!("it is not {}", self.format.name()))
+        };
+        let image = frame
+            .whole()
+            .map_err(str::to_owned)
+            .and_then(|()| self.decoder.image(part()?));
+        match image {
+            Ok(image) => NextCapture::Captured(self.captured(name, frame, image)),
+            Err(what) => NextCapture::Skipped(SkippedCapture {
+                name,
+                error: std::sync::Arc::new(GenicamError::BadFrame { what }.into()),
+            }),
+        }
+    }
+
+    fn captured(&self, name: String, frame: &Frame<'_>, image: Image) -> Captured {
+        let taken_at = Timestamp::from_nanosecond(i128::from(frame.received_at()));
+        Captured {
+            number: self.num_frames,
+            name,
+            taken_at: taken_at.unwrap_or_else(|_| Timestamp::now()),
+            arrived: Instant::now(),
+            is_simulated: image.is_simulated(),
+            image,
+            truth: None,
+            robot_from_flange: None,
+            warnings: self.warnings.clone(),
+        }
+    }
+
+    /// Lets the camera go.
+    fn end(&mut self, reason: GenicamError) -> Result<NextCapture, CaptureError> {
+        self.device = None;
+        Err(reason.into())
+    }
+}
+
+fn not_opened(said: String) -> GenicamError {
+    GenicamError::NotOpened { said }
+}
+
+impl DepthSource for Genicam {
+    fn title(&self) -> String {
+        self.title.clone()
+    }
+
+    fn is_simulated(&self) -> bool {
+        self.decoder.is_simulated()
+    }
+
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
+        let start = Instant::now();
+        let Some(device) = &self.device else {
+            return Ok(NextCapture::End);
+        };
+        if let Some(frame) = device.receive(wait) {
+            self.silent_for = Duration::ZERO;
+            self.num_frames += 1;
+            return Ok(self.next_of(&frame));
+        }
+        self.silent_for += start.elapsed();
+        if !device.has_control() {
+            return self.end(GenicamError::Lost { said: None });
+        }
+        if self.silent_for < SILENCE {
+            return Ok(NextCapture::NotYet);
+        }
+        // One that is unplugged does not answer either.
+        let reason = match device.frame_bytes() {
+            Ok(_) => GenicamError::Silent {
+                seconds: self.silent_for.as_secs(),
+            },
+            Err(said) => GenicamError::Lost { said: Some(said) },
+        };
+        self.end(reason)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depth_is_preferred_where_its_numbers_are_known_and_mono16_is_never_guessed() {
+        use GenicamFormat::{Coord3dAbc32f, Coord3dC16, Mono16};
+        let offered = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect();
+        let both = ["Mono8", "Mono16", "Coord3D_C16", "Coord3D_ABC32f"];
+        for (asked, names, knows_camera, expected) in [
+            (None, &both[..], true, Coord3dC16),
+            (None, &both[..], false, Coord3dAbc32f),
+            (None, &both[..3], false, Coord3dC16),
+            (None, &both[3..], true, Coord3dAbc32f),
+            (Some(Mono16), &both[..], true, Mono16),
+        ] {
+            let chosen = choose(asked, offered(names), knows_camera).expect("offered");
+            assert_eq!(chosen, expected, "{names:?} {knows_camera}");
+        }
+        let refused = choose(None, offered(&both[..2]), true).expect_err("grey values");
+        assert!(
+            refused.to_string().contains("only Mono8, Mono16"),
+            "{refused}"
+        );
+        let refused = choose(Some(Mono16), offered(&both[..1]), true).expect_err("not offered");
+        assert!(
+            refused.to_string().contains("does not offer Mono16"),
+            "{refused}"
+        );
+    }
+}

@@ -1,0 +1,288 @@
+//! Why there is no picture from a GenICam camera, and what to do about it.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::VARIABLE;
+use crate::{
+    capture::{Recovery, driver_search::NotLoaded},
+    error::Advice,
+};
+
+/// Why a GenICam camera cannot be used, gives nothing more, or one frame of it cannot be read.
+#[derive(Debug, Error)]
+pub enum GenicamError {
+    /// The system has no aravis.
+    #[error("aravis, the library for GenICam cameras, is not installed")]
+    NoLibrary,
+    /// The place that a setting names has none.
+    #[error("{}: no aravis there", path.display())]
+    LibraryNotAt {
+        /// The file or folder, as it was given.
+        path: PathBuf,
+    },
+    /// There is one and the system cannot load it.
+    #[error("{library} cannot be loaded: {reason}")]
+    LibraryUnusable {
+        /// Its name or path.
+        library: String,
+        /// The system's words.
+        reason: String,
+    },
+    /// It is older, or no aravis at all.
+    #[error("{library} has no function {symbol}: not aravis 0.8.26 or a newer 0.8")]
+    MissingSymbol {
+        /// Its name or path.
+        library: String,
+        /// The function.
+        symbol: &'static str,
+    },
+    /// No camera answered.
+    #[error("no GenICam camera answers, on no network interface and on no USB port")]
+    NoDevice,
+    /// Others answered than the one asked for.
+    #[error("no GenICam camera {device} answers, only {}", found.join(", "))]
+    NoSuchDevice {
+        /// The one asked for.
+        device: String,
+        /// Those there are.
+        found: Vec<String>,
+    },
+    /// It is there and does not open, or one of its nodes cannot be read.
+    #[error("the camera does not open: {said}")]
+    NotOpened {
+        /// What the library says.
+        said: String,
+    },
+    /// Another program controls it.
+    #[error("the camera is in use by another program")]
+    InUse,
+    /// It offers nothing that is known to be depth.
+    #[error("the camera offers no depth, only {}", offered.join(", "))]
+    NoDepthFormat {
+        /// Its pixel formats.
+        offered: Vec<String>,
+    },
+    /// It does not offer the pixel format asked for.
+    #[error("the camera does not offer {format}, only {}", offered.join(", "))]
+    FormatNotOffered {
+        /// The one asked for.
+        format: &'static str,
+        /// Its pixel formats.
+        offered: Vec<String>,
+    },
+    /// It does not say what is needed to turn its pixels into lengths.
+    #[error("the camera does not tell its {node}, which its depth images need")]
+    Untold {
+        /// The node that it lacks.
+        node: &'static str,
+    },
+    /// It sends something else than depth along the optical axis, or points in its own frame.
+    #[error("{node} of the camera is {found}, expected {expected}")]
+    WrongSetting {
+        /// The node.
+        node: &'static str,
+        /// Its value.
+        found: String,
+        /// Values that can be read.
+        expected: &'static str,
+    },
+    /// It opens, and its stream does not start.
+    #[error("the camera does not start: {said}")]
+    NotStarted {
+        /// What the library says.
+        said: String,
+    },
+    /// One frame did not arrive whole, or is no picture of the expected kind.
+    #[error("a frame of the camera cannot be used: {what}")]
+    BadFrame {
+        /// What is wrong with it.
+        what: String,
+    },
+    /// It was unplugged, its power went, or another program took it.
+    #[error("the camera is gone{}", said.as_ref().map(|said| format!(": {said}")).unwrap_or_default())]
+    Lost {
+        /// What the library says.
+        said: Option<String>,
+    },
+    /// It answers and sends nothing.
+    #[error("the camera sent nothing for {seconds} s")]
+    Silent {
+        /// How long.
+        seconds: u64,
+    },
+}
+
+impl From<NotLoaded> for GenicamError {
+    fn from(error: NotLoaded) -> Self {
+        match error {
+            NotLoaded::Absent => Self::NoLibrary,
+            NotLoaded::NotAt(path) => Self::LibraryNotAt { path },
+            NotLoaded::Unusable { library, reason } => Self::LibraryUnusable { library, reason },
+        }
+    }
+}
+
+impl GenicamError {
+    /// What helps: a camera may be plugged in, let go or set at any time, a library does not come by itself.
+    pub(crate) fn recovery(&self) -> Recovery {
+        match self {
+            Self::NoDevice
+            | Self::NoSuchDevice { .. }
+            | Self::NotOpened { .. }
+            | Self::InUse
+            | Self::NotStarted { .. }
+            | Self::Lost { .. }
+            | Self::Silent { .. } => Recovery::Reopen,
+            Self::BadFrame { .. } => Recovery::AskAgain,
+            Self::NoLibrary
+            | Self::LibraryNotAt { .. }
+            | Self::LibraryUnusable { .. }
+            | Self::MissingSymbol { .. }
+            | Self::NoDepthFormat { .. }
+            | Self::FormatNotOffered { .. }
+            | Self::Untold { .. }
+            | Self::WrongSetting { .. } => Recovery::None,
+        }
+    }
+}
+
+const INSTALL: &str = if cfg!(target_os = "macos") {
+    "brew install aravis"
+} else if cfg!(windows) {
+    "on a computer with Linux or macOS"
+} else {
+    "sudo apt-get install libaravis-0.8-0"
+};
+
+impl Advice for GenicamError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoLibrary => format!(
+                "Install it ({INSTALL}), or set {VARIABLE} to the folder that holds it"
+            ),
+            Self::LibraryNotAt { .. } => format!(
+                "Correct the source's library option or {VARIABLE}, or leave both out to use the system's aravis"
+            ),
+            Self::LibraryUnusable { .. } => {
+                format!("Install the aravis of this system with all that it needs ({INSTALL})")
+            }
+            Self::MissingSymbol { .. } => {
+                format!("Install aravis 0.8.26 or a newer 0.8 ({INSTALL})")
+            }
+            Self::NoDevice => {
+                "Check the camera's power and cable, and that a GigE camera has an address in the network of this computer".into()
+            }
+            Self::NoSuchDevice { .. } => {
+                "Connect that one, or list the cameras and choose another: partsight capture --list"
+                    .into()
+            }
+            Self::NotOpened { .. } => {
+                "Close other programs that use the camera; for a USB camera, install the udev rule that lets your user open it"
+                    .into()
+            }
+            Self::InUse => "Close the other program, then try again".into(),
+            Self::NoDepthFormat { .. } => {
+                "Use a 3-D camera; if its Mono16 is depth, say so and give its numbers: genicam,format=Mono16,camera=FILE".into()
+            }
+            Self::FormatNotOffered { .. } => {
+                "Leave the source's format option out, or name one that the camera offers".into()
+            }
+            Self::Untold { .. } => {
+                "Give the camera's numbers as they stand beside a depth PNG: genicam,camera=FILE"
+                    .into()
+            }
+            Self::WrongSetting { node, expected, .. } => {
+                format!("Set {node} to {expected} with the camera's own program")
+            }
+            Self::NotStarted { .. } => {
+                "Switch the camera off and on again, and set a smaller picture if its pictures are very large"
+                    .into()
+            }
+            Self::BadFrame { .. } => {
+                "Connect the camera to a port of its own; for a GigE camera, use jumbo frames (MTU 9000)"
+                    .into()
+            }
+            Self::Lost { .. } => "Check the camera's cable and its power supply".into(),
+            Self::Silent { .. } => {
+                "Set TriggerMode to Off with the camera's own program, and let the firewall pass UDP from the camera".into()
+            }
+        }
+    }
+}
+
+/// What is odd about a GenICam camera that can be used nevertheless.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum GenicamWarning {
+    /// It has no `Scan3dDistanceUnit`.
+    #[error("the camera does not tell its unit of length, millimetres are assumed")]
+    UnitAssumed,
+}
+
+impl Advice for GenicamWarning {
+    fn advice(&self) -> String {
+        "Compare the size of a part in the 3-D view with the real one".into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_trouble_has_a_sentence_and_an_advice_of_its_own() {
+        let said = String::from("timeout");
+        let offered = vec![String::from("Mono8")];
+        let errors = [
+            GenicamError::NoLibrary,
+            GenicamError::LibraryNotAt {
+                path: "/opt".into(),
+            },
+            GenicamError::LibraryUnusable {
+                library: "libaravis".into(),
+                reason: "no ELF".into(),
+            },
+            GenicamError::MissingSymbol {
+                library: "libaravis".into(),
+                symbol: "arv_camera_new",
+            },
+            GenicamError::NoDevice,
+            GenicamError::NoSuchDevice {
+                device: "A".into(),
+                found: vec!["B".into()],
+            },
+            GenicamError::NotOpened { said: said.clone() },
+            GenicamError::InUse,
+            GenicamError::NoDepthFormat {
+                offered: offered.clone(),
+            },
+            GenicamError::FormatNotOffered {
+                format: "Mono16",
+                offered,
+            },
+            GenicamError::Untold {
+                node: "Scan3dFocalLength",
+            },
+            GenicamError::WrongSetting {
+                node: "Scan3dOutputMode",
+                found: "DisparityC".into(),
+                expected: "CalibratedC",
+            },
+            GenicamError::NotStarted { said: said.clone() },
+            GenicamError::BadFrame { what: said.clone() },
+            GenicamError::Lost { said: Some(said) },
+            GenicamError::Silent { seconds: 8 },
+        ];
+        let advice: std::collections::BTreeSet<String> =
+            errors.iter().map(Advice::advice).collect();
+        assert_eq!(advice.len(), errors.len());
+        for error in &errors {
+            let text = format!("{error}. {}", error.advice());
+            assert!(
+                !text.contains('\n') && !error.advice().ends_with('.'),
+                "{text}"
+            );
+        }
+    }
+}

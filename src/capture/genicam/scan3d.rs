@@ -1,0 +1,388 @@
+//! From a camera's pixels to depths and points, by what its nodes say.
+//!
+//! Source: GenICam Standard Features Naming Convention 2.7, chapter "3D Scan Control". A coordinate is
+//! `Scan3dCoordinateScale` · value + `Scan3dCoordinateOffset`, in `Scan3dDistanceUnit`; the value
+//! `Scan3dInvalidDataValue` is no reading where `Scan3dInvalidDataFlag` is set. Coordinate A is x, B is y, C is z.
+//!
+//! Only depth along the optical axis and points in the camera's own frame are taken. Disparities, distances along a
+//! ray, heights on a rectified grid and points in a frame that somebody set are errors, because they would be read as
+//! parts of another shape or in another place.
+
+use std::ffi::CStr;
+
+use nalgebra::Point3;
+
+use super::{
+    aravis::{Device, Part},
+    error::{GenicamError, GenicamWarning},
+};
+use crate::{
+    capture::{error::CaptureWarning, source::Image, spec::GenicamFormat},
+    files::{DepthCamera, StoredOrientation},
+    geometry::{
+        cloud::{Grid, PointCloud},
+        depth_frame::Intrinsics,
+        distortion::Distortion,
+    },
+};
+
+/// How the pixels of one format become an image.
+pub(super) enum Decoder {
+    /// A depth image.
+    Depth {
+        camera: DepthCamera,
+        /// Depth of every value, in the camera's units; 0 is no reading.
+        units: Vec<u16>,
+    },
+    /// Points.
+    Points {
+        axes: [Axis; 3],
+        /// True if they keep the camera's rows and columns.
+        is_organised: bool,
+    },
+}
+
+/// How the values of one coordinate become metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Axis {
+    /// Metres of a step.
+    scale: f64,
+    /// Metres of the value 0.
+    offset: f64,
+    /// The value that is no reading.
+    invalid: Option<f64>,
+}
+
+/// What the camera's nodes say; `None` where it has no such node.
+#[derive(Clone, Default)]
+pub(super) struct Scan3d {
+    output_mode: Option<String>,
+    coordinate_system: Option<String>,
+    reference: Option<String>,
+    distance_unit: Option<String>,
+    axes: [AxisNodes; 3],
+    focal_length: Option<f64>,
+    principal_point: [Option<f64>; 2],
+    /// Columns and rows.
+    size: [Option<f64>; 2],
+}
+
+#[derive(Clone, Default)]
+struct AxisNodes {
+    scale: Option<f64>,
+    offset: Option<f64>,
+    invalid: Option<f64>,
+}
+
+/// Says the focal length, in pixels.
+pub(super) const FOCAL_LENGTH: &CStr = c"Scan3dFocalLength";
+
+impl Scan3d {
+    /// Reads the nodes; that pixel format is set.
+    pub(super) fn read(device: &Device, format: GenicamFormat) -> Result<Self, String> {
+        let axis = |selected: &CStr| -> Result<AxisNodes, String> {
+            // A camera with one coordinate need not have the selector.
+            if device.has(c"Scan3dCoordinateSelector")? {
+                device.set(c"Scan3dCoordinateSelector", selected)?;
+            }
+            let is_flagged = device.flag(c"Scan3dInvalidDataFlag")?.unwrap_or(false);
+            let invalid = device.number(c"Scan3dInvalidDataValue")?;
+            Ok(AxisNodes {
+                scale: device.number(c"Scan3dCoordinateScale")?,
+                offset: device.number(c"Scan3dCoordinateOffset")?,
+                invalid: invalid.filter(|_| is_flagged),
+            })
+        };
+        let axes = match format {
+            GenicamFormat::Coord3dC16 => [
+                AxisNodes::default(),
+                AxisNodes::default(),
+                axis(c"CoordinateC")?,
+            ],
+            GenicamFormat::Coord3dAbc32f => [
+                axis(c"CoordinateA")?,
+                axis(c"CoordinateB")?,
+                axis(c"CoordinateC")?,
+            ],
+            GenicamFormat::Mono16 => return Ok(Self::default()),
+        };
+        Ok(Self {
+            output_mode: device.text(c"Scan3dOutputMode")?,
+            coordinate_system: device.text(c"Scan3dCoordinateSystem")?,
+            reference: device.text(c"Scan3dCoordinateSystemReference")?,
+            distance_unit: device.text(c"Scan3dDistanceUnit")?,
+            axes,
+            focal_length: device.number(FOCAL_LENGTH)?,
+            principal_point: [
+                device.number(c"Scan3dPrincipalPointU")?,
+                device.number(c"Scan3dPrincipalPointV")?,
+            ],
+            size: [device.number(c"Width")?, device.number(c"Height")?],
+        })
+    }
+
+    /// How to read that format; the numbers of a depth image are those of the file where there is one.
+    pub(super) fn decoder(
+        &self,
+        format: GenicamFormat,
+        file: Option<DepthCamera>,
+    ) -> Result<(Decoder, Vec<CaptureWarning>), GenicamError> {
+        match (format, file) {
+            (GenicamFormat::Coord3dAbc32f, _) => self.points(),
+            (GenicamFormat::Coord3dC16, file) => self.depth(file),
+            (GenicamFormat::Mono16, Some(camera)) => {
+                let units = (0..=u16::MAX).collect();
+                Ok((Decoder::Depth { camera, units }, Vec::new()))
+            }
+            (GenicamFormat::Mono16, None) => Err(GenicamError::Untold {
+                node: "Scan3dCoordinateScale",
+            }),
+        }
+    }
+
+    fn depth(
+        &self,
+        file: Option<DepthCamera>,
+    ) -> Result<(Decoder, Vec<CaptureWarning>), GenicamError> {
+        self.check_frame("CalibratedC", &["CalibratedC", "CalibratedABC_Grid"])?;
+        let [.., nodes] = &self.axes;
+        let (camera, axis, warnings) = if let Some(camera) = file {
+            // An offset is no number of the file, so the camera's counts.
+            let (unit, warnings) = match nodes.offset {
+                None | Some(0.0) => (1.0, Vec::new()),
+                Some(_) => self.unit()?,
+            };
+            let axis = nodes.axis(camera.metres_per_unit / unit, unit);
+            (camera, axis, warnings)
+        } else {
+            let (unit, warnings) = self.unit()?;
+            let scale = told(nodes.scale, "Scan3dCoordinateScale")?;
+            (self.camera()?, nodes.axis(scale, unit), warnings)
+        };
+        let (units, metres_per_unit) = depth_table(&axis)?;
+        let camera = DepthCamera {
+            metres_per_unit,
+            ..camera
+        };
+        let camera = camera.checked().map_err(|what| GenicamError::NotOpened {
+            said: format!("its numbers are no camera's: {what}"),
+        })?;
+        Ok((Decoder::Depth { camera, units }, warnings))
+    }
+
+    fn points(&self) -> Result<(Decoder, Vec<CaptureWarning>), GenicamError> {
+        self.check_frame("CalibratedABC_Grid", &["CalibratedABC_Grid", POINT_CLOUD])?;
+        let (unit, warnings) = self.unit()?;
+        // Floating-point coordinates need no scale, and not every camera has one for them.
+        let axis = |nodes: &AxisNodes| nodes.axis(nodes.scale.unwrap_or(1.0), unit);
+        let decoder = Decoder::Points {
+            axes: self.axes.each_ref().map(axis),
+            is_organised: self.output_mode.as_deref() != Some(POINT_CLOUD),
+        };
+        Ok((decoder, warnings))
+    }
+
+    /// An error unless the output is one of `modes` and its coordinates are x, y, z of the camera's own frame. The
+    /// first argument is the mode to advise.
+    fn check_frame(&self, advised: &'static str, modes: &[&str]) -> Result<(), GenicamError> {
+        let checks = [
+            ("Scan3dOutputMode", &self.output_mode, advised, modes),
+            (
+                "Scan3dCoordinateSystem",
+                &self.coordinate_system,
+                "Cartesian",
+                &["Cartesian"],
+            ),
+            (
+                "Scan3dCoordinateSystemReference",
+                &self.reference,
+                "Anchor",
+                &["Anchor"],
+            ),
+        ];
+        for (node, found, expected, readable) in checks {
+            if let Some(found) = found
+                && !readable.contains(&found.as_str())
+            {
+                return Err(GenicamError::WrongSetting {
+                    node,
+                    found: found.clone(),
+                    expected,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Metres of the camera's unit of length.
+    fn unit(&self) -> Result<(f64, Vec<CaptureWarning>), GenicamError> {
+        match self.distance_unit.as_deref() {
+            None => Ok((0.001, vec![GenicamWarning::UnitAssumed.into()])),
+            Some("Millimeter") => Ok((0.001, Vec::new())),
+            Some("Inch") => Ok((0.0254, Vec::new())),
+            Some(found) => Err(GenicamError::WrongSetting {
+                node: "Scan3dDistanceUnit",
+                found: found.to_owned(),
+                expected: "Millimeter",
+            }),
+        }
+    }
+
+    fn camera(&self) -> Result<DepthCamera, GenicamError> {
+        let focal = told(self.focal_length, "Scan3dFocalLength")?;
+        let [u, v] = self.principal_point;
+        let [width, height] = self.size;
+        Ok(DepthCamera {
+            intrinsics: Intrinsics {
+                width: told(width, "Width")? as usize,
+                height: told(height, "Height")? as usize,
+                fx: focal,
+                fy: focal,
+                cx: told(u, "Scan3dPrincipalPointU")?,
+                cy: told(v, "Scan3dPrincipalPointV")?,
+                distortion: Distortion::NONE,
+            },
+            metres_per_unit: 1.0,
+            is_simulated: false,
+            stored: StoredOrientation::default(),
+        })
+    }
+}
+
+/// Points without the camera's rows and columns.
+const POINT_CLOUD: &str = "CalibratedABC_PointCloud";
+
+impl AxisNodes {
+    fn axis(&self, scale: f64, unit: f64) -> Axis {
+        Axis {
+            scale: scale * unit,
+            offset: self.offset.unwrap_or(0.0) * unit,
+            invalid: self.invalid,
+        }
+    }
+}
+
+fn told(value: Option<f64>, node: &'static str) -> Result<f64, GenicamError> {
+    value.ok_or(GenicamError::Untold { node })
+}
+
+/// The depth of every 16-bit value, and the metres of its unit; 0 is no reading.
+///
+/// Without an offset the depths are the values themselves. An offset would push some beyond 16 bits, so the unit is
+/// chosen that the largest value just fits; rounding is half a unit at most. The value 0 is never a reading: it is what
+/// cameras without `Scan3dInvalidDataFlag` send where they have none.
+fn depth_table(axis: &Axis) -> Result<(Vec<u16>, f64), GenicamError> {
+    let largest = f64::from(u16::MAX);
+    let metres_per_unit = axis.scale.max(0.0) + axis.offset / largest;
+    let is_scale = axis.scale.abs() > 0.0 && axis.scale.is_finite();
+    if !(is_scale && metres_per_unit > 0.0 && metres_per_unit.is_finite()) {
+        return Err(GenicamError::WrongSetting {
+            node: "Scan3dCoordinateScale",
+            found: format!("{} m with an offset of {} m", axis.scale, axis.offset),
+            expected: "depths in front of the camera",
+        });
+    }
+    let depth = |value: u16| {
+        let value = f64::from(value);
+        let units = ((value * axis.scale + axis.offset) / metres_per_unit).round();
+        let is_reading = value > 0.0 && !axis.is_invalid(value) && units >= 1.0 && units <= largest;
+        if is_reading { units as u16 } else { 0 }
+    };
+    Ok(((0..=u16::MAX).map(depth).collect(), metres_per_unit))
+}
+
+impl Axis {
+    fn is_invalid(&self, value: f64) -> bool {
+        // Both are what the camera sent; the narrower of the two types is that of the pixels.
+        self.invalid
+            .is_some_and(|invalid| (invalid as f32).to_bits() == (value as f32).to_bits())
+    }
+
+    fn metres(&self, value: f32) -> f32 {
+        (f64::from(value) * self.scale + self.offset) as f32
+    }
+}
+
+impl Decoder {
+    /// True if a file says that the camera is simulated.
+    pub(super) fn is_simulated(&self) -> bool {
+        matches!(self, Self::Depth { camera, .. } if camera.is_simulated)
+    }
+
+    /// The image of a picture in that format, or what is wrong with the picture.
+    pub(super) fn image(&self, part: Part<'_>) -> Result<Image, String> {
+        match self {
+            Self::Depth { camera, units, .. } => {
+                let depth = pixels(part, |&pixel: &[u8; 2]| {
+                    let value = usize::from(u16::from_le_bytes(pixel));
+                    units.get(value).copied().unwrap_or(0)
+                })?;
+                let frame = camera.frame((part.width, part.height), depth)?;
+                Ok(Image::Depth(frame))
+            }
+            Self::Points {
+                axes, is_organised, ..
+            } => {
+                let points = pixels(part, |pixel: &[u8; 12]| point(pixel, axes))?;
+                if !is_organised {
+                    return Ok(Image::Cloud(PointCloud::from_points(points)));
+                }
+                Ok(Image::Cloud(PointCloud {
+                    points,
+                    grid: Some(Grid {
+                        width: part.width,
+                        height: part.height,
+                    }),
+                    ..PointCloud::default()
+                }))
+            }
+        }
+    }
+}
+
+/// What the pixels of N bytes stand for, row after row without padding.
+fn pixels<const N: usize, T>(
+    part: Part<'_>,
+    read: impl Fn(&[u8; N]) -> T,
+) -> Result<Vec<T>, String> {
+    let Part {
+        width,
+        height,
+        row_padding,
+        bytes,
+    } = part;
+    let row = width.saturating_mul(N);
+    let stride = row.saturating_add(row_padding);
+    let needed = stride
+        .saturating_mul(height.saturating_sub(1))
+        .saturating_add(row);
+    if width == 0 || height == 0 || bytes.len() < needed {
+        let num = bytes.len();
+        return Err(format!("{num} bytes of {width}×{height} pixels"));
+    }
+    let rows = bytes.chunks(stride).take(height);
+    let rows = rows.filter_map(|bytes| bytes.get(..row));
+    Ok(rows
+        .flat_map(|row| row.as_chunks::<N>().0)
+        .map(read)
+        .collect())
+}
+
+/// A point in metres; three NaN without a reading.
+fn point(pixel: &[u8; 12], axes: &[Axis; 3]) -> Point3<f32> {
+    let &[a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3] = pixel;
+    let values = [[a0, a1, a2, a3], [b0, b1, b2, b3], [c0, c1, c2, c3]].map(f32::from_le_bytes);
+    let [a, b, c] = values;
+    let [x_axis, y_axis, z_axis] = axes;
+    let is_reading = values.iter().all(|value| value.is_finite())
+        && values.iter().any(|value| value.abs() > 0.0)
+        && !z_axis.is_invalid(f64::from(c));
+    if is_reading {
+        Point3::new(x_axis.metres(a), y_axis.metres(b), z_axis.metres(c))
+    } else {
+        Point3::new(f32::NAN, f32::NAN, f32::NAN)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,105 @@
+//! The options of a GenICam camera.
+
+use std::{fmt, path::PathBuf};
+
+use super::{
+    SpecError,
+    options::{Options, escaped},
+};
+
+/// A GenICam camera: GigE Vision or USB3 Vision.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct GenicamSpec {
+    /// The camera's ID as `capture --list` shows it, or its IP address; `None` for the first that answers.
+    pub device: Option<String>,
+    /// The pixel format to set; `None` for depth if its numbers are known, else points.
+    pub format: Option<GenicamFormat>,
+    /// The camera's numbers, as in the JSON beside a depth PNG, in place of what the camera says of its depth images.
+    pub camera: Option<PathBuf>,
+    /// The library that speaks to it, a file or a folder; `None` for where the system keeps it.
+    pub library: Option<PathBuf>,
+}
+
+/// A pixel format that is read, by its name in the Pixel Format Naming Convention.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GenicamFormat {
+    /// `Coord3D_C16`: depth, 16 bits.
+    Coord3dC16,
+    /// `Coord3D_ABC32f`: points, three 32-bit floating-point numbers.
+    Coord3dAbc32f,
+    /// `Mono16`, which most cameras use for grey values; here it is depth.
+    Mono16,
+}
+
+impl GenicamFormat {
+    const ALL: [Self; 3] = [Self::Coord3dC16, Self::Coord3dAbc32f, Self::Mono16];
+
+    /// As cameras name it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Coord3dC16 => "Coord3D_C16",
+            Self::Coord3dAbc32f => "Coord3D_ABC32f",
+            Self::Mono16 => "Mono16",
+        }
+    }
+
+    /// As it stands in a frame.
+    pub(in crate::capture) fn number(self) -> u32 {
+        match self {
+            Self::Coord3dC16 => 0x0110_00B8,
+            Self::Coord3dAbc32f => 0x0260_00C0,
+            Self::Mono16 => 0x0110_0007,
+        }
+    }
+}
+
+impl GenicamSpec {
+    pub(super) const OPTIONS: &'static str = "format camera library";
+
+    pub(super) fn read(device: Option<&str>, options: &Options) -> Result<Self, SpecError> {
+        let path =
+            |text: &str| Some(PathBuf::from(text)).filter(|path| !path.as_os_str().is_empty());
+        let format = |name: &str| {
+            let mut formats = GenicamFormat::ALL.into_iter();
+            formats.find(|format| format.name() == name)
+        };
+        Ok(Self {
+            device: device.map(str::to_owned),
+            format: options.value(
+                "format",
+                "Coord3D_C16, Coord3D_ABC32f, or Mono16 if it is depth",
+                format,
+            )?,
+            camera: options.value("camera", "a file", path)?,
+            library: options.value("library", "a path", path)?,
+        })
+    }
+
+    pub(in crate::capture) fn title(&self) -> String {
+        match &self.device {
+            None => "GenICam".into(),
+            Some(device) => format!("GenICam {device}"),
+        }
+    }
+
+    pub(super) fn write(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            device,
+            format,
+            camera,
+            library,
+        } = self;
+        f.write_str(super::GENICAM)?;
+        if let Some(format) = format {
+            write!(f, ",format={}", format.name())?;
+        }
+        for (name, path) in [("camera", camera), ("library", library)] {
+            if let Some(path) = path {
+                write!(f, ",{name}={}", escaped(&path.to_string_lossy()))?;
+            }
+        }
+        device
+            .as_ref()
+            .map_or(Ok(()), |device| write!(f, ":{device}"))
+    }
+}

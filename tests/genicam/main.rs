@@ -1,0 +1,304 @@
+//! GenICam cameras, played on this computer's own network by the fake camera that comes with aravis.
+//!
+//! Without it (`apt-get install aravis-tools libaravis-0.8-0`) the tests say that they were skipped; with
+//! `PARTSIGHT_REQUIRE_GENICAM=1` that is a failure.
+
+#![cfg(target_os = "linux")]
+
+use std::{
+    fs, io,
+    path::Path,
+    process::{Child, Command, Stdio},
+    sync::{Mutex, MutexGuard, PoisonError},
+    thread,
+    time::{Duration, Instant},
+};
+
+use partsight::{
+    Advice as _,
+    capture::{
+        BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, FeedState,
+        GenicamError, GenicamSpec, Image, NextCapture, Recovery, SourceSpec, list, open,
+    },
+    geometry::{cloud::Grid, depth_frame::DepthFrame},
+};
+
+/// Longer than any step of a test takes, so that only one that hangs comes to its end.
+const PATIENCE: Duration = Duration::from_mins(1);
+/// The description of a 3-D camera, and what stands there for its `Scan3dOutputMode`.
+const DEPTH_CAMERA: &str = include_str!("camera.xml");
+const MODE: &str = "THE_MODE";
+const ID: &str = "Aravis-Fake-PS01";
+
+/// What is missing for a test, said aloud.
+#[expect(
+    clippy::print_stdout,
+    reason = "a test that checks nothing must say so"
+)]
+fn skipped(what: &str) {
+    let text = format!("skipped: {what}");
+    let is_required =
+        std::env::var_os("PARTSIGHT_REQUIRE_GENICAM").is_some_and(|value| value == "1");
+    assert!(!is_required, "PARTSIGHT_REQUIRE_GENICAM=1, and {text}");
+    println!("{text}");
+}
+
+/// A camera that runs until it is dropped.
+struct FakeCamera(Child);
+
+impl FakeCamera {
+    /// `None`, with a word about it, where there is no such program or no aravis.
+    fn start(description: Option<&Path>) -> Option<Self> {
+        let mut command = Command::new("arv-fake-gv-camera-0.8");
+        command.args(["-i", "127.0.0.1", "-s", "PS01"]);
+        if let Some(path) = description {
+            command.arg("-g").arg(path);
+        }
+        // It complains of every frame whose pixels it cannot paint.
+        let started = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+        let camera = match started {
+            Ok(child) => Self(child),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                skipped("arv-fake-gv-camera-0.8 is not installed (apt-get install aravis-tools)");
+                return None;
+            }
+            Err(error) => panic!("{error}"),
+        };
+        let until = Instant::now() + PATIENCE;
+        while Instant::now() < until {
+            for listed in list() {
+                if listed.title == format!("GenICam {ID}") {
+                    return Some(camera);
+                }
+                if let Some(CaptureError::Genicam(GenicamError::NoLibrary)) = listed.trouble {
+                    skipped("aravis is not installed (apt-get install libaravis-0.8-0)");
+                    return None;
+                }
+            }
+        }
+        panic!("it does not answer");
+    }
+}
+
+impl Drop for FakeCamera {
+    fn drop(&mut self) {
+        // Killed as if its cable were pulled; it may have ended by itself.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// All cameras have the same address, so there is one at a time.
+fn alone() -> MutexGuard<'static, ()> {
+    static ONE: Mutex<()> = Mutex::new(());
+    ONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn spec(text: &str) -> SourceSpec {
+    text.parse().expect(text)
+}
+
+/// The fake camera's grey values taken for depth in steps of 0.1 mm.
+fn grey_as_depth(folder: &Path) -> SourceSpec {
+    let path = folder.join("camera.json");
+    let camera = r#"{"width":512,"height":512,"fx":500,"fy":500,"cx":255.5,"cy":255.5,"metres_per_unit":0.0001}"#;
+    fs::write(&path, camera).expect("written");
+    spec(&format!(
+        "genicam,format=Mono16,camera={}:{ID}",
+        path.display()
+    ))
+}
+
+fn trouble(text: &str) -> GenicamError {
+    match open(&spec(text)).err().expect("does not open") {
+        CaptureError::Genicam(error) => error,
+        other => panic!("{other}"),
+    }
+}
+
+fn next_capture(source: &mut dyn DepthSource) -> Captured {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        match source.next(Duration::from_millis(50)).expect("no trouble") {
+            NextCapture::Captured(captured) => return captured,
+            NextCapture::NotYet => {}
+            // A busy computer loses packets.
+            NextCapture::Skipped(skipped) => assert!(!skipped.name.is_empty()),
+            NextCapture::End => panic!("it ended"),
+        }
+    }
+    panic!("nothing came");
+}
+
+fn depth_of(captured: Captured) -> DepthFrame {
+    match captured.image {
+        Image::Depth(frame) => frame,
+        Image::Cloud(_) => panic!("a cloud"),
+    }
+}
+
+/// Fails unless the frame is the fake camera's pattern: the same along every diagonal, and 256 more from one to the next,
+/// until it begins again.
+fn check_pattern(frame: &DepthFrame) {
+    let width = frame.intrinsics.width;
+    assert_eq!(frame.depth.len(), 512 * 512);
+    let at = |row: usize, column: usize| u32::from(frame.depth[row * width + column]);
+    for row in 1..512 {
+        for column in 0..511 {
+            assert_eq!(at(row, column), at(row - 1, column + 1), "{row} {column}");
+        }
+    }
+    let num_steps = (1..512).filter(|&column| at(0, column) == at(0, column - 1) + 256);
+    assert!(num_steps.count() >= 508, "it begins again at most thrice");
+}
+
+#[test]
+fn every_pixel_of_a_depth_image_arrives() {
+    let _alone = alone();
+    let Some(_camera) = FakeCamera::start(None) else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let spec = grey_as_depth(folder.path());
+    let mut source = open(&spec).expect("opens");
+    assert_eq!(source.title(), format!("GenICam {ID}"));
+    let first = next_capture(source.as_mut());
+    assert_eq!(first.warnings, []);
+    assert!(!first.is_simulated);
+    let second = next_capture(source.as_mut());
+    assert!(second.number > first.number && second.taken_at > first.taken_at);
+    let [first, second] = [first, second].map(depth_of);
+    assert!((first.metres_per_unit - 0.0001).abs() < 1e-12);
+    check_pattern(&first);
+    check_pattern(&second);
+    assert_ne!(first.depth, second.depth, "the pattern moves");
+
+    let Err(CaptureError::Genicam(error)) = open(&spec) else {
+        panic!("opened twice")
+    };
+    assert!(matches!(error, GenicamError::InUse), "{error}");
+    check_pattern(&depth_of(next_capture(source.as_mut())));
+    drop(source);
+    let mut again = open(&spec).expect("opens again");
+    check_pattern(&depth_of(next_capture(again.as_mut())));
+}
+
+#[test]
+fn grey_values_are_no_depth_and_another_camera_is_not_taken() {
+    let _alone = alone();
+    let Some(_camera) = FakeCamera::start(None) else {
+        return;
+    };
+    let error = trouble("genicam");
+    assert!(matches!(error, GenicamError::NoDepthFormat { .. }));
+    assert!(error.to_string().contains("Mono8"), "{error}");
+    assert!(error.advice().contains("format=Mono16"));
+    let error = trouble("genicam,format=Coord3D_C16:127.0.0.1");
+    assert!(
+        matches!(error, GenicamError::FormatNotOffered { .. }),
+        "{error}"
+    );
+    let error = trouble("genicam,format=Mono16");
+    assert!(matches!(error, GenicamError::Untold { .. }), "{error}");
+    let error = trouble("genicam:Other-3D-1");
+    assert!(error.to_string().contains(&format!("only {ID}")), "{error}");
+    assert_eq!(CaptureError::from(error).recovery(), Recovery::Reopen);
+}
+
+#[test]
+fn a_3d_camera_says_itself_what_its_values_stand_for() {
+    let _alone = alone();
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("camera.xml");
+    fs::write(&path, DEPTH_CAMERA.replace(MODE, "1")).expect("written");
+    let Some(camera) = FakeCamera::start(Some(&path)) else {
+        return;
+    };
+    let mut source = open(&spec("genicam")).expect("opens");
+    let captured = next_capture(source.as_mut());
+    assert_eq!(captured.warnings, []);
+    let frame = depth_of(captured);
+    let lens = frame.intrinsics;
+    assert_eq!((lens.width, lens.height), (512, 512));
+    let told = [lens.fx, lens.fy, lens.cx, lens.cy];
+    for (told, expected) in told.into_iter().zip([500.5, 500.5, 255.5, 250.0]) {
+        assert!((told - expected).abs() < 1e-9, "{told}");
+    }
+    // A step of 0.25 mm, and 100 mm more for the largest of 65535 steps.
+    let expected = 0.000_25 + 0.1 / 65_535.0;
+    assert!((frame.metres_per_unit - expected).abs() < 1e-12);
+    // It paints no pixels of this format.
+    assert!(frame.depth.iter().all(|&depth| depth == 0));
+    drop(source);
+
+    let mut source = open(&spec("genicam,format=Coord3D_ABC32f")).expect("opens");
+    let Image::Cloud(cloud) = next_capture(source.as_mut()).image else {
+        panic!("a depth image")
+    };
+    let grid = Grid {
+        width: 512,
+        height: 512,
+    };
+    assert_eq!((cloud.grid, cloud.num_finite()), (Some(grid), 0));
+    drop(source);
+    drop(camera);
+
+    fs::write(&path, DEPTH_CAMERA.replace(MODE, "2")).expect("written");
+    let Some(_camera) = FakeCamera::start(Some(&path)) else {
+        return;
+    };
+    let error = trouble("genicam");
+    assert!(error.to_string().contains("DisparityC"), "{error}");
+    assert!(error.advice().contains("CalibratedC"), "{}", error.advice());
+}
+
+#[test]
+fn a_camera_that_is_gone_is_lost_and_found_again() {
+    let _alone = alone();
+    let Some(camera) = FakeCamera::start(None) else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let spec = grey_as_depth(folder.path());
+    let feed = Feed::start(spec, BackpressurePolicy::Newest, || {}).expect("a thread");
+    let captured = |feed: &Feed| {
+        let until = Instant::now() + PATIENCE;
+        while Instant::now() < until {
+            if let Some(FeedItem::Captured(captured)) = feed.wait(Duration::from_millis(50)) {
+                return captured;
+            }
+        }
+        panic!("nothing came: {:?}", feed.status());
+    };
+    check_pattern(&depth_of(captured(&feed)));
+    drop(camera);
+    let until = Instant::now() + PATIENCE;
+    let error = loop {
+        if let FeedState::Lost { error } = feed.status().state {
+            break error;
+        }
+        assert!(Instant::now() < until, "{:?}", feed.status());
+        thread::sleep(Duration::from_millis(10));
+    };
+    assert!(
+        matches!(*error, CaptureError::Genicam(GenicamError::Lost { .. })),
+        "{error}"
+    );
+    // What it had captured before.
+    while feed.wait(Duration::ZERO).is_some() {}
+    let _camera = FakeCamera::start(None).expect("it was there before");
+    check_pattern(&depth_of(captured(&feed)));
+}
+
+#[test]
+fn a_place_without_the_library_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let spec = GenicamSpec {
+        library: Some(folder.path().to_path_buf()),
+        ..GenicamSpec::default()
+    };
+    let error = open(&SourceSpec::Genicam(spec)).err().expect("no library");
+    let place = folder.path().display().to_string();
+    assert!(error.to_string().contains(&place), "{error}");
+    assert!(error.advice().contains("PARTSIGHT_ARAVIS"));
+}
