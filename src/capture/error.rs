@@ -7,6 +7,7 @@ use thiserror::Error;
 use super::{
     genicam::{GenicamError, GenicamWarning},
     kinect::{KinectError, KinectWarning},
+    openni::OpenNiError,
 };
 use crate::{
     error::Advice,
@@ -47,6 +48,9 @@ pub enum CaptureError {
     /// A GenICam camera.
     #[error(transparent)]
     Genicam(#[from] GenicamError),
+    /// An OpenNI camera, or a file of one.
+    #[error(transparent)]
+    OpenNi(#[from] OpenNiError),
     /// A folder without anything to replay.
     #[error("{}: no recording, and no file of a camera", path.display())]
     NoFrames {
@@ -126,6 +130,7 @@ impl CaptureError {
             }
             Self::Kinect(error) => error.recovery(),
             Self::Genicam(error) => error.recovery(),
+            Self::OpenNi(error) => error.recovery(),
             Self::FolderGone { .. }
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }
@@ -165,6 +170,7 @@ impl Advice for CaptureError {
             }
             Self::Kinect(error) => error.advice(),
             Self::Genicam(error) => error.advice(),
+            Self::OpenNi(error) => error.advice(),
             Self::NoFrames { path } => format!(
                 "Give the folder that holds the frames; partsight capture --out {} makes one",
                 path.display()

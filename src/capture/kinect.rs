@@ -43,7 +43,8 @@ use crate::geometry::{
     distortion::Distortion,
 };
 
-/// A Kinect that sends nothing while it is waited for so long is lost. It takes about a second from the start to its first frame.
+/// A camera that sends nothing while it is waited for so long is lost. A Kinect takes about a second from the start to its
+/// first frame.
 const SILENCE: Duration = Duration::from_secs(5);
 
 /// An open Kinect whose depth stream runs. Dropped, it stops the stream and lets the camera go.
@@ -267,11 +268,11 @@ impl Units {
 
 /// How long a camera was waited for and sent nothing. Pauses in which nobody waited do not count.
 #[derive(Default)]
-struct ReadTimeout(Duration);
+pub(super) struct ReadTimeout(Duration);
 
 impl ReadTimeout {
     /// It went on for so long. Its whole seconds, if those are too many for a camera that is well.
-    fn goes_on(&mut self, turn: Duration) -> Option<u64> {
+    pub(super) fn goes_on(&mut self, turn: Duration) -> Option<u64> {
         self.0 += turn;
         (self.0 >= SILENCE).then_some(self.0.as_secs())
     }

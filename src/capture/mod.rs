@@ -1,4 +1,4 @@
-//! Where frames come from: the simulated cell, recordings, a watched folder, a Kinect, a GenICam camera.
+//! Where frames come from: the simulated cell, recordings, a watched folder, a Kinect, cameras of GenICam and OpenNI.
 //!
 //! ```text
 //! SourceSpec ─► open ─► DepthSource ─► Feed ─► Captured, to be inspected, recorded or shown
@@ -14,6 +14,7 @@ mod feed;
 mod genicam;
 mod kinect;
 mod open;
+mod openni;
 mod rate;
 mod read;
 mod recording;
@@ -27,6 +28,7 @@ pub use self::feed::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus};
 pub use self::genicam::{GenicamError, GenicamWarning};
 pub use self::kinect::{KinectError, KinectWarning};
 pub use self::open::{SourceListing, list, open};
+pub use self::openni::OpenNiError;
 pub use self::rate::FrameRate;
 #[cfg(feature = "cli")]
 pub(crate) use self::read::may_be_capture;
@@ -35,7 +37,7 @@ pub use self::recording::{Recorder, Replay};
 pub use self::simulated::SimulatedCell;
 pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};
 pub use self::spec::{
-    CellScene, GenicamFormat, GenicamSpec, KinectSpec, Pace, RecordingSpec, SimulatedPose,
-    SimulatedSpec, SourceSpec, SpecError, WatchedFrom, WatchedSpec,
+    CellScene, GenicamFormat, GenicamSpec, KinectSpec, OpenNiSpec, Pace, RecordingSpec,
+    SimulatedPose, SimulatedSpec, SourceSpec, SpecError, WatchedFrom, WatchedSpec,
 };
 pub use self::watched::WatchedFolder;

@@ -2,7 +2,7 @@
 
 use super::{
     error::CaptureError,
-    genicam, kinect,
+    genicam, kinect, openni,
     recording::Replay,
     simulated::SimulatedCell,
     source::DepthSource,
@@ -18,6 +18,7 @@ pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
         SourceSpec::Watched(spec) => Box::new(WatchedFolder::new(spec)),
         SourceSpec::Kinect(spec) => kinect::open(spec)?,
         SourceSpec::Genicam(spec) => genicam::open(spec)?,
+        SourceSpec::OpenNi(spec) => openni::open(spec)?,
     })
 }
 
@@ -39,6 +40,10 @@ pub fn list() -> Vec<SourceListing> {
         spec: Some(SourceSpec::Simulated(SimulatedSpec::default())),
         trouble: None,
     };
-    let cameras = kinect::list().into_iter().chain(genicam::list());
-    [simulated].into_iter().chain(cameras).collect()
+    [simulated]
+        .into_iter()
+        .chain(kinect::list())
+        .chain(genicam::list())
+        .chain(openni::list())
+        .collect()
 }

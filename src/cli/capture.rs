@@ -156,6 +156,7 @@ fn show_list(console: &mut Console) -> Outcome {
             "watch:DIR",
             "A folder that another program saves captures into",
         ),
+        ("openni:FILE.oni", "A file that OpenNI 2 recorded"),
     ] {
         table.row([pattern.to_owned(), what.to_owned()]);
     }

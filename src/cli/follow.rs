@@ -80,6 +80,8 @@ Sources:
   genicam  genicam:ID       a 3-D camera of GigE Vision or USB3 Vision; ID as --list shows it, or its IP address
                             options: camera=intrinsics.json (where the camera does not tell its numbers)
                             format=Coord3D_C16|Coord3D_ABC32f|Mono16
+  openni   openni:URI       an Asus Xtion, PrimeSense or Orbbec Astra, through OpenNI 2
+  openni:FILE.oni           a file that OpenNI 2 recorded; option: pace, as above
 Options stand before the colon: simulated,side=right,noise=2:fender
 
 Examples:

@@ -28,7 +28,7 @@ use super::{
     trace::TraceChoice,
 };
 use crate::{
-    capture::{Pace, RecordingSpec, SourceSpec},
+    capture::{OpenNiSpec, Pace, RecordingSpec, SourceSpec},
     library::{LibraryLoad, LibraryPlace},
     pipeline::MirrorTally,
     robot::Convention,
@@ -159,6 +159,10 @@ fn parse_running_source(text: &str) -> Result<SourceSpec, String> {
     let spec = spec.map_err(|error| with_advice(&error))?;
     match spec.paced(Pace::AsTaken) {
         SourceSpec::Recording(RecordingSpec {
+            pace: Some(Pace::Step),
+            ..
+        })
+        | SourceSpec::OpenNi(OpenNiSpec {
             pace: Some(Pace::Step),
             ..
         }) => Err(

@@ -52,7 +52,8 @@ impl NewFrame {
             SourceSpec::Simulated(_)
             | SourceSpec::Recording(_)
             | SourceSpec::Kinect(_)
-            | SourceSpec::Genicam(_) => Self::SecondArrived,
+            | SourceSpec::Genicam(_)
+            | SourceSpec::OpenNi(_) => Self::SecondArrived,
         }
     }
 }

@@ -12,7 +12,7 @@ mod kit;
 
 use std::{env, ffi::OsString, fs, path::Path, process::Command};
 
-use kit::{compile_c, history_entry, open_history};
+use kit::{SHARED, compile_c, history_entry, open_history};
 use partsight::{
     Advice as _,
     history::{FILE, Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict},
@@ -178,7 +178,7 @@ fn check(folder: &Path, num_before: usize, fault: &str, told: &Told) {
 fn fails_at_every_call(num_before: usize, is_listed: bool, prepare: impl Fn(&Path)) {
     let tools = tempfile::tempdir().expect("a folder");
     let disk = tools.path().join("libdisk.so");
-    if let Err(why) = compile_c("tests/history_disk/disk.c", &disk, &[]) {
+    if let Err(why) = compile_c("tests/history_disk/disk.c", &disk, &SHARED) {
         return skipped(&why);
     }
     let prepared = tools.path().join("prepared");

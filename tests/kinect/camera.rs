@@ -10,7 +10,7 @@ use partsight::{
 };
 
 use crate::{
-    kit::compile_c,
+    kit::{SHARED, compile_c},
     listed, next_capture, open_kinect,
     own_process::{self, is_own},
     skipped, trouble, trouble_of,
@@ -26,8 +26,9 @@ fn with_camera(test: &str, state: &str, body: impl FnOnce()) {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let library = folder.path().join("libfreenect.so.0.5");
-    let options: &[&str] = if state == "old" { &["-DOLD"] } else { &[] };
-    if let Err(why) = compile_c("tests/kinect/camera.c", &library, options) {
+    let mut options = SHARED.to_vec();
+    options.extend((state == "old").then_some("-DOLD"));
+    if let Err(why) = compile_c("tests/kinect/camera.c", &library, &options) {
         return skipped(&why);
     }
     let log = folder.path().join("calls");

@@ -34,16 +34,18 @@ fn open_kinect() -> Result<Box<dyn DepthSource>, CaptureError> {
     open(&SourceSpec::Kinect(KinectSpec::default()))
 }
 
-/// The Kinects among the sources, and why one cannot be opened.
-fn listed() -> Vec<SourceListing> {
-    let mut found = list();
-    found.retain(|listed| listed.title.starts_with("Kinect"));
-    found
-}
-
 /// Why it does not open.
 fn trouble() -> KinectError {
     trouble_of(open_kinect().err().expect("does not open"))
+}
+
+/// The Kinects among the sources, and why one cannot be opened.
+fn listed() -> Vec<SourceListing> {
+    let is_kinect = |listed: &SourceListing| match &listed.spec {
+        Some(spec) => matches!(spec, SourceSpec::Kinect(_)),
+        None => matches!(listed.trouble, Some(CaptureError::Kinect(_))),
+    };
+    list().into_iter().filter(is_kinect).collect()
 }
 
 fn trouble_of(error: CaptureError) -> KinectError {

@@ -24,6 +24,7 @@ pub(crate) fn run(test: &str, environment: &[(&str, &OsStr)]) {
     let output = Command::new(program)
         .args([test, "--exact", "--nocapture", "--test-threads=1"])
         .env_remove("PARTSIGHT_FREENECT")
+        .env_remove("PARTSIGHT_OPENNI")
         .env_remove("FAKENECT_PATH")
         .env(BODY, test)
         .envs(

@@ -458,15 +458,20 @@ pub(crate) fn unrecognisables() -> Vec<Unrecognisable> {
     ]
 }
 
-/// Makes a shared library of a C file of this package; the error says what is missing on this machine.
-pub(crate) fn compile_c(source: &str, library: &Path, options: &[&str]) -> Result<(), String> {
+/// Makes a library of a C file, see [`compile_c`].
+pub(crate) const SHARED: [&str; 2] = ["-shared", "-fPIC"];
+
+/// Makes a program of a C file of this package, or with [`SHARED`] a library; the error says what is missing on this
+/// machine.
+pub(crate) fn compile_c(source: &str, made: &Path, options: &[&str]) -> Result<(), String> {
     let compiler = env::var_os("CC").unwrap_or_else(|| OsString::from("cc"));
     let output = Command::new(compiler)
-        .args(["-shared", "-fPIC", "-Wall", "-Wextra", "-Werror"])
+        .args(["-Wall", "-Wextra", "-Werror", "-pthread"])
         .args(options)
         .arg("-o")
-        .arg(library)
+        .arg(made)
         .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(source))
+        .arg("-ldl")
         .output()
         .map_err(|error| format!("no C compiler: {error}"))?;
     if output.status.success() {

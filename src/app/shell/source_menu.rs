@@ -17,7 +17,7 @@ use crate::{
         language::text,
         ui::theme::{font, space},
     },
-    capture::{GenicamSpec, KinectSpec, SimulatedSpec, SourceSpec},
+    capture::{GenicamSpec, KinectSpec, OpenNiSpec, SimulatedSpec, SourceSpec},
 };
 
 /// Width of a column, logical pixels.
@@ -89,6 +89,7 @@ pub(super) fn now(source: &Source) -> String {
             }
             SourceSpec::Kinect(_) => "Kinect".to_owned(),
             SourceSpec::Genicam(_) => shortened(&spec.title(), 22),
+            SourceSpec::OpenNi(_) => "OpenNI".to_owned(),
         },
     }
 }
@@ -207,6 +208,10 @@ fn cameras(ui: &mut Ui, chosen: Option<&SourceSpec>, actions: &mut Vec<Action>) 
     for (name, spec) in [
         ("Kinect", SourceSpec::Kinect(KinectSpec::default())),
         ("GenICam", SourceSpec::Genicam(GenicamSpec::default())),
+        (
+            "Xtion, Astra (OpenNI)",
+            SourceSpec::OpenNi(OpenNiSpec::default()),
+        ),
     ] {
         let is_chosen = chosen.is_some_and(|chosen| discriminant(chosen) == discriminant(&spec));
         if ui.selectable_label(is_chosen, name).clicked() {

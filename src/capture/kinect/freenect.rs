@@ -1,4 +1,4 @@
-//! libfreenect, loaded while the program runs, and all unsafe code that calls it.
+//! libfreenect, loaded while the program runs and called by unsafe code.
 //!
 //! The functions are those of `libfreenect.h` 0.5, looked up by name when a [`Context`] is made, so that a library
 //! without one of them is an error there and nowhere else. Motor, LED and microphones are not even looked up.

@@ -9,13 +9,18 @@
 //! watch:/mnt/scanner             watch,from=all:/mnt/scanner
 //! kinect      kinect:A00366813142045A
 //! genicam     genicam:192.168.5.20              genicam,camera=scanner.json:Vendor-3D-1234
+//! openni      openni:1d27/0601@1/5           openni,pace=as-taken:monday.oni
 //! ```
 
 mod genicam;
 mod options;
 mod simulated;
 
-use std::{fmt, path::PathBuf, str::FromStr};
+use std::{
+    fmt,
+    path::{Path, PathBuf},
+    str::FromStr,
+};
 
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +44,8 @@ pub enum SourceSpec {
     Kinect(KinectSpec),
     /// A GenICam camera.
     Genicam(GenicamSpec),
+    /// A camera of OpenNI, or a file that OpenNI recorded.
+    OpenNi(OpenNiSpec),
 }
 
 /// A folder of frames to be replayed.
@@ -92,12 +99,34 @@ pub struct KinectSpec {
     pub library: Option<PathBuf>,
 }
 
+/// A camera of OpenNI, or a file that OpenNI recorded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OpenNiSpec {
+    /// What OpenNI calls the camera, or the path of a file that ends in `.oni`; `None` for the first camera that is found.
+    pub device: Option<String>,
+    /// How fast a file is played; `None` for each frame as soon as it is asked for.
+    pub pace: Option<Pace>,
+    /// libOpenNI2, a file or a folder; `None` for where the system keeps it.
+    pub library: Option<PathBuf>,
+}
+
+impl OpenNiSpec {
+    /// The file to be played; `None` for a camera.
+    pub fn file(&self) -> Option<&Path> {
+        let path = Path::new(self.device.as_ref()?);
+        let is_file = path
+            .extension()
+            .is_some_and(|end| end.eq_ignore_ascii_case("oni"));
+        is_file.then_some(path)
+    }
+}
+
 /// A text that names no source.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SpecError {
     /// The word before the colon.
     #[error(
-        "{text:?} is no source, expected one that begins with simulated, recording, watch, kinect or genicam"
+        "{text:?} is no source, expected one that begins with simulated, recording, watch, kinect, genicam or openni"
     )]
     UnknownKind {
         /// The whole text.
@@ -134,7 +163,7 @@ pub enum SpecError {
 impl Advice for SpecError {
     fn advice(&self) -> String {
         match self {
-            Self::UnknownKind { text } if std::path::Path::new(text).is_dir() => format!(
+            Self::UnknownKind { text } if Path::new(text).is_dir() => format!(
                 "Say what to do with the folder: recording:{text} to replay it, watch:{text} to wait for new files"
             ),
             Self::UnknownKind { .. } => "List the sources: partsight capture --list".into(),
@@ -154,6 +183,7 @@ const RECORDING: &str = "recording";
 const WATCH: &str = "watch";
 const KINECT: &str = "kinect";
 const GENICAM: &str = "genicam";
+const OPENNI: &str = "openni";
 
 impl SourceSpec {
     /// True for the simulated cell itself; a recording says by itself whether it was simulated.
@@ -166,9 +196,8 @@ impl SourceSpec {
     pub fn is_live(&self) -> bool {
         match self {
             Self::Simulated(_) | Self::Kinect(_) | Self::Genicam(_) => true,
-            Self::Recording(recording) => {
-                matches!(recording.pace, Some(Pace::AsTaken | Pace::PerSecond(_)))
-            }
+            Self::Recording(RecordingSpec { pace, .. }) => is_running(*pace),
+            Self::OpenNi(spec) => spec.file().is_none() || is_running(spec.pace),
             Self::Watched(_) => false,
         }
     }
@@ -177,7 +206,7 @@ impl SourceSpec {
     /// captures that stand for themselves.
     pub fn is_followed(&self) -> bool {
         match self {
-            Self::Simulated(_) | Self::Kinect(_) | Self::Genicam(_) => true,
+            Self::Simulated(_) | Self::Kinect(_) | Self::Genicam(_) | Self::OpenNi(_) => true,
             Self::Recording(recording) => is_sequence(&recording.folder),
             Self::Watched(_) => false,
         }
@@ -186,8 +215,10 @@ impl SourceSpec {
     /// The same source; a recording that does not say its pace has this one.
     #[must_use]
     pub fn paced(mut self, pace: Pace) -> Self {
-        if let Self::Recording(recording) = &mut self {
-            recording.pace.get_or_insert(pace);
+        match &mut self {
+            Self::Recording(recording) => recording.pace = recording.pace.or(Some(pace)),
+            Self::OpenNi(spec) if spec.file().is_some() => spec.pace = spec.pace.or(Some(pace)),
+            _ => {}
         }
         self
     }
@@ -204,8 +235,18 @@ impl SourceSpec {
                 serial: Some(serial),
                 ..
             }) => format!("Kinect {serial}"),
+            Self::OpenNi(spec) => match (spec.file(), &spec.device) {
+                (Some(file), _) => format!("Recording {}", file.display()),
+                (None, Some(uri)) => format!("OpenNI camera {uri}"),
+                (None, None) => "OpenNI camera".into(),
+            },
         }
     }
+}
+
+/// True for a replay that goes on by itself.
+fn is_running(pace: Option<Pace>) -> bool {
+    matches!(pace, Some(Pace::AsTaken | Pace::PerSecond(_)))
 }
 
 impl FromStr for SourceSpec {
@@ -228,11 +269,9 @@ impl FromStr for SourceSpec {
             }
             RECORDING => {
                 let options = Options::split(RECORDING, options, "pace camera")?;
-                let pace =
-                    options.value("pace", "as-taken, step, or frames a second", Pace::of_name)?;
                 Ok(Self::Recording(RecordingSpec {
                     folder: folder()?,
-                    pace,
+                    pace: Pace::of_option(&options)?,
                     camera: options.value("camera", "a file", |path| Some(PathBuf::from(path)))?,
                 }))
             }
@@ -260,6 +299,23 @@ impl FromStr for SourceSpec {
                 let options = Options::split(GENICAM, options, GenicamSpec::OPTIONS)?;
                 GenicamSpec::read(what, &options).map(Self::Genicam)
             }
+            OPENNI => {
+                let options = Options::split(OPENNI, options, "pace library")?;
+                let spec = OpenNiSpec {
+                    device: what.map(str::to_owned),
+                    pace: Pace::of_option(&options)?,
+                    library: options
+                        .value("library", "a path", |path| Some(PathBuf::from(path)))?,
+                };
+                if spec.pace.is_some() && spec.file().is_none() {
+                    return Err(SpecError::BadValue {
+                        what: "openni with a pace",
+                        found: what.unwrap_or_default().to_owned(),
+                        expected: "a file that ends in .oni".to_owned(),
+                    });
+                }
+                Ok(Self::OpenNi(spec))
+            }
             _ => Err(SpecError::UnknownKind {
                 text: text.to_owned(),
             }),
@@ -268,6 +324,10 @@ impl FromStr for SourceSpec {
 }
 
 impl Pace {
+    fn of_option(options: &Options) -> Result<Option<Self>, SpecError> {
+        options.value("pace", "as-taken, step, or frames a second", Self::of_name)
+    }
+
     fn of_name(word: &str) -> Option<Self> {
         match word {
             "as-taken" => Some(Self::AsTaken),
@@ -291,12 +351,7 @@ impl fmt::Display for SourceSpec {
                 camera,
             }) => {
                 f.write_str(RECORDING)?;
-                match pace {
-                    None => {}
-                    Some(Pace::AsTaken) => f.write_str(",pace=as-taken")?,
-                    Some(Pace::Step) => f.write_str(",pace=step")?,
-                    Some(Pace::PerSecond(rate)) => write!(f, ",pace={rate}")?,
-                }
+                write_pace(f, *pace)?;
                 if let Some(camera) = camera {
                     write!(f, ",camera={}", escaped(&camera.to_string_lossy()))?;
                 }
@@ -312,15 +367,40 @@ impl fmt::Display for SourceSpec {
             Self::Genicam(spec) => spec.write(f),
             Self::Kinect(KinectSpec { serial, library }) => {
                 f.write_str(KINECT)?;
-                if let Some(library) = library {
-                    write!(f, ",library={}", escaped(&library.to_string_lossy()))?;
-                }
-                serial
-                    .as_ref()
-                    .map_or(Ok(()), |serial| write!(f, ":{serial}"))
+                write_camera(f, library.as_deref(), serial.as_deref())
+            }
+            Self::OpenNi(OpenNiSpec {
+                device,
+                pace,
+                library,
+            }) => {
+                f.write_str(OPENNI)?;
+                write_pace(f, *pace)?;
+                write_camera(f, library.as_deref(), device.as_deref())
             }
         }
     }
+}
+
+fn write_pace(f: &mut fmt::Formatter<'_>, pace: Option<Pace>) -> fmt::Result {
+    match pace {
+        None => Ok(()),
+        Some(Pace::AsTaken) => f.write_str(",pace=as-taken"),
+        Some(Pace::Step) => f.write_str(",pace=step"),
+        Some(Pace::PerSecond(rate)) => write!(f, ",pace={rate}"),
+    }
+}
+
+/// The library of a camera, and which camera it is.
+fn write_camera(
+    f: &mut fmt::Formatter<'_>,
+    library: Option<&Path>,
+    device: Option<&str>,
+) -> fmt::Result {
+    if let Some(library) = library {
+        write!(f, ",library={}", escaped(&library.to_string_lossy()))?;
+    }
+    device.map_or(Ok(()), |device| write!(f, ":{device}"))
 }
 
 impl TryFrom<String> for SourceSpec {
@@ -368,6 +448,10 @@ mod tests {
             "genicam",
             "genicam:192.168.5.20",
             "genicam,format=Mono16,camera=my camera.json,library=/opt/a%2Cb:Vendor, 3D:1",
+            "openni",
+            "openni:1d27/0601@1/5",
+            "openni,library=/opt/ni2:C:\\monday, 1.oni",
+            "openni,pace=2.5:monday.ONI",
         ] {
             assert_eq!(read(text).to_string(), text);
             let json = serde_json::to_string(&read(text)).unwrap();
@@ -395,6 +479,11 @@ mod tests {
         );
         assert!(!paced.is_live() && read("recording,pace=3:x").is_live());
         assert!(read("simulated").is_live() && !read("watch:x").is_live());
+        let camera = read("openni:1d27/0601@1/5");
+        assert!(camera.is_live() && camera.clone().paced(Pace::Step) == camera);
+        let file = read("openni:a.oni");
+        assert!(!file.is_live() && file.is_followed());
+        assert!(file.paced(Pace::AsTaken).is_live());
     }
 
     #[test]
@@ -416,6 +505,9 @@ mod tests {
             ("simulated,noise=NaN", "from 0 to 5"),
             ("simulated,fps=0", "frames a second"),
             ("simulated,pose=1 2 3", "six"),
+            ("openni,pace=step", "ends in .oni"),
+            ("openni,pace=step:1d27/0601@1/5", "ends in .oni"),
+            ("openni,pace=0:a.oni", "frames a second"),
         ] {
             let error = text.parse::<SourceSpec>().expect_err(text);
             assert!(error.to_string().contains(words), "{text}: {error}");

@@ -67,6 +67,7 @@ struct Waiting {
 }
 
 /// What the broker has not acknowledged yet.
+#[expect(clippy::large_enum_variant, reason = "there is one of them")]
 enum InFlight {
     State,
     Inspection(Waiting),

@@ -354,7 +354,8 @@ fn num_frames(spec: &SourceSpec) -> usize {
         SourceSpec::Simulated(_)
         | SourceSpec::Recording(_)
         | SourceSpec::Kinect(_)
-        | SourceSpec::Genicam(_) => USUAL_FRAMES,
+        | SourceSpec::Genicam(_)
+        | SourceSpec::OpenNi(_) => USUAL_FRAMES,
     }
 }
 

@@ -1,0 +1,305 @@
+//! Why there is no picture through OpenNI, and what to do about it.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::{
+    answer::{Failed, NoContext},
+    search,
+};
+use crate::{capture::Recovery, error::Advice};
+
+/// Why an OpenNI camera or a file of one cannot be used, or gives nothing more.
+#[derive(Debug, Error)]
+pub enum OpenNiError {
+    /// The system has no libOpenNI2.
+    #[error("libOpenNI2 is not installed (looked for {})", tried.join(", "))]
+    NoLibrary {
+        /// The names that were looked for.
+        tried: Vec<&'static str>,
+    },
+    /// The place that a setting names has none.
+    #[error("{}: no libOpenNI2 there", path.display())]
+    LibraryNotAt {
+        /// The file or folder, as it was given.
+        path: PathBuf,
+    },
+    /// There is one and the system cannot load it.
+    #[error("{library} cannot be loaded: {reason}")]
+    LibraryUnusable {
+        /// Its name or path.
+        library: String,
+        /// The system's words.
+        reason: String,
+    },
+    /// It is another version, or no libOpenNI2 at all.
+    #[error("{library} has no function {symbol}: not libOpenNI2 2.2")]
+    MissingSymbol {
+        /// Its name or path.
+        library: String,
+        /// The function.
+        symbol: &'static str,
+    },
+    /// The library does not start, mostly because it finds no drivers.
+    #[error("libOpenNI2 does not start{}", words(said))]
+    NoDrivers {
+        /// What the library says.
+        said: Vec<String>,
+    },
+    /// This program uses OpenNI already.
+    #[error("OpenNI is in use by Partsight itself")]
+    InUse,
+    /// Nothing is plugged in.
+    #[error("no OpenNI camera is plugged in")]
+    NoDevice,
+    /// Another one than the one asked for is plugged in.
+    #[error("no OpenNI camera {uri} is plugged in{}", others(found))]
+    NoSuchDevice {
+        /// The one asked for.
+        uri: String,
+        /// Those there are.
+        found: Vec<String>,
+    },
+    /// It is plugged in and does not open.
+    #[error("the OpenNI camera does not open{}", words(said))]
+    NotOpened {
+        /// What the library says.
+        said: Vec<String>,
+    },
+    /// It has no depth in a form that is read here.
+    #[error("{title} offers depth neither in millimetres nor in tenths of one")]
+    NoDepthMode {
+        /// The camera or file.
+        title: String,
+    },
+    /// It does not tell its field of view.
+    #[error("{title} does not tell its field of view")]
+    NoFieldOfView {
+        /// The camera or file.
+        title: String,
+    },
+    /// It does not tell whether left and right are exchanged.
+    #[error("{title} does not tell whether its picture is mirrored")]
+    MirroringUnknown {
+        /// The camera or file.
+        title: String,
+    },
+    /// It sends a part of the picture.
+    #[error("{title} sends a part of its picture only")]
+    Cropped {
+        /// The camera or file.
+        title: String,
+    },
+    /// Its mode, or its mirroring, is another one than when it was opened.
+    #[error("the picture of {title} has changed its size, unit or mirroring")]
+    Changed {
+        /// The camera or file.
+        title: String,
+    },
+    /// It opens, and its stream does not start.
+    #[error("the OpenNI camera does not start{}", words(said))]
+    NotStarted {
+        /// What the library says.
+        said: Vec<String>,
+    },
+    /// It was unplugged, or reports an error of its own.
+    #[error("the OpenNI camera is gone{}", words(said))]
+    Lost {
+        /// What the library says.
+        said: Vec<String>,
+    },
+    /// It is there and sends nothing.
+    #[error("the OpenNI camera sent nothing for {seconds} s")]
+    Silent {
+        /// How long.
+        seconds: u64,
+    },
+    /// A recorded file is not there, is none, or is damaged.
+    #[error("{}: {what}", path.display())]
+    FileUnusable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
+}
+
+impl OpenNiError {
+    /// What helps: a camera may be plugged in, let go or permitted at any time; a library or a file does not come by
+    /// itself.
+    pub(crate) fn recovery(&self) -> Recovery {
+        match self {
+            Self::InUse
+            | Self::NoDevice
+            | Self::NoSuchDevice { .. }
+            | Self::NotOpened { .. }
+            | Self::NotStarted { .. }
+            | Self::Lost { .. }
+            | Self::Silent { .. } => Recovery::Reopen,
+            Self::NoLibrary { .. }
+            | Self::LibraryNotAt { .. }
+            | Self::LibraryUnusable { .. }
+            | Self::MissingSymbol { .. }
+            | Self::NoDrivers { .. }
+            | Self::NoDepthMode { .. }
+            | Self::NoFieldOfView { .. }
+            | Self::MirroringUnknown { .. }
+            | Self::Cropped { .. }
+            | Self::Changed { .. }
+            | Self::FileUnusable { .. } => Recovery::None,
+        }
+    }
+
+    pub(super) fn of_start(error: NoContext, library: &str) -> Self {
+        match error {
+            NoContext::MissingSymbol(symbol) => Self::MissingSymbol {
+                library: library.to_owned(),
+                symbol,
+            },
+            NoContext::InUse => Self::InUse,
+            NoContext::Failed(Failed { said }) => Self::NoDrivers { said },
+        }
+    }
+}
+
+fn others(found: &[String]) -> String {
+    if found.is_empty() {
+        String::new()
+    } else {
+        format!(", only {}", found.join(", "))
+    }
+}
+
+pub(super) fn words(said: &[String]) -> String {
+    said.first()
+        .map(|first| format!(": {first}"))
+        .unwrap_or_default()
+}
+
+const INSTALL: &str = if cfg!(target_os = "macos") {
+    "brew install openni2"
+} else if cfg!(windows) {
+    "put OpenNI2.dll with its folder OpenNI2 beside the program"
+} else {
+    "sudo apt-get install libopenni2-0"
+};
+
+impl Advice for OpenNiError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoLibrary { .. } => format!(
+                "Install it ({INSTALL}), or set {} to the folder that holds it",
+                search::VARIABLE
+            ),
+            Self::LibraryNotAt { .. } => format!(
+                "Correct the source's library option or {}, or leave both out to use the system's libOpenNI2",
+                search::VARIABLE
+            ),
+            Self::LibraryUnusable { .. } => {
+                format!("Install the libOpenNI2 of this system with all that it needs ({INSTALL})")
+            }
+            Self::MissingSymbol { .. } => format!("Install libOpenNI2 2.2 ({INSTALL})"),
+            Self::NoDrivers { .. } => {
+                "Put the folder OpenNI2/Drivers with the camera's driver beside the library".into()
+            }
+            Self::InUse => {
+                "Use the camera where it is open already, or close it there first".into()
+            }
+            Self::NoDevice => {
+                "Plug the camera in; if it is, put its maker's driver into OpenNI2/Drivers beside the library".into()
+            }
+            Self::NoSuchDevice { .. } => {
+                "See partsight capture --list: the name changes when the camera is plugged in again; openni alone takes the first one".into()
+            }
+            Self::NotOpened { .. } => format!(
+                "Close other programs that use the camera; if there are none, install the udev rule that permits it ({INSTALL}) and plug the camera in again"
+            ),
+            Self::NoDepthMode { .. } => {
+                "Record it again in millimetres, or update the camera's driver".into()
+            }
+            Self::NoFieldOfView { .. } => {
+                "Update the camera's driver: without the field of view no reading has a place".into()
+            }
+            Self::MirroringUnknown { .. } => {
+                "Update the camera's driver, and record again with it: a mirrored picture gives wrong poses".into()
+            }
+            Self::Cropped { .. } => "Switch cropping off, and record again the whole picture".into(),
+            Self::Changed { .. } => {
+                "Leave the camera's settings as they are while it runs or records, then open it again".into()
+            }
+            Self::NotStarted { .. } => {
+                "Plug the camera into another USB socket, with no other camera on the same hub".into()
+            }
+            Self::Lost { .. } => "Check the camera's cable".into(),
+            Self::Silent { .. } => {
+                "Plug the camera into a USB socket of the computer itself, not of a hub".into()
+            }
+            Self::FileUnusable { .. } => {
+                "Check the name, or copy or record the file again".into()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_trouble_has_a_sentence_and_an_advice_of_its_own() {
+        let (library, title, said) = (String::new(), String::from("It"), Vec::new());
+        let errors = [
+            OpenNiError::NoLibrary { tried: Vec::new() },
+            OpenNiError::LibraryNotAt {
+                path: "/opt".into(),
+            },
+            OpenNiError::LibraryUnusable {
+                library: library.clone(),
+                reason: "no ELF".into(),
+            },
+            OpenNiError::MissingSymbol {
+                library,
+                symbol: "oniInitialize",
+            },
+            OpenNiError::NoDrivers { said: said.clone() },
+            OpenNiError::InUse,
+            OpenNiError::NoDevice,
+            OpenNiError::NoSuchDevice {
+                uri: "A".into(),
+                found: vec!["B".into()],
+            },
+            OpenNiError::NotOpened { said: said.clone() },
+            OpenNiError::NoDepthMode {
+                title: title.clone(),
+            },
+            OpenNiError::NoFieldOfView {
+                title: title.clone(),
+            },
+            OpenNiError::MirroringUnknown {
+                title: title.clone(),
+            },
+            OpenNiError::Cropped {
+                title: title.clone(),
+            },
+            OpenNiError::Changed { title },
+            OpenNiError::NotStarted { said: said.clone() },
+            OpenNiError::Lost { said },
+            OpenNiError::Silent { seconds: 5 },
+            OpenNiError::FileUnusable {
+                path: "a.oni".into(),
+                what: "not there".into(),
+            },
+        ];
+        let advice: std::collections::BTreeSet<String> =
+            errors.iter().map(Advice::advice).collect();
+        assert_eq!(advice.len(), errors.len());
+        for error in &errors {
+            let text = format!("{error}. {}", error.advice());
+            assert!(
+                !text.contains('\n') && !error.advice().ends_with('.'),
+                "{text}"
+            );
+        }
+    }
+}
