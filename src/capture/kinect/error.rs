@@ -113,12 +113,13 @@ pub enum KinectError {
     },
 }
 
-/// The udev rules that let a user open a Kinect, as distributions name them.
-const RULES: [&str; 4] = [
+/// The udev rules that let a user open a Kinect: as distributions name them, and our own package's.
+const RULES: [&str; 5] = [
     "/lib/udev/rules.d/60-libfreenect0.5.rules",
     "/usr/lib/udev/rules.d/60-libfreenect.rules",
     "/etc/udev/rules.d/51-kinect.rules",
     "/etc/udev/rules.d/66-kinect.rules",
+    "/usr/lib/udev/rules.d/55-partsight-cameras.rules",
 ];
 
 impl KinectError {
