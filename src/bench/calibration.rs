@@ -241,6 +241,7 @@ mod tests {
                     relief_m: random.random_range(0.0..0.01),
                     outline_m: random.random_range(0.0..0.04),
                     outline_shift_m: None,
+                    outline_median_m: None,
                     cut: 0.0,
                     facing: 1.0,
                 };

@@ -383,6 +383,7 @@ fn evidence(
         relief_m: fit.relief_m,
         outline_m: fit.outline_m,
         outline_shift_m: None,
+        outline_median_m: None,
         // Each frame may cut the part; together they see what is not outside.
         cut: 0.0,
         facing: fit.facing,

@@ -108,6 +108,7 @@ mod tests {
             relief_m: 0.0,
             outline_m: 0.0,
             outline_shift_m: None,
+            outline_median_m: None,
             cut: 0.0,
             facing: 1.0,
         };

@@ -57,6 +57,9 @@ pub struct Evidence {
     /// How far stretches of the outline lie off the reference's, metres: root mean square of their mean signed distances.
     /// `None` as long as the pose is not refined to the end, or if too little of the outline is seen.
     pub outline_shift_m: Option<f64>,
+    /// How far half of the outline lies off the reference's at most, metres: median of the stretches' shifts by length.
+    /// `None` where `outline_shift_m` is.
+    pub outline_median_m: Option<f64>,
     /// Share of the part's outline where only the view ends, 0..1.
     pub cut: f64,
     /// Mean cosine of the angle that the reference is seen at, where the part lies on it.
@@ -139,6 +142,7 @@ impl PreparedScene<'_> {
             edge_m: self.own_m() * edge_share,
             rival: 0.0,
             outline_shift_m: None,
+            outline_median_m: None,
             cut: self.cut_share(),
             facing: mean_facing(&shared_closest, &target, target_from_source),
             shape: 0.0,

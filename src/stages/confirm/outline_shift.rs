@@ -5,6 +5,9 @@
 //! mean over a stretch is not, as long as the part is the reference's: 2 to 4 mm root mean square of all stretches. A
 //! part of the same type that is 2 % larger is off by a centimetre at its ends.
 //!
+//! A clip, a hem seen from the side or readings lost at a gloss put single stretches off by centimetres, on real frames
+//! more than on simulated ones. The median over the stretches does not follow them; another model differs all round.
+//!
 //! Where a surface curves out of sight the outline is no edge of the part and moves with the view, and where the side of
 //! a bar comes into sight it is the edge of another face: such points are left out, and so are narrow openings.
 
@@ -37,8 +40,16 @@ const ON_SURFACE: f64 = 0.005;
 /// Cosine of the angle between the surface and the view from which on an outline is an edge of the part.
 const LEAST_SQUARE: f64 = 0.5;
 
-/// Root mean square of the stretches' mean signed distances in the plane of a view, metres; `None` if too little of the
-/// outline can be compared.
+/// How far the stretches of an outline lie off the reference's, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct OutlineShift {
+    /// Root mean square of the stretches' mean signed distances.
+    pub(super) rms: f64,
+    /// Median of the stretches' shifts, by length; a stretch's shift is the median of its signed distances.
+    pub(super) median: f64,
+}
+
+/// The shift in the plane of a view; `None` if too little of the outline can be compared.
 pub(super) fn outline_shift(
     source: &AlignmentSource,
     target: &AlignmentTarget<'_>,
@@ -47,7 +58,7 @@ pub(super) fn outline_shift(
     target_from_source: &RigidTransform,
     noise_at_1m: Metres,
     cut: &ViewCut,
-) -> Option<f64> {
+) -> Option<OutlineShift> {
     let reference = Borders::of(contour);
     let camera = target_from_source * Point3::origin();
     let towards = plane_from_part.inverse() * Vector3::z();
@@ -87,17 +98,37 @@ pub(super) fn outline_shift(
         }
     }
     offs.sort_by_key(|off| off.0);
-    let (mut sum, mut num, mut num_stretches) = (0.0, 0.0, 0);
-    for stretch in offs.chunk_by(|a, b| a.0 == b.0) {
-        if stretch.len() >= LEAST_IN_STRETCH {
-            let n = stretch.len() as f64;
-            let mean = stretch.iter().map(|off| off.1).sum::<f64>() / n;
-            sum += n * mean * mean;
+    let (mut sum, mut num) = (0.0, 0);
+    let mut shifts: Vec<(f64, usize)> = Vec::new();
+    for stretch in offs.chunk_by_mut(|a, b| a.0 == b.0) {
+        let n = stretch.len();
+        if n >= LEAST_IN_STRETCH {
+            let mean = stretch.iter().map(|off| off.1).sum::<f64>() / n as f64;
+            sum += n as f64 * mean * mean;
             num += n;
-            num_stretches += 1;
+            stretch.sort_by(|a, b| a.1.total_cmp(&b.1));
+            let middle = f64::midpoint(stretch[(n - 1) / 2].1, stretch[n / 2].1);
+            shifts.push((middle.abs(), n));
         }
     }
-    (num_stretches >= LEAST_STRETCHES).then(|| (sum / num).sqrt())
+    (shifts.len() >= LEAST_STRETCHES).then(|| OutlineShift {
+        rms: (sum / num as f64).sqrt(),
+        median: median_by_length(shifts, num),
+    })
+}
+
+/// The shift that half of the outline's `num` points do not exceed.
+fn median_by_length(mut shifts: Vec<(f64, usize)>, num: usize) -> f64 {
+    shifts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut num_before = 0;
+    let reaches_half = |(_, n): &&(f64, usize)| {
+        num_before += n;
+        2 * num_before >= num
+    };
+    shifts
+        .iter()
+        .find(reaches_half)
+        .map_or(0.0, |found| found.0)
 }
 
 /// Outline and openings of a reference in the plane of a view.
@@ -195,7 +226,7 @@ mod tests {
     }
 
     /// A sheet of 1 m by 0.6 m with a slot, seen with these lengths and its slot this much aside.
-    fn shift_of(width: f64, height: f64, slot_aside: f32) -> Option<f64> {
+    fn shift_of(width: f64, height: f64, slot_aside: f32) -> Option<OutlineShift> {
         let surface = (0..100 * 60).map(|i| {
             let (x, y) = ((i % 100) as f32, (i / 100) as f32);
             Point3::new(x * 0.01 - 0.5, y * 0.01 - 0.3, 1.0)
@@ -238,15 +269,33 @@ mod tests {
 
     #[test]
     fn a_larger_sheet_is_off_by_how_much_its_edges_are_and_the_same_one_by_nothing() {
-        assert!(shift_of(1.0, 0.6, 0.0).expect("an outline") < 1e-3);
+        let same = shift_of(1.0, 0.6, 0.0).expect("an outline");
+        assert!(same.rms < 1e-3 && same.median < 1e-3, "{same:?}");
         // Both ends by 10 mm, the long sides not at all: the short ones are three eighths of the outline.
         let wider = shift_of(1.02, 0.6, 0.0).expect("an outline");
-        assert!((wider - 0.010 * 0.375_f64.sqrt()).abs() < 1e-3, "{wider}");
+        assert!(
+            (wider.rms - 0.010 * 0.375_f64.sqrt()).abs() < 1e-3,
+            "{wider:?}"
+        );
         assert!(shift_of(0.0, 0.0, 0.0).is_none());
     }
 
     #[test]
+    fn the_median_is_off_where_most_of_the_outline_is() {
+        let at_the_ends = shift_of(1.03, 0.6, 0.0).expect("an outline");
+        assert!(at_the_ends.median < 1e-3, "{at_the_ends:?}");
+        let all_round = shift_of(1.03, 0.63, 0.0).expect("an outline");
+        assert!((all_round.median - 0.015).abs() < 1e-3, "{all_round:?}");
+    }
+
+    #[test]
+    fn a_long_stretch_counts_as_much_as_its_points_are() {
+        assert!(median_by_length(vec![(9.0, 1), (1.0, 5), (8.0, 2)], 8) < 1.5);
+        assert!(median_by_length(vec![(1.0, 2), (9.0, 5), (2.0, 2)], 9) > 8.5);
+    }
+
+    #[test]
     fn a_narrow_opening_says_nothing() {
-        assert!(shift_of(1.0, 0.6, 0.012).expect("an outline") < 1e-3);
+        assert!(shift_of(1.0, 0.6, 0.012).expect("an outline").rms < 1e-3);
     }
 }

@@ -141,7 +141,7 @@ impl<'a> PreparedScene<'a> {
         candidate.evidence.rival = candidate.rival;
         let view = &reference.views[candidate.view];
         let noise = self.scene.part.noise_at_1m;
-        candidate.evidence.outline_shift_m = outline_shift(
+        let shift = outline_shift(
             source,
             &target,
             &view.contour,
@@ -150,6 +150,8 @@ impl<'a> PreparedScene<'a> {
             noise,
             &reference.cut,
         );
+        candidate.evidence.outline_shift_m = shift.map(|shift| shift.rms);
+        candidate.evidence.outline_median_m = shift.map(|shift| shift.median);
     }
 }
 
