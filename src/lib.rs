@@ -26,7 +26,7 @@
 //! without notice.
 //!
 //! Features, both on by default: `cli`, the command line, pictures and reports; `window`, the window. Without them only
-//! the algorithms build. Off by default: `plant`, what the command line tells other systems.
+//! the algorithms build. Off by default: `plant`, HTTP and MQTT beside the protocols of the server.
 
 #[cfg(feature = "window")]
 #[doc(hidden)]

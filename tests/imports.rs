@@ -11,13 +11,15 @@ use std::{
 };
 
 /// Crates that only these folders may name.
-const RESERVED: [(&str, &[&str]); 6] = [
+const RESERVED: [(&str, &[&str]); 8] = [
     ("egui", &["app"]),
     ("eframe", &["app"]),
     ("rfd", &["app"]),
     ("clap", &["cli", "main"]),
     ("anyhow", &["cli"]),
     ("indicatif", &["cli"]),
+    ("axum", &["plant"]),
+    ("tokio", &["plant"]),
 ];
 
 #[test]

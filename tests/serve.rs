@@ -53,6 +53,7 @@ fn accepted(number: u32) -> Found {
                 speed: None,
             },
         ],
+        report: String::new(),
         trouble: Trouble::default(),
     }
 }

@@ -1,5 +1,7 @@
 //! `partsight serve`: robots and PLCs ask for an inspection over TCP.
 
+#[cfg(feature = "plant")]
+mod http;
 mod session;
 
 use std::{
@@ -90,6 +92,9 @@ pub(super) struct ServeArgs {
     /// A connection without a request for so long is closed, seconds (1 to 86400)
     #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = |text: &str| within(text, &(1.0..=86_400.0)))]
     idle_timeout: f64,
+    #[cfg(feature = "plant")]
+    #[command(flatten)]
+    http: http::HttpArgs,
     #[command(flatten)]
     library: LibraryChoice,
     #[command(flatten)]
@@ -180,6 +185,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let listeners = args.listen.iter();
     let listeners = listeners.map(|at| Listener::new(*at, args.convention));
     let listeners = listeners.collect::<Result<Vec<_>, _>>().advised()?;
+    #[cfg(feature = "plant")]
+    let http = args.http.settings(args.convention)?;
     let recipe = args.recipe.recipe()?;
     let trace = args.trace.of_parts(None)?;
     #[cfg(feature = "plant")]
@@ -206,6 +213,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let mqtt = mqtt
         .map(|mqtt| mqtt.start(&server, args.transform.into(), &load, &trace, console))
         .transpose()?;
+    #[cfg(feature = "plant")]
+    let _http = http::start(http, server.handle(), console)?;
     let format = if args.json {
         OutputFormat::Json
     } else {

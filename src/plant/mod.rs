@@ -1,3 +1,4 @@
-//! What the cell tells the other systems of the plant.
+//! How the server speaks with the systems of a plant, beside the line protocols of [`crate::serve`].
 
+pub mod http;
 pub mod mqtt;

@@ -144,6 +144,17 @@ impl Trouble {
             message: in_words(&error.to_string(), &error.advice()),
         }
     }
+
+    /// As many clients as are allowed are connected.
+    pub(super) fn full(max_clients: usize) -> Self {
+        Self {
+            reason: "full".into(),
+            message: in_words(
+                &format!("{max_clients} clients are connected"),
+                "Close a connection that is not used, or raise --max-clients",
+            ),
+        }
+    }
 }
 
 /// What happened and what to do about it, in one line.
@@ -179,6 +190,8 @@ pub struct Found {
     pub pose: Option<RigidTransform>,
     /// The part's stored spray path, carried by that pose.
     pub path: Vec<PathStep>,
+    /// The inspection as a line of JSON; empty if there was none.
+    pub report: String,
     /// Why there is no pose.
     pub trouble: Trouble,
 }
@@ -357,7 +370,11 @@ fn in_milliseconds(age: Duration) -> u32 {
 }
 
 /// The verdict as it holds now, and why it is not what it was.
-fn judged(found: &Found, age: Option<Duration>, max_age: Duration) -> (VerdictCode, Trouble) {
+pub(super) fn judged(
+    found: &Found,
+    age: Option<Duration>,
+    max_age: Duration,
+) -> (VerdictCode, Trouble) {
     if found.verdict != VerdictCode::Accepted {
         return (found.verdict, found.trouble.clone());
     }
@@ -414,6 +431,7 @@ mod tests {
                 marks: Answer::GUN_ON,
                 speed: Some(0.25),
             }],
+            report: "{}".into(),
             trouble: Trouble::default(),
         }
     }

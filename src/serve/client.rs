@@ -39,7 +39,7 @@ enum EndReason {
 impl Client {
     /// Until one of the two ends the connection.
     pub(super) fn serve(mut self) {
-        let protocol = self.listener.at.protocol;
+        let protocol = self.listener.at.protocol.name();
         self.shared.tell(self.peer, protocol, ClientNews::Connected);
         let news = match self.talk() {
             Ok(EndReason::Told(why)) => {

@@ -89,14 +89,19 @@ impl FromStr for ListenAddress {
         let protocol = protocol.ok_or_else(|| ListenError::UnknownProtocol {
             found: name.to_owned(),
         })?;
-        let own = |port| SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port);
-        let port = place.parse().ok().map(own);
-        let address = port.or_else(|| place.parse().ok());
-        let address = address.ok_or_else(|| ListenError::NoAddress {
-            found: place.to_owned(),
-        })?;
+        let address = parse_address(place)?;
         Ok(Self { protocol, address })
     }
+}
+
+/// A port of this computer alone, or an IP address and a port.
+pub fn parse_address(text: &str) -> Result<SocketAddr, ListenError> {
+    let own = |port| SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port);
+    let port = text.parse().ok().map(own);
+    let address = port.or_else(|| text.parse().ok());
+    address.ok_or_else(|| ListenError::NoAddress {
+        found: text.to_owned(),
+    })
 }
 
 /// As it is read again.

@@ -15,17 +15,22 @@
 //! inspections since the start, and the boot number of this start, so that a client that connects again knows what it
 //! sees.
 //!
-//! Connections are neither encrypted nor authenticated: the network has to be the cell's own.
+//! Connections are neither encrypted nor authenticated: the network has to be the cell's own. Other protocols
+//! (`plant`) ask by a [`ServerHandle`].
 
 mod answer;
 mod camera;
 mod client;
 mod finder;
+mod handle;
 mod listen;
 mod protocol;
 mod record;
 mod server;
+mod tally;
 
+#[cfg(feature = "plant")]
+pub(crate) use self::server::bound;
 pub use self::{
     answer::{
         Answer, CameraState, CameraStatus, Found, MAX_COUNT, PathStep, Request, Trouble,
@@ -33,7 +38,8 @@ pub use self::{
     },
     camera::{Camera, NewFrame, NoFrame},
     finder::{FrameOrigin, NumberedPart, PartFinder, PoseKind},
-    listen::{ListenAddress, ListenError, Listener, OpenToNetwork},
+    handle::ServerHandle,
+    listen::{ListenAddress, ListenError, Listener, OpenToNetwork, parse_address},
     protocol::{
         ByteOrder, Protocol,
         bad_request::BadRequest,
@@ -41,5 +47,8 @@ pub use self::{
         parsed::Parsed,
     },
     record::InspectionRecord,
-    server::{Asked, ClientEvent, ClientNews, Inspector, ServeError, Server, ServerSettings},
+    server::{
+        Asked, ClientEvent, ClientNews, ClientSlot, Inspector, ServeError, Server, ServerSettings,
+    },
+    tally::Tally,
 };

@@ -2,13 +2,14 @@
 
 use std::{
     collections::VecDeque,
+    fmt,
     io::{self, Write as _},
     net::{Shutdown, SocketAddr, TcpListener, TcpStream},
     ops::ControlFlow,
     sync::{
         Arc, Mutex,
         atomic::{AtomicBool, AtomicUsize, Ordering},
-        mpsc::{self, Receiver, RecvTimeoutError, SyncSender},
+        mpsc::{self, Receiver, SyncSender},
     },
     thread::{self, JoinHandle},
     time::{Duration, Instant},
@@ -19,13 +20,16 @@ use thiserror::Error;
 
 use super::{
     answer::{
-        Answer, CameraStatus, Found, Inspected, MAX_COUNT, Request, Situation, Trouble, VerdictCode,
+        Answer, CameraStatus, Found, Inspected, MAX_COUNT, Request, Situation, Trouble,
+        VerdictCode, judged,
     },
     camera::NoFrame,
     client::Client,
+    handle::ServerHandle,
     listen::{ListenAddress, Listener},
-    protocol::{Protocol, bad_request::BadRequest},
+    protocol::bad_request::BadRequest,
     record::InspectionRecord,
+    tally::Tally,
 };
 use crate::{
     error::{Advice, guarded, lock},
@@ -109,8 +113,8 @@ impl Default for ServerSettings {
 pub struct ClientEvent {
     /// Whose connection.
     pub peer: SocketAddr,
-    /// In which protocol.
-    pub protocol: Protocol,
+    /// The name of its protocol.
+    pub protocol: &'static str,
     /// What.
     pub news: ClientNews,
 }
@@ -126,6 +130,8 @@ pub enum ClientNews {
     TurnedAway,
     /// It sent this, was told so and let go.
     BadRequest(BadRequest),
+    /// It sent no token or a wrong one, and was told so.
+    WrongToken,
 }
 
 /// Why a server cannot start.
@@ -134,8 +140,10 @@ pub enum ServeError {
     /// The system does not let it listen there.
     #[error("cannot listen at {at}: {}", words_of_bind(source))]
     Bind {
-        /// Where.
-        at: ListenAddress,
+        /// Where, as it was given.
+        at: String,
+        /// The option that gives it.
+        option: &'static str,
         /// What the system says.
         source: io::Error,
     },
@@ -159,15 +167,15 @@ fn words_of_bind(error: &io::Error) -> String {
 impl Advice for ServeError {
     fn advice(&self) -> String {
         match self {
-            Self::Bind { source, .. } => match source.kind() {
+            Self::Bind { source, option, .. } => match source.kind() {
                 io::ErrorKind::AddrInUse => {
-                    "End the other program, or choose another port with --listen".into()
+                    format!("End the other program, or choose another port with {option}")
                 }
                 io::ErrorKind::AddrNotAvailable => {
                     "Give the address of a network card of this computer, or the port alone".into()
                 }
                 io::ErrorKind::PermissionDenied => "Choose a port from 1024 up".into(),
-                _ => "Choose another address with --listen".into(),
+                _ => format!("Choose another address with {option}"),
             },
             Self::NoThread { .. } => "Close other programs and start again".into(),
         }
@@ -177,10 +185,11 @@ impl Advice for ServeError {
 /// What all threads of a server share.
 pub(super) struct Shared {
     pub(super) settings: ServerSettings,
-    boot: u32,
+    pub(super) boot: u32,
     is_stopping: AtomicBool,
     num_clients: AtomicUsize,
     last: Mutex<Arc<Inspected>>,
+    pub(super) tally: Mutex<Tally>,
     camera: Box<dyn Fn() -> CameraStatus + Send + Sync>,
     on_event: Box<dyn Fn(ClientEvent) + Send + Sync>,
 }
@@ -188,6 +197,10 @@ pub(super) struct Shared {
 impl Shared {
     pub(super) fn is_stopping(&self) -> bool {
         self.is_stopping.load(Ordering::SeqCst)
+    }
+
+    pub(super) fn num_clients(&self) -> usize {
+        self.num_clients.load(Ordering::SeqCst)
     }
 
     pub(super) fn last(&self) -> Arc<Inspected> {
@@ -203,7 +216,7 @@ impl Shared {
         }
     }
 
-    pub(super) fn tell(&self, peer: SocketAddr, protocol: Protocol, news: ClientNews) {
+    pub(super) fn tell(&self, peer: SocketAddr, protocol: &'static str, news: ClientNews) {
         (self.on_event)(ClientEvent {
             peer,
             protocol,
@@ -212,13 +225,13 @@ impl Shared {
     }
 }
 
-/// One of the connections that are allowed, until it is dropped.
-pub(super) struct ClientSlot {
+/// One of the clients that are allowed at a time, until it is dropped.
+pub struct ClientSlot {
     shared: Arc<Shared>,
 }
 
 impl ClientSlot {
-    fn take(shared: &Arc<Shared>) -> Option<Self> {
+    pub(super) fn take(shared: &Arc<Shared>) -> Option<Self> {
         let num_before = shared.num_clients.fetch_add(1, Ordering::SeqCst);
         // Dropped, it is given back.
         let slot = Self {
@@ -243,6 +256,7 @@ pub(super) struct Job {
 /// A server that listens. Dropped, it lets its clients go and waits for its threads.
 pub struct Server {
     shared: Arc<Shared>,
+    hand_over: SyncSender<Job>,
     jobs: Option<Receiver<Job>>,
     threads: Vec<JoinHandle<()>>,
     addresses: Vec<ListenAddress>,
@@ -268,15 +282,17 @@ impl Server {
                 is_stopping: AtomicBool::new(false),
                 num_clients: AtomicUsize::new(0),
                 last: Mutex::default(),
+                tally: Mutex::default(),
                 camera: Box::new(camera),
                 on_event: Box::new(on_event),
             }),
+            hand_over,
             jobs: Some(jobs),
             threads: Vec::new(),
             addresses: bound.iter().map(|(listener, _)| listener.at).collect(),
         };
         for (listener, socket) in bound {
-            let (shared, jobs) = (Arc::clone(&server.shared), hand_over.clone());
+            let (shared, jobs) = (Arc::clone(&server.shared), server.hand_over.clone());
             let thread = thread::Builder::new()
                 .name("listener".into())
                 .spawn(move || listen(listener, &socket, &shared, &jobs))
@@ -296,16 +312,23 @@ impl Server {
         self.shared.boot
     }
 
+    /// What another protocol than those of the listeners asks the server by.
+    pub fn handle(&self) -> ServerHandle {
+        ServerHandle {
+            shared: Arc::clone(&self.shared),
+            jobs: self.hand_over.clone(),
+        }
+    }
+
     /// Inspects what is asked for, until the inspector ends the service. Once only.
     pub fn run(&mut self, inspector: &mut dyn Inspector) {
         let Some(jobs) = self.jobs.take() else {
             return;
         };
         while inspector.turn().is_continue() {
-            match jobs.recv_timeout(TURN) {
-                Ok(job) => self.inspect(&job, inspector),
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => break,
+            // Nothing else ends the wait: the server itself keeps a sender.
+            if let Ok(job) = jobs.recv_timeout(TURN) {
+                self.inspect(&job, inspector);
             }
         }
         // Whoever waits is told that the service ends.
@@ -316,6 +339,9 @@ impl Server {
     fn inspect(&self, job: &Job, inspector: &mut dyn Inspector) {
         let found = guarded(|| inspector.inspect(&job.asked));
         let found = found.unwrap_or_else(|fault| Found::error(Trouble::of("fault", &fault)));
+        let age = found.captured.map(|captured| captured.elapsed());
+        let (verdict, _) = judged(&found, age, self.shared.settings.max_age);
+        lock(&self.shared.tally).add(verdict, job.asked.at.elapsed());
         let inspected = Arc::new(Inspected {
             sequence: self.shared.last().next_sequence(),
             found,
@@ -345,14 +371,27 @@ impl Drop for Server {
 
 fn bind(listener: Listener) -> Result<(Listener, TcpListener), ServeError> {
     let at = listener.at;
-    let bound = TcpListener::bind(at.address).and_then(|socket| {
-        socket.set_nonblocking(true)?;
-        let address = socket.local_addr()?;
-        Ok((address, socket))
-    });
-    let (address, socket) = bound.map_err(|source| ServeError::Bind { at, source })?;
+    let (address, socket) = bound(at.address, &at, "--listen")?;
     let at = ListenAddress { address, ..at };
     Ok((Listener { at, ..listener }, socket))
+}
+
+/// A socket that listens without blocking, and its address with the port that the system chose. `at` and `option` say in an
+/// error what was given and by which option.
+pub(crate) fn bound(
+    address: SocketAddr,
+    at: &dyn fmt::Display,
+    option: &'static str,
+) -> Result<(SocketAddr, TcpListener), ServeError> {
+    let bound = TcpListener::bind(address).and_then(|socket| {
+        socket.set_nonblocking(true)?;
+        Ok((socket.local_addr()?, socket))
+    });
+    bound.map_err(|source| ServeError::Bind {
+        at: at.to_string(),
+        option,
+        source,
+    })
 }
 
 /// The number of a start: another one every second, for half a year.
@@ -374,7 +413,7 @@ fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: 
         };
         clients.retain(|client| !client.is_finished());
         let Some(slot) = ClientSlot::take(shared) else {
-            shared.tell(peer, listener.at.protocol, ClientNews::TurnedAway);
+            shared.tell(peer, listener.at.protocol.name(), ClientNews::TurnedAway);
             turn_away(&stream, listener, shared);
             if turned_away.len() == MAX_TURNED_AWAY {
                 turned_away.pop_front();
@@ -403,13 +442,7 @@ fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: 
 
 /// Tells a client that there is no room for it.
 fn turn_away(mut stream: &TcpStream, listener: Listener, shared: &Shared) {
-    let limit = shared.settings.max_clients;
-    let trouble = Trouble {
-        reason: "full".into(),
-        message: format!(
-            "{limit} clients are connected (to do: Close a connection that is not used, or raise --max-clients)"
-        ),
-    };
+    let trouble = Trouble::full(shared.settings.max_clients);
     let answer = Answer::turned_away(VerdictCode::Full, trouble, &shared.situation());
     let bytes = listener.at.protocol.write(&answer, listener.convention);
     let told = stream
@@ -452,6 +485,7 @@ fn triggered(jobs: &SyncSender<Job>) -> Result<Arc<Inspected>, NoFrame> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::serve::protocol::Protocol;
 
     #[test]
     fn each_start_has_another_number_that_is_never_zero() {

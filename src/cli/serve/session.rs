@@ -107,13 +107,14 @@ impl Inspector for ServeSession<'_> {
         let scene = Arc::new(scene);
         let inspection =
             pipeline::run(&scene, &self.library, &self.recipe, &Unwatched).expect("nobody cancels");
-        let found = self.finder.found(&inspection, &self.recipe, origin);
+        let mut found = self.finder.found(&inspection, &self.recipe, origin);
         let line = InspectionLine::of(&name, &inspection)
             .by(&self.recipe)
             .traced(&self.trace)
             .captured(Some(line))
             .in_robot(Some(&self.finder.robot), &inspection)
             .to_json();
+        found.report.clone_from(&line);
         self.last = Some(InspectedFrame {
             name,
             is_simulated: origin.is_simulated,
@@ -249,7 +250,7 @@ impl ServeSession<'_> {
 }
 
 fn show_event(event: &ClientEvent, console: &Console) {
-    let (peer, protocol) = (event.peer, event.protocol.name());
+    let (peer, protocol) = (event.peer, event.protocol);
     match &event.news {
         ClientNews::Connected => console.note(&format_args!("{peer} connected: {protocol}")),
         ClientNews::Left => console.note(&format_args!("{peer} left")),
@@ -263,6 +264,14 @@ fn show_event(event: &ClientEvent, console: &Console) {
             console.warn(
                 &format_args!("{peer}: {why}; the connection was closed"),
                 why,
+            );
+        }
+        ClientNews::WrongToken => {
+            console.note(&format_args!(
+                "warning: {peer} sent no token or a wrong one: {protocol}"
+            ));
+            console.note(
+                &"  to do: Give the client a token of --http-token-file; if you do not know it, find out who it is",
             );
         }
     }

@@ -1,0 +1,80 @@
+//! The options of `partsight serve` for HTTP.
+
+use std::{net::SocketAddr, path::PathBuf};
+
+use clap::Args;
+
+use crate::{
+    cli::console::{Advised as _, Console, with_advice},
+    plant::http::{HttpError, HttpServer, HttpSettings, Tls, Tokens},
+    robot::Convention,
+    serve::{ServerHandle, parse_address},
+};
+
+#[derive(Debug, Args)]
+pub(super) struct HttpArgs {
+    /// Answer HTTP with JSON there, too: a port, or IP address and port; poses as --as
+    #[arg(long, value_name = "[IP:]PORT", value_parser = parse_http)]
+    http: Option<SocketAddr>,
+    /// File with the tokens of which HTTP clients have to send one, a line each; needed with an IP address that other
+    /// computers reach
+    #[arg(long, value_name = "FILE", requires = "http")]
+    http_token_file: Option<PathBuf>,
+    /// File with the certificate of HTTPS and its chain, PEM
+    #[arg(long, value_name = "FILE", requires_all = ["http", "http_key"])]
+    http_cert: Option<PathBuf>,
+    /// File with the certificate's private key, PEM
+    #[arg(long, value_name = "FILE", requires = "http_cert")]
+    http_key: Option<PathBuf>,
+}
+
+fn parse_http(text: &str) -> Result<SocketAddr, String> {
+    parse_address(text).map_err(|error| with_advice(&error))
+}
+
+impl HttpArgs {
+    /// What was chosen, if HTTP was; reads the files.
+    pub(super) fn settings(
+        &self,
+        convention: Option<Convention>,
+    ) -> anyhow::Result<Option<HttpSettings>> {
+        let Some(address) = self.http else {
+            return Ok(None);
+        };
+        let convention = convention.ok_or(HttpError::NoConvention).advised()?;
+        let tokens = match &self.http_token_file {
+            Some(path) => Tokens::load(path).advised()?,
+            None => Tokens::default(),
+        };
+        let files = self.http_cert.as_ref().zip(self.http_key.as_ref());
+        let tls = files.map(|(certificate, key)| Tls::load(certificate, key).advised());
+        Ok(Some(HttpSettings {
+            address,
+            convention,
+            tokens,
+            tls: tls.transpose()?,
+        }))
+    }
+}
+
+/// Serves HTTP, if it was chosen, and says where.
+pub(super) fn start(
+    settings: Option<HttpSettings>,
+    server: ServerHandle,
+    console: &Console,
+) -> anyhow::Result<Option<HttpServer>> {
+    let Some(settings) = settings else {
+        return Ok(None);
+    };
+    let convention = settings.convention.title();
+    let doubt = settings.doubt();
+    let http = HttpServer::start(settings, server).advised()?;
+    console.note(&format_args!(
+        "Listening: {}, poses as {convention}",
+        http.url()
+    ));
+    if let Some(doubt) = doubt {
+        console.warn(&doubt, &doubt);
+    }
+    Ok(Some(http))
+}

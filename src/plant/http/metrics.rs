@@ -1,0 +1,96 @@
+//! Counts and states as text for Prometheus.
+//!
+//! Source: Prometheus, *Exposition formats*, text-based format 0.0.4.
+
+use std::fmt::Write as _;
+
+use crate::serve::{Answer, CameraState, Tally};
+
+/// The media type of the text.
+pub(super) const MEDIA_TYPE: &str = "text/plain; version=0.0.4; charset=utf-8";
+
+const CAMERA_STATES: [CameraState; 4] = [
+    CameraState::Opening,
+    CameraState::Running,
+    CameraState::Lost,
+    CameraState::Over,
+];
+
+/// `status` is the answer about the status.
+pub(super) fn text(tally: &Tally, status: &Answer, num_clients: usize) -> String {
+    let mut text = Text::default();
+    text.head(
+        "inspections_total",
+        "counter",
+        "Inspections since the start, by verdict",
+    );
+    for (verdict, count) in tally.by_verdict() {
+        text.value(
+            "inspections_total",
+            Some(("verdict", verdict.name())),
+            count as f64,
+        );
+    }
+    text.head(
+        "trigger_seconds",
+        "histogram",
+        "Time from a trigger to its verdict, with the wait for others and for the frame",
+    );
+    for (bound, count) in tally.waited_within() {
+        text.value(
+            "trigger_seconds_bucket",
+            Some(("le", &bound.to_string())),
+            count as f64,
+        );
+    }
+    let count = tally.count() as f64;
+    text.value("trigger_seconds_bucket", Some(("le", "+Inf")), count);
+    text.value("trigger_seconds_sum", None, tally.waited_s());
+    text.value("trigger_seconds_count", None, count);
+    text.head(
+        "last_frame_age_seconds",
+        "gauge",
+        "Age of the last inspected frame",
+    );
+    if let Some(age_ms) = status.age_ms {
+        text.value("last_frame_age_seconds", None, f64::from(age_ms) / 1000.0);
+    }
+    text.head(
+        "camera_state",
+        "gauge",
+        "1 for the state in which the camera is",
+    );
+    for state in CAMERA_STATES {
+        let is_now = f64::from(u8::from(state == status.camera));
+        text.value("camera_state", Some(("state", state.name())), is_now);
+    }
+    text.head(
+        "clients",
+        "gauge",
+        "Connections of the line protocols, and triggers over HTTP that wait",
+    );
+    text.value("clients", None, num_clients as f64);
+    text.head(
+        "boot_number",
+        "gauge",
+        "The number of this start of the server",
+    );
+    text.value("boot_number", None, f64::from(status.boot));
+    text.0
+}
+
+#[derive(Default)]
+struct Text(String);
+
+impl Text {
+    fn head(&mut self, name: &str, kind: &str, help: &str) {
+        let lines = format!("# HELP partsight_{name} {help}\n# TYPE partsight_{name} {kind}\n");
+        self.0.push_str(&lines);
+    }
+
+    fn value(&mut self, name: &str, label: Option<(&str, &str)>, value: f64) {
+        let label = label.map(|(name, value)| format!("{{{name}=\"{value}\"}}"));
+        let label = label.unwrap_or_default();
+        writeln!(self.0, "partsight_{name}{label} {value}").expect("a string takes everything");
+    }
+}

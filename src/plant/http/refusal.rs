@@ -1,0 +1,68 @@
+//! Requests that are not answered as they were asked.
+
+use axum::http::StatusCode;
+use thiserror::Error;
+
+use crate::error::Advice;
+
+/// Bytes of a body at most. No request needs one.
+pub(super) const MAX_BODY_BYTES: usize = 1024;
+
+/// Why a request is not answered as it was asked.
+#[derive(Clone, Copy, Debug, Error)]
+pub(super) enum Refusal {
+    #[error("no token was sent, or a wrong one")]
+    WrongToken,
+    #[error("a web page asks")]
+    WebPage,
+    #[error("nothing has this path")]
+    NoSuchPath,
+    #[error("the path does not take this method")]
+    WrongMethod,
+    #[error("a request that was not complete after {seconds} s")]
+    Incomplete { seconds: u64 },
+    #[error("a body longer than {} bytes", MAX_BODY_BYTES)]
+    TooLong,
+}
+
+impl Refusal {
+    /// The word for it in an answer.
+    pub(super) fn reason(self) -> &'static str {
+        match self {
+            Self::WrongToken => "wrong_token",
+            Self::WebPage => "web_page",
+            Self::NoSuchPath => "unknown_request",
+            Self::WrongMethod => "wrong_method",
+            Self::Incomplete { .. } => "incomplete",
+            Self::TooLong => "too_long",
+        }
+    }
+
+    pub(super) fn status(self) -> StatusCode {
+        match self {
+            Self::WrongToken => StatusCode::UNAUTHORIZED,
+            Self::WebPage => StatusCode::FORBIDDEN,
+            Self::NoSuchPath => StatusCode::NOT_FOUND,
+            Self::WrongMethod => StatusCode::METHOD_NOT_ALLOWED,
+            Self::Incomplete { .. } => StatusCode::REQUEST_TIMEOUT,
+            Self::TooLong => StatusCode::PAYLOAD_TOO_LARGE,
+        }
+    }
+}
+
+impl Advice for Refusal {
+    fn advice(&self) -> String {
+        match self {
+            Self::WrongToken => {
+                "Send a line of the file of --http-token-file as Authorization: Bearer TOKEN".into()
+            }
+            Self::WebPage => {
+                "Ask from a program, by 127.0.0.1 or localhost; a page needs a token: start the server with --http-token-file".into()
+            }
+            Self::NoSuchPath => "GET /v1/openapi.json lists the paths".into(),
+            Self::WrongMethod => "POST /v1/trigger, and GET the other paths".into(),
+            Self::Incomplete { .. } => "Send the request whole, with its body".into(),
+            Self::TooLong => "Send no body".into(),
+        }
+    }
+}

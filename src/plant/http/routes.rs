@@ -1,0 +1,187 @@
+//! What is at which path.
+
+use std::sync::Arc;
+
+use axum::{
+    Router,
+    extract::State,
+    http::{
+        HeaderValue, StatusCode,
+        header::{CACHE_CONTROL, CONTENT_TYPE, WWW_AUTHENTICATE},
+    },
+    response::{IntoResponse as _, Response},
+    routing::{get, post},
+};
+use serde::Serialize;
+use tokio::task::spawn_blocking;
+
+use super::{
+    access::Tokens,
+    body::{AnswerBody, HealthBody, PathBody, ReportBody},
+    metrics, openapi,
+    refusal::Refusal,
+};
+use crate::{
+    error::guarded,
+    robot::Convention,
+    serve::{Answer, Request, ServerHandle, Trouble, VerdictCode},
+};
+
+/// The path that needs no token.
+pub(super) const HEALTH: &str = "/v1/healthz";
+
+/// What every answer needs.
+pub(super) struct Api {
+    pub(super) server: ServerHandle,
+    pub(super) convention: Convention,
+    pub(super) tokens: Tokens,
+    /// `http` or `https`.
+    pub(super) protocol: &'static str,
+}
+
+impl Api {
+    /// A response, also if the program fails while it is made.
+    fn answered(&self, work: impl FnOnce(&Self) -> Response) -> Response {
+        guarded(|| work(self)).unwrap_or_else(|fault| {
+            let trouble = Trouble::of("fault", &fault);
+            self.without_inspection(
+                StatusCode::INTERNAL_SERVER_ERROR,
+                VerdictCode::Error,
+                trouble,
+            )
+        })
+    }
+
+    pub(super) fn refuse(&self, refusal: Refusal) -> Response {
+        let trouble = Trouble::of(refusal.reason(), &refusal);
+        let mut response =
+            self.without_inspection(refusal.status(), VerdictCode::BadRequest, trouble);
+        if let Refusal::WrongToken = refusal {
+            let scheme = HeaderValue::from_static("Bearer");
+            response.headers_mut().insert(WWW_AUTHENTICATE, scheme);
+        }
+        response
+    }
+
+    fn without_inspection(
+        &self,
+        status: StatusCode,
+        verdict: VerdictCode,
+        trouble: Trouble,
+    ) -> Response {
+        let body = AnswerBody::without_inspection(verdict, self.server.boot(), trouble);
+        json(status, &body)
+    }
+
+    fn ok(&self, answer: &Answer) -> Response {
+        json(StatusCode::OK, &AnswerBody::of(answer, self.convention))
+    }
+
+    /// The answer to a trigger: it succeeded if something was inspected, whatever the verdict.
+    fn triggered(&self, answer: &Answer) -> Response {
+        let mut response = self.ok(answer);
+        if matches!(answer.verdict, VerdictCode::Error | VerdictCode::Full) {
+            *response.status_mut() = StatusCode::SERVICE_UNAVAILABLE;
+        }
+        response
+    }
+}
+
+pub(super) fn router(api: Arc<Api>) -> Router {
+    Router::new()
+        .route("/v1/trigger", post(trigger))
+        .route("/v1/status", get(status))
+        .route("/v1/last", get(last))
+        .route("/v1/path", get(path))
+        .route("/v1/report", get(report))
+        .route(HEALTH, get(health))
+        .route("/v1/metrics", get(metrics))
+        .route("/v1/openapi.json", get(description))
+        .fallback(no_such_path)
+        .method_not_allowed_fallback(wrong_method)
+        .with_state(api)
+}
+
+async fn trigger(State(api): State<Arc<Api>>) -> Response {
+    let Some(slot) = api.server.slot() else {
+        return api.answered(|api| api.triggered(&api.server.full()));
+    };
+    // It goes on if the client hangs up, and keeps its place until it is over.
+    let work = spawn_blocking(move || {
+        let response = api.answered(|api| api.triggered(&api.server.answer(Request::Trigger)));
+        drop(slot);
+        response
+    });
+    // Only a runtime that ends does not run it.
+    let ending = StatusCode::SERVICE_UNAVAILABLE;
+    work.await.unwrap_or_else(|_| ending.into_response())
+}
+
+async fn status(State(api): State<Arc<Api>>) -> Response {
+    api.answered(|api| api.ok(&api.server.answer(Request::Status)))
+}
+
+async fn last(State(api): State<Arc<Api>>) -> Response {
+    api.answered(|api| api.ok(&api.server.answer(Request::Last)))
+}
+
+async fn path(State(api): State<Arc<Api>>) -> Response {
+    api.answered(|api| {
+        let (answer, path) = api.server.path();
+        json(
+            StatusCode::OK,
+            &PathBody::of(&answer, &path, api.convention),
+        )
+    })
+}
+
+async fn report(State(api): State<Arc<Api>>) -> Response {
+    api.answered(|api| {
+        let (answer, report) = api.server.report();
+        json(
+            StatusCode::OK,
+            &ReportBody::of(&answer, report, api.convention),
+        )
+    })
+}
+
+async fn health(State(api): State<Arc<Api>>) -> Response {
+    api.answered(|api| {
+        let body = HealthBody {
+            boot: api.server.boot(),
+            camera: api.server.answer(Request::Status).camera,
+        };
+        json(StatusCode::OK, &body)
+    })
+}
+
+async fn metrics(State(api): State<Arc<Api>>) -> Response {
+    api.answered(|api| {
+        let status = api.server.answer(Request::Status);
+        let text = metrics::text(&api.server.tally(), &status, api.server.num_clients());
+        written(StatusCode::OK, metrics::MEDIA_TYPE, text)
+    })
+}
+
+async fn description(State(api): State<Arc<Api>>) -> Response {
+    api.answered(|api| json(StatusCode::OK, &openapi::document(!api.tokens.is_empty())))
+}
+
+async fn no_such_path(State(api): State<Arc<Api>>) -> Response {
+    api.refuse(Refusal::NoSuchPath)
+}
+
+async fn wrong_method(State(api): State<Arc<Api>>) -> Response {
+    api.refuse(Refusal::WrongMethod)
+}
+
+fn json(status: StatusCode, body: &impl Serialize) -> Response {
+    let text = serde_json::to_string(body).expect("numbers and text have a JSON form");
+    written(status, "application/json", text)
+}
+
+/// A pose holds for a moment: nobody on the way may keep an answer.
+fn written(status: StatusCode, media: &'static str, text: String) -> Response {
+    let head = [(CONTENT_TYPE, media), (CACHE_CONTROL, "no-store")];
+    (status, head, text).into_response()
+}

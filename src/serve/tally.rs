@@ -1,0 +1,78 @@
+//! Counts of a server's inspections since its start.
+
+use std::time::Duration;
+
+use super::answer::VerdictCode;
+
+/// How many inspections came to what, and how long their triggers waited.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    verdicts: [u64; Self::VERDICTS.len()],
+    within: [u64; Self::BOUNDS_S.len()],
+    sum: Duration,
+}
+
+impl Tally {
+    /// What an inspection can come to.
+    pub const VERDICTS: [VerdictCode; 5] = [
+        VerdictCode::Accepted,
+        VerdictCode::Refused,
+        VerdictCode::NoPart,
+        VerdictCode::Stale,
+        VerdictCode::Error,
+    ];
+
+    /// The waiting times that are counted, seconds. An inspection takes some 10 ms, the wait for its frame 30 to 70 ms of
+    /// a Kinect, and `--frame-timeout` is 5 s by default.
+    pub const BOUNDS_S: [f64; 9] = [0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0];
+
+    /// One more inspection; `waited` is from its trigger to its verdict.
+    pub(super) fn add(&mut self, verdict: VerdictCode, waited: Duration) {
+        for (count, counted) in self.verdicts.iter_mut().zip(Self::VERDICTS) {
+            *count += u64::from(verdict == counted);
+        }
+        for (count, bound) in self.within.iter_mut().zip(Self::BOUNDS_S) {
+            *count += u64::from(waited.as_secs_f64() <= bound);
+        }
+        self.sum += waited;
+    }
+
+    /// Inspections by verdict.
+    pub fn by_verdict(&self) -> impl Iterator<Item = (VerdictCode, u64)> {
+        Self::VERDICTS.into_iter().zip(self.verdicts)
+    }
+
+    /// How many triggers waited no longer than each of [`Self::BOUNDS_S`].
+    pub fn waited_within(&self) -> impl Iterator<Item = (f64, u64)> {
+        Self::BOUNDS_S.into_iter().zip(self.within)
+    }
+
+    /// All inspections.
+    pub fn count(&self) -> u64 {
+        self.verdicts.iter().sum()
+    }
+
+    /// How long all triggers waited together, seconds.
+    pub fn waited_s(&self) -> f64 {
+        self.sum.as_secs_f64()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_inspection_counts_once_and_in_every_bound_that_it_kept() {
+        let mut tally = Tally::default();
+        tally.add(VerdictCode::Accepted, Duration::from_millis(50));
+        tally.add(VerdictCode::Refused, Duration::from_millis(300));
+        tally.add(VerdictCode::Accepted, Duration::from_mins(1));
+        let counts: Vec<u64> = tally.by_verdict().map(|(_, count)| count).collect();
+        assert_eq!(counts, [2, 1, 0, 0, 0]);
+        let within: Vec<u64> = tally.waited_within().map(|(_, count)| count).collect();
+        assert_eq!(within, [0, 1, 1, 1, 2, 2, 2, 2, 2]);
+        assert_eq!(tally.count(), 3);
+        assert!((tally.waited_s() - 60.35).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,399 @@
+//! What is answered at each path, and that the published description says so.
+
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use partsight::serve::{CameraState, CameraStatus, Found, ServerSettings, Trouble};
+use serde_json::{Value, json};
+
+use super::{Service, accepted, client::Reply, http_settings, refused, schema, tokens};
+
+/// Every path that is read.
+const READ: [&str; 7] = [
+    "/v1/status",
+    "/v1/last",
+    "/v1/path",
+    "/v1/report",
+    "/v1/healthz",
+    "/v1/metrics",
+    "/v1/openapi.json",
+];
+
+/// The numbers of a pose.
+fn numbers(pose: &Value) -> Vec<f64> {
+    let values = pose["values"].as_array().expect("numbers").iter();
+    values
+        .map(|value| value["value"].as_f64().expect("a number"))
+        .collect()
+}
+
+fn assert_at(numbers: &[f64], expected: [f64; 6]) {
+    assert_eq!(numbers.len(), expected.len(), "{numbers:?}");
+    for (found, expected) in numbers.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-6, "{numbers:?}");
+    }
+}
+
+/// Every answer about an inspection says so much.
+fn assert_known(answer: &Value, verdict: &str, sequence: u32) {
+    assert_eq!(answer["verdict"], verdict, "{answer}");
+    assert_eq!(answer["sequence"], sequence, "{answer}");
+    assert!(
+        answer["boot"].as_u64().is_some_and(|boot| boot > 0),
+        "{answer}"
+    );
+    assert!(answer.get("age_ms").is_some(), "{answer}");
+}
+
+/// The value of a line of the metrics.
+fn metric(text: &str, name: &str) -> Option<f64> {
+    let mut lines = text.lines().filter_map(|line| line.rsplit_once(' '));
+    let (_, value) = lines.find(|(found, _)| *found == format!("partsight_{name}"))?;
+    Some(value.parse().expect("a number"))
+}
+
+#[test]
+fn every_path_answers_about_the_last_inspection() {
+    let service = Service::start(accepted);
+    let mut client = service.client();
+    let none = client.get("/v1/last").json();
+    assert_known(&none, "none", 0);
+    assert_eq!(
+        (&none["pose"], &none["age_ms"]),
+        (&Value::Null, &Value::Null)
+    );
+    assert_eq!(client.get("/v1/report").json()["report"], Value::Null);
+    let triggered = client.trigger();
+    assert_eq!(triggered.field("cache-control"), "no-store");
+    let triggered = triggered.json();
+    assert_known(&triggered, "accepted", 1);
+    assert_at(
+        &numbers(&triggered["pose"]),
+        [1.0, 250.0, 1500.0, 0.0, 0.0, 0.0],
+    );
+    assert_eq!(triggered["pose"]["convention"], "fanuc");
+    assert_eq!(triggered["part"], "fender");
+    assert_eq!(
+        (&triggered["number"], &triggered["points"]),
+        (&json!(4), &json!(2))
+    );
+    assert_eq!(
+        (&triggered["simulated"], &triggered["approximate"]),
+        (&json!(true), &json!(false))
+    );
+    assert_eq!(
+        (&triggered["camera"], &triggered["trouble"]),
+        (&json!("running"), &Value::Null)
+    );
+    let again = client.get("/v1/last").json();
+    assert_known(&again, "accepted", 1);
+    assert_eq!(again["pose"], triggered["pose"]);
+    let status = client.get("/v1/status").json();
+    assert_known(&status, "accepted", 1);
+    assert_eq!(status["pose"], Value::Null);
+    let path = client.get("/v1/path").json();
+    assert_known(&path, "accepted", 1);
+    assert_eq!(path["pose"], triggered["pose"]);
+    let expected = json!([
+        { "numbers": [7.0, 250.0, 1500.0, 0.0, 0.0, 0.0], "gun_on": true, "in_band": false, "speed_mm_s": 250.0 },
+        { "numbers": [8.0, 250.0, 1500.0, 0.0, 0.0, 0.0], "gun_on": false, "in_band": true, "speed_mm_s": null },
+    ]);
+    assert_eq!(path["path"], expected);
+    let report = client.get("/v1/report").json();
+    assert_known(&report, "accepted", 1);
+    assert_eq!(report["report"]["pose"]["rms_m"], 0.5);
+    let health = client.get("/v1/healthz").json();
+    assert_eq!(
+        health,
+        json!({ "boot": triggered["boot"], "camera": "running" })
+    );
+    assert_eq!(service.num_inspected(), 1);
+}
+
+#[test]
+fn a_refused_part_and_a_stale_pose_have_no_numbers() {
+    let never_fresh = ServerSettings {
+        max_age: Duration::ZERO,
+        ..ServerSettings::default()
+    };
+    let old = |number| Found {
+        captured: Instant::now().checked_sub(Duration::from_secs(1)),
+        ..accepted(number)
+    };
+    let stale = Service::start_with(never_fresh, http_settings(), old);
+    for (service, verdict, reason) in [
+        (&Service::start(refused), "refused", "low_score"),
+        (&stale, "stale", "stale"),
+    ] {
+        let mut client = service.client();
+        let mut answers = vec![client.trigger().json()];
+        let paths = ["/v1/last", "/v1/status", "/v1/path", "/v1/report"];
+        answers.extend(paths.map(|path| client.get(path).json()));
+        for answer in &answers {
+            assert_known(answer, verdict, 1);
+            assert_eq!(answer["pose"], Value::Null);
+            assert_eq!(answer["points"], 0);
+            assert_eq!(answer["trouble"]["reason"], reason);
+            assert_eq!(answer["part"], "fender");
+        }
+        assert_eq!(answers[3]["path"], json!([]));
+        // What speaks of the part stays, and what a robot could move by does not.
+        let line = &answers[4]["report"];
+        assert_eq!(line["status"], "ok");
+        assert_eq!((line.get("pose"), line.get("robot")), (None, None));
+        let text = client.get("/v1/report").text;
+        assert!(!text.contains("250") && !text.contains("rms_m"), "{text}");
+    }
+}
+
+#[test]
+fn a_camera_that_is_lost_and_a_program_that_fails_are_errors_with_their_reason() {
+    let trouble = Trouble {
+        reason: "camera_lost".into(),
+        message: "the camera is gone (to do: Plug it in)".into(),
+    };
+    let lost = trouble.clone();
+    let service = Service::start(move |number| match number {
+        1 => Found::error(lost.clone()),
+        2 => panic!("no ray for this pixel"),
+        _ => accepted(number),
+    });
+    *service.camera.lock().expect("whole") = Some(CameraStatus {
+        state: CameraState::Lost,
+        trouble: Some(trouble),
+    });
+    let mut client = service.client();
+    for (sequence, reason) in [(1, "camera_lost"), (2, "fault")] {
+        let reply = client.trigger();
+        assert_eq!(reply.status, 503);
+        let answer = reply.json();
+        assert_known(&answer, "error", sequence);
+        assert_eq!(
+            (&answer["trouble"]["reason"], &answer["pose"]),
+            (&json!(reason), &Value::Null)
+        );
+        // Asked again it is what it was, and that is no error of this request.
+        let last = client.get("/v1/last");
+        assert_eq!(
+            (last.status, &last.json()["verdict"]),
+            (200, &json!("error"))
+        );
+    }
+    let status = client.get("/v1/status").json();
+    assert_eq!(
+        (&status["camera"], &status["trouble"]["reason"]),
+        (&json!("lost"), &json!("camera_lost"))
+    );
+    assert_eq!(client.get("/v1/healthz").json()["camera"], "lost");
+    assert_known(&client.trigger().json(), "accepted", 3);
+}
+
+#[test]
+fn a_panic_in_a_handler_is_the_error_of_that_request_alone() {
+    let service = Service::start(accepted);
+    let mut client = service.client();
+    let camera = Arc::clone(&service.camera);
+    let status = camera.lock().expect("whole").take();
+    for (method, path) in [
+        ("GET", "/v1/status"),
+        ("GET", "/v1/metrics"),
+        ("POST", "/v1/trigger"),
+    ] {
+        let reply = client.ask(method, path);
+        assert_eq!(reply.status, 500, "{path}");
+        let answer = reply.json();
+        assert_known(&answer, "error", 0);
+        assert_eq!(answer["trouble"]["reason"], "fault");
+        assert!(
+            answer["trouble"]["message"]
+                .as_str()
+                .is_some_and(|text| text.contains("to do"))
+        );
+    }
+    *camera.lock().expect("whole") = status;
+    assert_eq!(client.trigger().status, 200);
+}
+
+#[test]
+fn metrics_count_verdicts_and_waiting_times() {
+    let service = Service::start(|number| match number {
+        2 => refused(number),
+        _ => accepted(number),
+    });
+    let mut client = service.client();
+    let before = client.get("/v1/metrics");
+    assert_eq!(
+        before.field("content-type"),
+        "text/plain; version=0.0.4; charset=utf-8"
+    );
+    assert_eq!(
+        metric(&before.text, "inspections_total{verdict=\"accepted\"}"),
+        Some(0.0)
+    );
+    assert_eq!(metric(&before.text, "last_frame_age_seconds"), None);
+    for _ in 0..3 {
+        assert_eq!(client.trigger().status, 200);
+    }
+    let text = client.get("/v1/metrics").text;
+    for (name, value) in [
+        ("inspections_total{verdict=\"accepted\"}", 2.0),
+        ("inspections_total{verdict=\"refused\"}", 1.0),
+        ("inspections_total{verdict=\"error\"}", 0.0),
+        ("trigger_seconds_bucket{le=\"+Inf\"}", 3.0),
+        ("trigger_seconds_count", 3.0),
+        ("camera_state{state=\"running\"}", 1.0),
+        ("camera_state{state=\"lost\"}", 0.0),
+        ("clients", 0.0),
+    ] {
+        assert_eq!(metric(&text, name), Some(value), "{name} in\n{text}");
+    }
+    assert!(metric(&text, "last_frame_age_seconds").is_some_and(|age| age >= 0.0));
+    assert!(metric(&text, "trigger_seconds_sum").is_some_and(|sum| sum > 0.0));
+    // As the format wants it: every line a comment or a name with its number.
+    let values = text.lines().filter(|line| !line.starts_with("# "));
+    for line in values {
+        let (name, value) = line.rsplit_once(' ').expect("a name and a number");
+        assert!(
+            name.starts_with("partsight_") && value.parse::<f64>().is_ok(),
+            "{line}"
+        );
+    }
+}
+
+/// Holds an answer against what the description says of it.
+fn assert_described(reply: &Reply, method: &str, path: &str, document: &Value) {
+    let operation = &document["paths"][path][method.to_lowercase()];
+    let response = &operation["responses"][reply.status.to_string()];
+    let media = reply.field("content-type");
+    let schema = response["content"][media].get("schema");
+    let schema = schema.unwrap_or_else(|| panic!("{method} {path}: {} {media}", reply.status));
+    let value = if media == "application/json" {
+        reply.json()
+    } else {
+        json!(reply.text)
+    };
+    if let Err(why) = schema::check(&value, schema, document) {
+        panic!("{method} {path}, {}: {why}\n{value}", reply.status);
+    }
+}
+
+#[test]
+fn every_answer_is_as_the_published_description_says() {
+    let service = Service::start(|number| match number {
+        2 => refused(number),
+        3 => Found::error(Trouble::default()),
+        4 => Found {
+            part: String::new(),
+            number: 0,
+            ..accepted(number)
+        },
+        _ => accepted(number),
+    });
+    let mut client = service.client();
+    let document = client.get("/v1/openapi.json").json();
+    assert_eq!(document["openapi"], "3.1.0");
+    let paths = document["paths"].as_object().expect("paths");
+    assert_eq!(paths.len(), READ.len() + 1);
+    for _ in 0..5 {
+        for path in READ {
+            assert_described(&client.get(path), "GET", path, &document);
+        }
+        assert_described(&client.trigger(), "POST", "/v1/trigger", &document);
+    }
+    // What goes wrong, too.
+    client.fields = "Origin: http://example.com\r\n".into();
+    for path in READ {
+        assert_described(&client.get(path), "GET", path, &document);
+    }
+    client.fields = "Content-Length: 2000\r\n".into();
+    let reply = client.trigger();
+    assert_eq!(reply.status, 413);
+    assert_described(&reply, "POST", "/v1/trigger", &document);
+    let closed = Service::start_with(ServerSettings::default(), with_token(), accepted);
+    let reply = closed.client().trigger();
+    assert_eq!(reply.status, 401);
+    assert_described(&reply, "POST", "/v1/trigger", &document);
+    let mut known = closed.client().with_token("0123456789abcdef");
+    let security = known.get("/v1/openapi.json").json()["security"].clone();
+    assert_eq!(
+        (security, &document["security"]),
+        (json!([{ "token": [] }]), &json!([]))
+    );
+}
+
+fn with_token() -> partsight::plant::http::HttpSettings {
+    partsight::plant::http::HttpSettings {
+        tokens: tokens("0123456789abcdef\n"),
+        ..http_settings()
+    }
+}
+
+#[test]
+fn an_answer_that_is_changed_does_not_fit_the_description() {
+    let service = Service::start(accepted);
+    let mut client = service.client();
+    let document = client.get("/v1/openapi.json").json();
+    let schema = json!({ "$ref": "#/components/schemas/PathBody" });
+    client.trigger();
+    let path = client.get("/v1/path").json();
+    assert_eq!(schema::check(&path, &schema, &document), Ok(()));
+    let changed = |place: &str, value: Value| {
+        let mut path = path.clone();
+        *path.pointer_mut(place).expect("a field") = value;
+        schema::check(&path, &schema, &document)
+    };
+    for (place, value) in [
+        ("/verdict", json!("perhaps")),
+        ("/sequence", json!(-1)),
+        ("/boot", Value::Null),
+        ("/age_ms", json!("1")),
+        ("/camera", json!("asleep")),
+        ("/simulated", json!(1)),
+        ("/pose/values/0/value", json!("1.0")),
+        ("/pose/values/0/unit", json!("inch")),
+        ("/path/1/numbers", json!({})),
+        ("/path/1", json!({ "numbers": [] })),
+    ] {
+        assert!(changed(place, value).is_err(), "{place}");
+    }
+    let mut more = path.clone();
+    more["extra"] = json!(1);
+    assert!(schema::check(&more, &schema, &document).is_err());
+}
+
+#[test]
+fn requests_after_each_other_and_in_pieces_are_answered_one_by_one() {
+    let service = Service::start(accepted);
+    let mut client = service.client();
+    for byte in b"POST /v1/trigger HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\n\r\n{}" {
+        client.send(&[*byte]).expect("sent");
+    }
+    assert_known(&client.reply().expect("an answer").json(), "accepted", 1);
+    for _ in 0..3 {
+        client.begin("POST", "/v1/trigger");
+    }
+    for sequence in 2..=4 {
+        assert_known(
+            &client.reply().expect("an answer").json(),
+            "accepted",
+            sequence,
+        );
+    }
+    for (method, path, status, reason) in [
+        ("GET", "/v1/trigger", 405, "wrong_method"),
+        ("POST", "/v1/last", 405, "wrong_method"),
+        ("GET", "/", 404, "unknown_request"),
+        ("GET", "/v1/last/", 404, "unknown_request"),
+    ] {
+        let reply = client.ask(method, path);
+        let answer = reply.json();
+        assert_eq!(
+            (reply.status, &answer["trouble"]["reason"]),
+            (status, &json!(reason))
+        );
+        assert_known(&answer, "bad_request", 0);
+    }
+    assert_eq!(service.num_inspected(), 4);
+}

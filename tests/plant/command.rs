@@ -1,0 +1,147 @@
+//! `partsight serve --http`: the built program, with the simulated cell as its camera.
+
+use std::{
+    io::{BufRead as _, BufReader},
+    path::Path,
+    process::{Child, Command, Stdio},
+};
+
+use serde_json::json;
+
+use super::client::Client;
+
+/// The built program, with this folder as the user's own.
+fn partsight(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_partsight"));
+    command
+        .args(args)
+        .current_dir(folder)
+        .env("XDG_DATA_HOME", folder.join("data"))
+        .env("HOME", folder);
+    command
+}
+
+/// A folder with the calibration of a cell whose camera is where the robot stands.
+fn cell() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let pose = "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1";
+    let set = [
+        "calibrate",
+        "set",
+        pose,
+        "--mount",
+        "eye-to-hand",
+        "--out",
+        "cell.toml",
+    ];
+    let ran = partsight(folder.path(), &set).output().expect("ran");
+    assert!(ran.status.success(), "{ran:?}");
+    folder
+}
+
+const SERVE: [&str; 7] = [
+    "serve",
+    "--source",
+    "simulated,fps=5:fender",
+    "--calibration",
+    "cell.toml",
+    "--listen",
+    "eki=0",
+];
+
+/// Ends the program also where a test fails.
+struct Ended(Child);
+
+impl Drop for Ended {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+#[test]
+fn a_trigger_over_http_inspects_the_simulated_part() {
+    let folder = cell();
+    let args = [&SERVE[..], &["--as", "fanuc", "--http", "0"]].concat();
+    let child = partsight(folder.path(), &args)
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn();
+    let mut child = Ended(child.expect("starts"));
+    let stderr = BufReader::new(child.0.stderr.take().expect("a pipe"));
+    let mut said = Vec::new();
+    let mut lines = stderr.lines().map_while(Result::ok);
+    let address = lines.find_map(|line| {
+        let rest = line.strip_prefix("Listening: http://");
+        let address = rest
+            .and_then(|rest| rest.split_once("/v1"))
+            .map(|(address, _)| address.to_owned());
+        said.push(line);
+        address
+    });
+    let address = address.unwrap_or_else(|| panic!("{said:?}"));
+    // It goes on writing: somebody has to read.
+    let reader = std::thread::spawn(move || lines.for_each(drop));
+    let mut client = Client::connect(address.parse().expect("an address"));
+    let answer = client.trigger().json();
+    assert_eq!(
+        (&answer["verdict"], &answer["part"]),
+        (&json!("accepted"), &json!("fender")),
+        "{answer}"
+    );
+    assert_eq!(
+        (&answer["simulated"], &answer["sequence"]),
+        (&json!(true), &json!(1))
+    );
+    let line = client.get("/v1/report").json()["report"].clone();
+    assert_eq!(
+        (&line["status"], &line["part"]),
+        (&json!("ok"), &json!("fender")),
+        "{line}"
+    );
+    // The same pose in both: millimetres there, a matrix of metres here.
+    let x = answer["pose"]["values"][0]["value"]
+        .as_f64()
+        .expect("a number");
+    let metres = line["robot"]["robot_from_part"][3]
+        .as_f64()
+        .expect("a number");
+    assert!((x - 1000.0 * metres).abs() < 1e-6, "{answer} {line}");
+    drop(child);
+    reader.join().expect("read");
+}
+
+#[test]
+fn what_cannot_be_served_is_said_with_advice() {
+    let folder = cell();
+    std::fs::write(folder.path().join("tokens"), "short\n").expect("written");
+    for (args, what, advice) in [
+        (
+            &["--as", "kuka", "--http", "0.0.0.0:0"][..],
+            "open to the network",
+            "--http-token-file",
+        ),
+        (&["--http", "0"], "in which numbers", "--as"),
+        (
+            &["--as", "kuka", "--http", "0", "--http-token-file", "tokens"],
+            "no token",
+            "openssl",
+        ),
+        (
+            &["--as", "kuka", "--http", "door"],
+            "is no port",
+            "1 to 65535",
+        ),
+        (
+            &["--as", "kuka", "--http", "0", "--http-cert", "cell.toml"],
+            "--http-key",
+            "",
+        ),
+    ] {
+        let args = [&SERVE[..], args].concat();
+        let ran = partsight(folder.path(), &args).output().expect("ran");
+        let told = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(ran.status.code(), Some(2), "{told}");
+        assert!(told.contains(what) && told.contains(advice), "{told}");
+    }
+}
