@@ -1,6 +1,6 @@
 //! What joints an arm may take at each point of a path, and the cheapest chain of them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use nalgebra::UnitQuaternion;
 
@@ -14,7 +14,7 @@ use crate::geometry::rigid::RigidTransform;
 /// Costs as much as this many seconds of joint motion: a singularity nearby, and a turn by one step.
 const SINGULAR_COST: f64 = 2.0;
 const TURN_COST: f64 = 0.02;
-/// A way that no joint manages costs this much and more.
+/// A way that no joint manages, or on which the arm would fold over or turn a joint once around, costs this much and more.
 const JUMP_COST: f64 = 1e4;
 /// What collides costs more than a hundred jumps: as if beyond a limit, it is only chosen where none is free.
 const COLLISION_COST: f64 = 1e6;
@@ -26,6 +26,8 @@ const LAZY_ROUNDS: usize = 3;
 pub(super) struct Candidate {
     pub(super) joints: Joints,
     pub(super) turn: usize,
+    /// Which of the eight, as one bit.
+    configuration: u8,
     /// Of the point alone.
     cost: f64,
     /// Whether it collides; none if it was not tested yet.
@@ -50,11 +52,7 @@ impl Candidate {
 /// Angle of a step about z, radians within ±π; the steps are even.
 pub(super) fn angle_of(turn: usize, num_turns: usize) -> f64 {
     let angle = TAU * turn as f64 / num_turns as f64;
-    if angle > std::f64::consts::PI {
-        angle - TAU
-    } else {
-        angle
-    }
+    if angle > PI { angle - TAU } else { angle }
 }
 
 /// Steps between two turns, the shorter way round.
@@ -86,6 +84,7 @@ pub(super) fn candidates_of(
         let pose = turned(point, angle_of(turn, num_turns));
         for solution in solver.solutions(&pose, None) {
             let is_singular = solver.singularity(&solution).is_some();
+            let configuration = solver.arm.configuration_bit(&solution);
             // Turning away from the path's own orientation gains nothing by itself.
             let away = turn.min(num_turns - turn) as f64;
             let cost = 0.1 * TURN_COST * away + if is_singular { SINGULAR_COST } else { 0.0 };
@@ -96,6 +95,7 @@ pub(super) fn candidates_of(
                     .map(|joints| Candidate {
                         joints,
                         turn,
+                        configuration,
                         cost,
                         is_collision: None,
                     }),
@@ -105,14 +105,12 @@ pub(super) fn candidates_of(
     all
 }
 
-/// Seconds that the slowest joint needs from one to the other, and that joint.
-fn joint_time(arm: &Arm, from: &Joints, to: &Joints) -> (f64, usize) {
-    let mut worst = (0.0, 0);
-    for i in 0..6 {
-        let time = (to[i] - from[i]).abs() / arm.speeds[i];
-        if time > worst.0 {
-            worst = (time, i);
-        }
+/// Seconds that the slowest joint needs from one to the other, and the largest angle that a joint turns by, radians.
+fn joint_time(arm: &Arm, from: &Joints, to: &Joints) -> (f64, f64) {
+    let mut worst = (0.0_f64, 0.0_f64);
+    for ((to, from), speed) in to.iter().zip(from).zip(arm.speeds) {
+        let angle = (to - from).abs();
+        worst = (worst.0.max(angle / speed), worst.1.max(angle));
     }
     worst
 }
@@ -192,8 +190,10 @@ fn best_chain(
             let allowed = move_time(from, to, points[i - 1].speed);
             let step = |previous: &Candidate| {
                 let apart = turns_apart(previous.turn, candidate.turn, num_turns);
-                let (time, _) = joint_time(arm, &previous.joints, &candidate.joints);
-                let is_jump = allowed.map_or(time > 1.0, |allowed| time > allowed);
+                let (time, angle) = joint_time(arm, &previous.joints, &candidate.joints);
+                let is_jump = allowed.map_or(time > 1.0, |allowed| time > allowed)
+                    || angle > PI
+                    || previous.configuration != candidate.configuration;
                 time + TURN_COST * apart as f64 + if is_jump { JUMP_COST } else { 0.0 }
             };
             let cheapest = |is_near: bool| {

@@ -3,8 +3,8 @@
 use super::{
     Arm, ArmError, PlacedArm,
     chain::{Candidate, angle_of, candidates_of, free_chain, move_time, turned, turns_of},
-    kinematics::{Joints, Singularity, Solver},
-    obstacles::{Body, Obstacle},
+    kinematics::{Joints, Solver},
+    problem::PointProblem,
     rail_plan::rail_positions,
 };
 use crate::geometry::rigid::{RigidTransform, is_finite};
@@ -36,89 +36,6 @@ impl Default for CheckParams {
         Self {
             num_turns: 24,
             rail: 0.0,
-        }
-    }
-}
-
-/// Why a point is no good.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PointProblem {
-    /// The arm is too short, or its wrist too near to its own base.
-    OutOfReach,
-    /// A joint would have to turn farther than it can, in each of the solutions; this is the nearest.
-    JointLimit {
-        /// The joint, from 1.
-        joint: usize,
-        /// The angle that it would need, radians.
-        angle: f64,
-    },
-    /// The arm can, but near a pose in which joints race.
-    NearSingularity(Singularity),
-    /// On the way from the point before, a joint would have to turn faster than it can.
-    TooFast {
-        /// The joint, from 1.
-        joint: usize,
-        /// The speed that it would need, rad/s.
-        speed: f64,
-    },
-    /// On the way from the point before, the rail would have to move faster than it can.
-    RailTooFast {
-        /// The speed that it would need, m/s.
-        speed: f64,
-    },
-    /// On the way from the point before, the arm would have to fold over.
-    ConfigurationChange,
-    /// Gun or arm come nearer to something than the clearance, at the point or on the way from the point before.
-    Collision {
-        /// What comes too near.
-        body: Body,
-        /// To what.
-        obstacle: Obstacle,
-    },
-}
-
-impl PointProblem {
-    /// In words, without the point.
-    pub fn describe(&self) -> String {
-        match self {
-            Self::OutOfReach => "out of reach".into(),
-            Self::JointLimit { joint, angle } => {
-                format!("joint {joint} would need {:.0} degrees", angle.to_degrees())
-            }
-            Self::NearSingularity(which) => format!("near a singularity: {}", which.name()),
-            Self::TooFast { joint, speed } => {
-                format!(
-                    "joint {joint} would need {:.0} degrees/s",
-                    speed.to_degrees()
-                )
-            }
-            Self::RailTooFast { speed } => {
-                format!("the rail would need {:.0} mm/s", 1000.0 * speed)
-            }
-            Self::ConfigurationChange => "the arm would have to fold over".into(),
-            Self::Collision { body, obstacle } => {
-                let body = body.name();
-                match obstacle {
-                    Obstacle::Part => format!("the {body} is too near to the part"),
-                    Obstacle::Floor => format!("the {body} is too near to the floor"),
-                    Obstacle::Box(name) => format!("the {body} is too near to the box {name}"),
-                    Obstacle::UpperArm => format!("the {body} is too near to the upper arm"),
-                    Obstacle::BaseColumn => format!("the {body} is too near to the base column"),
-                }
-            }
-        }
-    }
-
-    /// Which kind it is, for programs.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::OutOfReach => "out_of_reach",
-            Self::JointLimit { .. } => "joint_limit",
-            Self::NearSingularity(_) => "near_singularity",
-            Self::TooFast { .. } => "too_fast",
-            Self::RailTooFast { .. } => "rail_too_fast",
-            Self::ConfigurationChange => "configuration_change",
-            Self::Collision { .. } => "collision",
         }
     }
 }
@@ -164,9 +81,10 @@ impl PathCheck {
             .count()
     }
 
-    /// The least and the greatest position of the rail along the path, metres.
+    /// The least and the greatest position of the rail along the path and at the ends of its program, metres.
     pub fn rail_range(&self) -> [f64; 2] {
-        let positions = self.points.iter().map(|point| point.rail);
+        let ends = self.ends.iter().flatten();
+        let positions = self.points.iter().chain(ends).map(|point| point.rail);
         let range = [f64::INFINITY, f64::NEG_INFINITY];
         positions.fold(range, |[low, high], at| [low.min(at), high.max(at)])
     }
@@ -255,7 +173,8 @@ pub fn check_path(
     })
 }
 
-pub(super) fn refuse_bad(
+/// Refuses what cannot be checked; a point is named by its place in `points`.
+pub(in crate::robot) fn refuse_bad(
     placed: &PlacedArm,
     points: &[ArmPoint],
     params: &CheckParams,
@@ -272,6 +191,9 @@ pub(super) fn refuse_bad(
     }
     if !params.rail.is_finite() {
         return not_finite("the position of the rail".into());
+    }
+    if let Some(rail) = placed.arm.rail {
+        rail.checked()?;
     }
     for (what, value) in [
         ("the radius of the gun", placed.gun_radius),
@@ -327,13 +249,7 @@ fn way_problem(
                 (from.translation.vector.lerp(&to.translation.vector, share)).into(),
                 from.rotation.slerp(&to.rotation, share),
             );
-            let off = |joints: &Joints| {
-                let all = joints.iter().zip(&at);
-                all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-            };
-            let solutions = solver.solutions(&pose, Some(&at)).into_iter();
-            let nearest = solutions.min_by(|a, b| off(a).total_cmp(&off(b)));
-            let Some(nearest) = nearest else {
+            let Some(nearest) = nearest(&solver, &pose, &at) else {
                 return trouble.or(Some(PointProblem::OutOfReach));
             };
             // It comes before whatever else is wrong. The ends of the way are points, which are tested.
@@ -343,9 +259,53 @@ fn way_problem(
             nearest
         };
         trouble = trouble.or_else(|| step_problem(&solver, &at, &near, allowed));
+        if k == num as usize {
+            trouble = trouble.or_else(|| arrival_problem(&solver, start, end, &at));
+        }
         at = near;
     }
     trouble
+}
+
+/// The largest difference between two joints, radians.
+fn apart(a: &Joints, b: &Joints) -> f64 {
+    let all = a.iter().zip(b);
+    all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// The joints nearest to `at` that reach a pose.
+fn nearest(solver: &Solver<'_>, pose: &RigidTransform, at: &Joints) -> Option<Joints> {
+    let solutions = solver.solutions(pose, Some(at)).into_iter();
+    solutions.min_by(|a, b| apart(a, at).total_cmp(&apart(b, at)))
+}
+
+/// What is wrong if a straight move from `at`, shortly before its end, does not arrive with the joints chosen there. However
+/// slow the move is, the controller neither folds the arm over on it nor turns a joint once around.
+fn arrival_problem(
+    solver: &Solver<'_>,
+    start: &WayEnd,
+    end: &WayEnd,
+    at: &Joints,
+) -> Option<PointProblem> {
+    /// Two solutions that are not singular are farther apart, radians.
+    const OTHER: f64 = 0.01;
+    // At a singularity, which is a problem of its own, several solutions meet.
+    let ends = [&start.joints, &end.joints];
+    if ends
+        .iter()
+        .any(|joints| solver.singularity(joints).is_some())
+    {
+        return None;
+    }
+    let arrives = nearest(solver, &end.nozzle, at)?;
+    if apart(&arrives, &end.joints) < OTHER {
+        return None;
+    }
+    let beyond = outside(solver, &arrives).map(|(joint, angle)| PointProblem::JointLimit {
+        joint: joint + 1,
+        angle,
+    });
+    Some(beyond.unwrap_or(PointProblem::ConfigurationChange))
 }
 
 /// Whether the rail gets as far in so many seconds, or in as many as it wants.

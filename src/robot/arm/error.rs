@@ -51,7 +51,7 @@ pub enum ArmError {
         /// Upper limit.
         high: f64,
     },
-    /// The same of the rail.
+    /// A rail without length, or longer than any.
     #[error("the rail runs from {low:.0} to {high:.0} mm")]
     Rail {
         /// From.
@@ -102,12 +102,14 @@ impl Advice for ArmError {
                 "Give each [[box]] a name, centre_mm, size_mm above 0 and, if it is turned, angles_deg; and floor_mm if there is a floor".into()
             }
             Self::Limits { .. } => "Give the lower limit first, then the upper one, in degrees".into(),
-            Self::Rail { .. } => "Give from_mm below to_mm".into(),
+            Self::Rail { .. } => {
+                "Let it begin below where it ends, both within 100 m (100000 mm) of where the cell was calibrated".into()
+            }
             Self::NoRail { .. } => {
                 "Give x, y or z, where it begins and ends in mm and, if it moves along the path, its top speed in mm/s: y,-2000,2000,1000".into()
             }
             Self::Value { .. } => {
-                "Correct it: lengths in millimetres, angles in degrees, speeds above 0, signs 1 or -1".into()
+                "Correct it: lengths in millimetres, angles in degrees, speeds above 0, a rail's from 1 to 10000 mm/s, signs 1 or -1".into()
             }
             Self::NoPoints => "Give a path with at least one point".into(),
             Self::NotFinite { .. } => "Check the numbers of base, tool and path".into(),

@@ -67,7 +67,8 @@ impl Arm {
             .map_err(|error| wrong(error.message().to_owned()))?;
         let rail = text.rail.map(|rail| -> Result<Rail, ArmError> {
             let direction = Unit::try_new(Vector3::from(rail.direction), 1e-6)
-                .filter(|direction| direction.iter().all(|x| x.is_finite()));
+                // Not so of one that is not finite, or whose length is not.
+                .filter(|direction| (direction.norm() - 1.0).abs() < 1e-6);
             let direction = direction.ok_or_else(|| wrong("the rail has no direction".into()))?;
             Ok(Rail {
                 direction,

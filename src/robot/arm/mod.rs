@@ -23,6 +23,7 @@ mod kinematics;
 mod models;
 mod obstacles;
 mod place;
+mod problem;
 mod rail;
 mod rail_plan;
 #[cfg(test)]
@@ -32,13 +33,15 @@ use nalgebra::{Point3, Vector3};
 
 use crate::{geometry::rigid::RigidTransform, robot::Convention};
 
+pub(in crate::robot) use self::check::refuse_bad;
 pub use self::{
-    check::{ArmPoint, CheckParams, PathCheck, PointCheck, PointProblem, check_path},
+    check::{ArmPoint, CheckParams, PathCheck, PointCheck, check_path},
     error::ArmError,
     kinematics::{Joints, Singularity},
     models::ARM_NAMES,
     obstacles::{Body, Obstacle, Obstacles},
     place::{PlaceSuggestion, suggest_base, suggest_rail},
+    problem::PointProblem,
     rail::Rail,
 };
 

@@ -13,7 +13,7 @@ pub struct Rail {
     pub direction: Unit<Vector3<f64>>,
     /// From and to, metres from where the calibration was made.
     pub range: [f64; 2],
-    /// Top speed, m/s, of a rail that moves along the path; none of one that stands still meanwhile.
+    /// Top speed, 0.001..10 m/s, of a rail that moves along the path; none of one that stands still meanwhile.
     pub speed: Option<f64>,
 }
 
@@ -27,7 +27,7 @@ impl Rail {
             });
         }
         if let Some(speed) = self.speed
-            && !(speed > 0.0 && speed <= 10.0)
+            && !(0.001..=10.0).contains(&speed)
         {
             return Err(ArmError::Value {
                 what: "the rail's speed in mm/s".into(),

@@ -11,7 +11,8 @@
 //!
 //! A point that is not reached, a move too fast for the rail and an arm that folds over cost more than all of that. So where
 //! the rail can run such that every point is reached by one configuration, the cheapest such run is found, among runs between
-//! these positions. The run is a proposal: every point, and the way to it, is then checked with the rail where it is.
+//! these positions; of a move past more than [`MAX_LOOKED_AT`] points only so many are looked at. The run is a proposal: every
+//! point, and the way to it, is then checked with the rail where it is.
 //!
 //! Known limits: how fast joints turn does not count here. Near the border of its reach an arm may be too slow, which the check
 //! then says.
@@ -38,6 +39,8 @@ const BORDER: f64 = 4.0;
 /// is missed, two are not. All else together costs less.
 const MISSED: f64 = 1e7;
 const JUMP: f64 = 0.9 * MISSED;
+/// Points that are looked at, evenly, between the ends of a move: a slow rail passes thousands on its way.
+const MAX_LOOKED_AT: usize = 100;
 /// The configurations of an arm.
 const NUM_CONFIGURATIONS: usize = 8;
 
@@ -120,8 +123,11 @@ struct Plan {
 /// Point, position and configuration.
 type State = (usize, usize, usize);
 
+/// The state before, packed: a long path on a long rail has millions of states.
+type Before = (u32, u8, u8);
+
 /// The cheapest run to each state of a point: its cost, and the state before.
-type Costs = Vec<[(f64, Option<State>); NUM_CONFIGURATIONS]>;
+type Costs = Vec<[(f64, Option<Before>); NUM_CONFIGURATIONS]>;
 
 impl Plan {
     fn run(mut self) -> Vec<f64> {
@@ -161,7 +167,7 @@ impl Plan {
                     relax(&mut costs, next, least + JUMP + own(next), from);
                 }
                 // A run that has jumped already may as well jump to the end of the move.
-                let is_cheap = |(cost, _): &(f64, Option<State>)| *cost < least + JUMP / 2.0;
+                let is_cheap = |(cost, _): &(f64, Option<Before>)| *cost < least + JUMP / 2.0;
                 if !costs[point][position].iter().any(is_cheap) {
                     continue;
                 }
@@ -198,7 +204,8 @@ impl Plan {
                 return None;
             }
             let mut passing = self.reached[end][to];
-            for between in point + 1..end {
+            let every = (end - point).div_ceil(MAX_LOOKED_AT);
+            for between in (point + 1..end).step_by(every) {
                 if passing == 0 {
                     return None;
                 }
@@ -230,7 +237,12 @@ impl Plan {
         let (_, (position, configuration)) = least_of(&costs[last]);
         let mut at = (last, position, configuration);
         let mut run = vec![self.positions[position]; costs.len()];
-        while let (_, Some(from)) = costs[at.0][at.1][at.2] {
+        while let (_, Some((point, position, configuration))) = costs[at.0][at.1][at.2] {
+            let from = (
+                point as usize,
+                usize::from(position),
+                usize::from(configuration),
+            );
             let (start, end) = (self.positions[from.1], self.positions[at.1]);
             for (i, place) in run[from.0..at.0].iter_mut().enumerate() {
                 *place = start + (end - start) * self.share(from.0, at.0, from.0 + i);
@@ -274,146 +286,9 @@ fn least_of(costs: &Costs) -> (f64, (usize, usize)) {
 fn relax(costs: &mut [Costs], to: State, cost: f64, from: State) {
     let known = &mut costs[to.0][to.1][to.2];
     if cost < known.0 {
-        *known = (cost, Some(from));
+        *known = (cost, Some((from.0 as u32, from.1 as u8, from.2 as u8)));
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use std::ops::RangeInclusive;
-
-    use rand::{RngExt as _, SeedableRng as _};
-    use rand_pcg::Pcg64;
-
-    use super::*;
-
-    /// Points 0.1 s apart, positions 0.1 m apart; each point is reached from these positions, by the first configuration.
-    fn plan(reached: Vec<RangeInclusive<usize>>, speed: f64) -> Plan {
-        let positions = (0..11).map(|i| 0.1 * f64::from(i)).collect();
-        let reached = reached.into_iter().map(|within| {
-            let bits = (0..11).map(|position| u8::from(within.contains(&position)));
-            bits.collect()
-        });
-        let reached: Vec<Vec<u8>> = reached.collect();
-        Plan {
-            times: (0..reached.len()).map(|i| 0.1 * i as f64).collect(),
-            is_gun_on: vec![true; reached.len()],
-            reached,
-            positions,
-            speed,
-        }
-    }
-
-    /// The fastest that the rail moves from one point to the next, m/s.
-    fn fastest(run: &[f64]) -> f64 {
-        let speeds = run.windows(2).map(|pair| (pair[1] - pair[0]).abs() / 0.1);
-        speeds.fold(0.0, f64::max)
-    }
-
-    fn num_moves(run: &[f64]) -> usize {
-        run.windows(2)
-            .filter(|pair| (pair[1] - pair[0]).abs() > 0.0)
-            .count()
-    }
-
-    #[test]
-    fn it_stands_still_in_the_middle_of_what_reaches_every_point() {
-        let run = plan(vec![2..=6; 30], 1.0).run();
-        assert_eq!(run, vec![0.4; 30]);
-        let mut all = vec![0..=6; 15];
-        all.extend(vec![3..=10; 15]);
-        let run = plan(all, 1.0).run();
-        assert_eq!(num_moves(&run), 0, "{run:?}");
-        assert!((0.3..=0.6 + 1e-9).contains(&run[0]), "{run:?}");
-    }
-
-    #[test]
-    fn it_moves_in_time_within_its_speed_and_while_the_gun_is_off() {
-        let mut all = vec![0..=2; 20];
-        all.extend(vec![0..=10; 20]);
-        all.extend(vec![8..=10; 20]);
-        let run = plan(all, 1.0).run();
-        assert!(run[..20].iter().all(|at| *at <= 0.2 + 1e-9), "{run:?}");
-        assert!(run[40..].iter().all(|at| *at >= 0.8 - 1e-9), "{run:?}");
-        assert!(fastest(&run) <= 1.0 + 1e-6, "{run:?}");
-        // It has two seconds for 0.6 m.
-        assert!(fastest(&run) <= 0.5 + 1e-6, "{run:?}");
-        // Half a second without paint is enough for 0.4 m at 1 m/s.
-        let mut all = vec![1..=3; 30];
-        all.extend(vec![5..=9; 30]);
-        for point in &mut all[20..40] {
-            *point = 1..=9;
-        }
-        let mut plan = plan(all, 1.0);
-        plan.is_gun_on[27..32].fill(false);
-        let run = plan.run();
-        assert_eq!(num_moves(&run[..28]), 0, "{run:?}");
-        assert_eq!(num_moves(&run[32..]), 0, "{run:?}");
-        assert!(num_moves(&run[27..33]) > 0, "{run:?}");
-    }
-
-    #[test]
-    fn what_cannot_be_reached_in_time_is_one_jump_and_not_a_row_of_missed_points() {
-        let mut all = vec![0..=2; 20];
-        all.extend(vec![8..=10; 20]);
-        let run = plan(all.clone(), 0.5).run();
-        assert!(run[..20].iter().all(|at| *at <= 0.2 + 1e-9), "{run:?}");
-        assert!(run[20..].iter().all(|at| *at >= 0.8 - 1e-9), "{run:?}");
-        assert_eq!(run, plan(all, 0.5).run());
-        // A point that no position reaches does not matter.
-        let mut all = vec![2..=6; 30];
-        all[12] = 12..=12;
-        assert_eq!(plan(all, 1.0).run(), vec![0.4; 30]);
-    }
-
-    #[test]
-    fn wherever_a_run_reaches_every_point_one_is_found() {
-        let mut random = Pcg64::seed_from_u64(6);
-        for _ in 0..200 {
-            // A run at 1 m/s between any positions, and what reaches around it.
-            let mut hidden = vec![random.random_range(0..11)];
-            let mut within = vec![hidden[0]..=hidden[0]];
-            while within.len() < 60 {
-                let at: usize = hidden[hidden.len() - 1];
-                let to: usize = random.random_range(0..11);
-                let way = at.abs_diff(to);
-                for step in 1..=way {
-                    let at = if to > at { at + step } else { at - step };
-                    within.push(at..=at);
-                }
-                let stands = random.random_range(1..6);
-                within.extend(std::iter::repeat_n(to..=to, stands));
-                hidden.push(to);
-            }
-            let wider = within.iter().map(|range| {
-                let more = random.random_range(0..3);
-                range.start().saturating_sub(more)..=range.end() + more
-            });
-            let wider: Vec<RangeInclusive<usize>> = wider.collect();
-            let run = plan(wider.clone(), 1.0).run();
-            assert!(fastest(&run) <= 1.0 + 1e-6, "{run:?}");
-            for (at, within) in run.iter().zip(&wider) {
-                let (low, high) = (*within.start() as f64, *within.end() as f64);
-                let at = at / 0.1;
-                assert!(
-                    at > low - 1e-6 && at < high + 1e-6,
-                    "{at} {within:?}: {run:?}"
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn one_configuration_along_the_path_is_better_than_less_way() {
-        // The first reaches from the left and then from the right, the second in turn but never throughout.
-        let mut plan = plan(vec![0..=10; 40], 1.0);
-        for (i, here) in plan.reached.iter_mut().enumerate() {
-            for (position, found) in here.iter_mut().enumerate() {
-                let first = if i < 20 { position <= 5 } else { position >= 5 };
-                let second = position == 1 && i < 30;
-                *found = u8::from(first) | (u8::from(second) << 1);
-            }
-        }
-        assert_eq!(plan.run(), vec![0.5; 40]);
-    }
-}
+mod tests;

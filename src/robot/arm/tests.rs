@@ -349,6 +349,50 @@ fn a_long_way_through_a_limit_or_a_fold_is_found_between_its_ends() {
 }
 
 #[test]
+fn a_slow_move_neither_turns_a_joint_once_around_nor_folds_the_arm_over() {
+    let mut placed = placed("irb2600");
+    let home = placed.clone();
+    let solver = Solver::new(&home, 0.0);
+    let pose = |joint_6: f64| {
+        let joints = [0.0, 0.2, 0.3, 0.0, 0.8, joint_6];
+        solver.forward(&joints).expect("finite")
+    };
+    // 20 mm at 1 mm/s, in which joint 6 turns from 2.95 to 3.1 rad: any joint had the time for a whole turn.
+    let poses = [pose(2.95), Translation3::new(0.02, 0.0, 0.0) * pose(3.1)];
+    let points = poses.map(|robot_from_nozzle| ArmPoint {
+        robot_from_nozzle,
+        speed: 0.001,
+        is_turn_free: false,
+        is_gun_on: true,
+    });
+    // Shoulder and elbow fold one way only.
+    placed.arm.limits[0] = [-0.5, 0.5];
+    placed.arm.limits[1] = [-0.3, 0.7];
+    placed.arm.limits[2] = [-0.3, 0.9];
+    placed.arm.limits[4] = [-1.4, 1.4];
+    for (joint_4, joint_6, is_reached) in [
+        ([-1.0, 1.0], [-4.0, 4.0], true),
+        // Only a whole turn back is left at the second point.
+        ([-1.0, 1.0], [-3.2, 3.0], false),
+        // Only the other wrist is.
+        ([-4.0, 4.0], [-0.1, 3.0], false),
+    ] {
+        placed.arm.limits[3] = joint_4;
+        placed.arm.limits[5] = joint_6;
+        let found = check(&placed, &points);
+        assert!(found.points.iter().all(|point| point.joints.is_some()));
+        assert_eq!(found.points[0].problem, None, "{found:?}");
+        let problem = &found.points[1].problem;
+        let is_limit = matches!(
+            problem,
+            Some(PointProblem::JointLimit { joint: 6, angle }) if *angle > 3.0
+        );
+        assert!(is_limit != is_reached, "{found:?}");
+        assert_eq!(problem.is_none(), is_reached, "{found:?}");
+    }
+}
+
+#[test]
 fn a_round_jet_reaches_more_because_the_nozzle_may_turn() {
     let mut placed = with_gun("gp25");
     // A wrist that hardly turns.
@@ -576,6 +620,13 @@ fn bad_arms_and_paths_are_refused_with_advice() {
     let mut base = placed.clone();
     base.robot_from_base.translation.vector.z = f64::INFINITY;
     assert!(refused(check_path(&base, &points, &params).expect_err("base")).contains("base"));
+    let mut on_rail = placed.clone();
+    on_rail.arm.rail = Some(Rail {
+        direction: Vector3::y_axis(),
+        range: [-1.0, f64::NAN],
+        speed: Some(1.0),
+    });
+    assert!(refused(check_path(&on_rail, &points, &params).expect_err("rail")).contains("rail"));
     for bad in [f64::NAN, -0.001, 1.1] {
         let mut wide = placed.clone();
         wide.gun_radius = bad;
@@ -655,6 +706,8 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
         ("y,0,5,0", "speed"),
         ("y,0,5,-1", "speed"),
         ("y,0,5,nan", "speed"),
+        ("y,0,5,0.9", "speed"),
+        ("y,0,5,10001", "speed"),
     ] {
         let error = option.parse::<Rail>().expect_err(option);
         assert!(!error.advice().is_empty());
@@ -680,6 +733,8 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
         rail.replace("2000", "nan"),
         rail.replace("-2000", "3000"),
         rail.replace("2, 0", "0, 0"),
+        rail.replace("2, 0", "1e200, 0"),
+        rail.replace("1500", "150000"),
         format!("{rail}speed_mm_s = 0\n"),
         format!("{rail}speed_mm_s = nan\n"),
     ] {

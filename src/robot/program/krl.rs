@@ -40,6 +40,10 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
             Motion::Joints => {
                 let to = frame(&step.to, step.configuration.as_deref(), step.rail);
                 lines.instruct(format!("PTP {to}"));
+                if step.rail.is_some() {
+                    // BAS (#VEL_PTP) slows the rail as well, and linear moves would wait for it.
+                    lines.instruct("$VEL_EXTAX[1]=100");
+                }
             }
             Motion::Line(line) => {
                 let speed = text::fixed(line.speed, 6);

@@ -10,7 +10,9 @@ use nalgebra::{Translation3, UnitQuaternion};
 use super::{ProgramPoint, ProgramSettings};
 use crate::robot::{
     RobotFrame,
-    arm::{ArmError, ArmPoint, CheckParams, PathCheck, PlacedArm, PointProblem, check_path},
+    arm::{
+        ArmError, ArmPoint, CheckParams, PathCheck, PlacedArm, PointProblem, check_path, refuse_bad,
+    },
     spray::CarriedPath,
 };
 
@@ -50,6 +52,9 @@ pub fn check_reach(
     settings: &ProgramSettings,
 ) -> Result<PathCheck, ArmError> {
     let mut points = arm_points(carried, frame, settings.speed);
+    let params = CheckParams::default();
+    // Before the approach point is put in front of them: an error names the path's own points.
+    refuse_bad(arm, &points, &params)?;
     let (Some(first), Some(last)) = (points.first().copied(), points.last().copied()) else {
         return Err(ArmError::NoPoints);
     };
@@ -66,7 +71,7 @@ pub fn check_reach(
     }
     points.insert(0, approach);
     points.push(retreat);
-    let mut check = check_path(arm, &points, &CheckParams::default())?;
+    let mut check = check_path(arm, &points, &params)?;
     let retreat = check.points.pop();
     let approach = check.points.remove(0);
     if let (Some(last), Some(retreat)) = (check.points.last_mut(), &retreat) {
@@ -185,6 +190,11 @@ mod tests {
         );
         let none = CarriedPath { points: Vec::new() };
         assert!(check_reach(&arm, &none, &frame, &settings).is_err());
+        // Counted as the path counts them, without the approach point.
+        let mut stopped = line(1.2);
+        stopped.points[2].speed = Some(0.0);
+        let error = check_reach(&arm, &stopped, &frame, &settings).expect_err("no speed");
+        assert!(error.to_string().contains("point 3"), "{error}");
     }
 
     #[test]

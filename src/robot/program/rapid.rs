@@ -1,7 +1,7 @@
 //! ABB's RAPID: one module with one procedure.
 
 use super::{
-    Lines, Program, ProgramFormat,
+    JOINT_SPEED, Lines, Program, ProgramFormat,
     steps::{Motion, Step},
     text,
 };
@@ -10,8 +10,8 @@ use crate::geometry::rigid::RigidTransform;
 const WIDTH: usize = 78;
 /// The tool that is declared where the settings say where the nozzle is.
 const OWN_TOOL: &str = "tPartsight";
-/// TCP, orientation and external axes of the first move: a tenth of what v1000 has.
-const SLOW: &str = "[100,50,500,100]";
+/// Speed of linear external axes in v1000, mm/s: where no rail moves.
+const RAIL_SPEED: f64 = 5000.0;
 
 pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
     let settings = program.settings;
@@ -43,10 +43,17 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     });
     lines.add("    ConfL\\Off;");
     lines.add(format!("    SetDO {signal},0;"));
+    // The rail keeps to its top speed also where the nozzle hardly moves.
+    let rail_speed = program
+        .rail_speed()
+        .map_or(RAIL_SPEED, |speed| 1000.0 * speed);
+    let rail = text::fixed(rail_speed, 3);
+    // TCP, orientation and external axes: a tenth of what v1000 has.
+    let slow = format!("[100,50,{},100]", text::fixed(JOINT_SPEED * rail_speed, 3));
     for step in steps {
         match step.motion {
             Motion::Joints => lines.instruct(format!(
-                "    MoveJ {},{SLOW},fine,{tool}\\WObj:=wobj0;",
+                "    MoveJ {},{slow},fine,{tool}\\WObj:=wobj0;",
                 target(step)
             )),
             Motion::Line(line) => {
@@ -57,7 +64,7 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
                     None => ("MoveL", String::new()),
                 };
                 lines.instruct(format!(
-                    "    {verb} {},[{speed},500,5000,1000],{zone},{tool}\\WObj:=wobj0{signal};",
+                    "    {verb} {},[{speed},500,{rail},1000],{zone},{tool}\\WObj:=wobj0{signal};",
                     target(step)
                 ));
             }

@@ -1,6 +1,8 @@
 mod parse;
 mod rail;
 
+use std::path::Path;
+
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;

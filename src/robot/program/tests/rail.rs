@@ -68,6 +68,35 @@ fn a_rail_that_moves_is_the_external_axis_of_every_position() {
 }
 
 #[test]
+fn linear_moves_may_use_the_whole_speed_of_the_rail_and_the_first_move_a_tenth() {
+    let points = row();
+    let settings = ProgramSettings::default();
+    let text = |arm: &str, format: ProgramFormat, speed: Option<f64>| {
+        let reach = on_rail(arm, &RAILS, speed);
+        let program = Program {
+            reach: Some(&reach),
+            ..program(&points, &settings)
+        };
+        text_of(&program, format)
+    };
+    let rapid = text("irb4600", ProgramFormat::Rapid, Some(0.8));
+    let of = |text: &str, verb: &str, speed: &str| {
+        let moves = text.lines().filter(|line| line.trim().starts_with(verb));
+        let moves: Vec<&str> = moves.collect();
+        assert!(!moves.is_empty(), "{text}");
+        assert!(moves.iter().all(|line| line.contains(speed)), "{moves:?}");
+    };
+    of(&rapid, "MoveJ ", ",[100,50,80.000,100],");
+    of(&rapid, "MoveL", ",500,800.000,1000],");
+    let krl = |speed| text("kr6-r900", ProgramFormat::Krl, speed);
+    let moving = krl(Some(0.8));
+    let (_, behind) = moving.split_once("\r\nPTP ").expect("a first move");
+    let first = behind.lines().nth(1).expect("a line behind it");
+    assert_eq!(first, "$VEL_EXTAX[1]=100");
+    assert!(!krl(None).contains("$VEL_EXTAX"));
+}
+
+#[test]
 fn a_language_without_external_axes_is_refused_where_a_rail_moves() {
     let points = row();
     let settings = ProgramSettings::default();

@@ -1,0 +1,157 @@
+//! The controllers' languages, and what each of them takes.
+
+use std::path::Path;
+
+use super::ProgramError;
+use crate::robot::Convention;
+
+/// A controller's language.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProgramFormat {
+    /// KUKA Robot Language, one `.src` without `.dat`.
+    Krl,
+    /// FANUC's teach pendant program as text.
+    Ls,
+    /// ABB's module.
+    Rapid,
+    /// Universal Robots' script.
+    UrScript,
+    /// Yaskawa's job.
+    Jbi,
+    /// Doosan Robot Language.
+    Drl,
+}
+
+/// How the files of all formats end, without the point.
+pub const PROGRAM_ENDINGS: [&str; 6] = ["src", "ls", "mod", "script", "jbi", "drl"];
+
+impl ProgramFormat {
+    /// Every format.
+    pub const ALL: [Self; 6] = [
+        Self::Krl,
+        Self::Ls,
+        Self::Rapid,
+        Self::UrScript,
+        Self::Jbi,
+        Self::Drl,
+    ];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Krl => "krl",
+            Self::Ls => "ls",
+            Self::Rapid => "rapid",
+            Self::UrScript => "urscript",
+            Self::Jbi => "jbi",
+            Self::Drl => "drl",
+        }
+    }
+
+    /// The name for people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Krl => "KUKA KRL",
+            Self::Ls => "FANUC LS",
+            Self::Rapid => "ABB RAPID",
+            Self::UrScript => "URScript",
+            Self::Jbi => "Yaskawa JBI",
+            Self::Drl => "Doosan DRL",
+        }
+    }
+
+    /// How its files end, without the point.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Krl => PROGRAM_ENDINGS[0],
+            Self::Ls => PROGRAM_ENDINGS[1],
+            Self::Rapid => PROGRAM_ENDINGS[2],
+            Self::UrScript => PROGRAM_ENDINGS[3],
+            Self::Jbi => PROGRAM_ENDINGS[4],
+            Self::Drl => PROGRAM_ENDINGS[5],
+        }
+    }
+
+    /// The format that a file's name ends in.
+    pub fn of(path: &Path) -> Result<Self, ProgramError> {
+        let ending = path.extension().unwrap_or_default();
+        let found = Self::ALL.into_iter();
+        let mut found = found.filter(|format| ending.eq_ignore_ascii_case(format.ending()));
+        found.next().ok_or_else(|| ProgramError::UnknownEnding {
+            path: path.to_owned(),
+        })
+    }
+
+    /// The convention of its poses.
+    pub fn convention(self) -> Convention {
+        match self {
+            Self::Krl => Convention::Kuka,
+            Self::Ls => Convention::Fanuc,
+            Self::Rapid => Convention::Abb,
+            Self::UrScript => Convention::UniversalRobots,
+            Self::Jbi => Convention::Yaskawa,
+            Self::Drl => Convention::Doosan,
+        }
+    }
+
+    /// Most letters of a program's name. A procedure of RAPID is called `run_` and the name.
+    pub(super) fn longest_name(self) -> usize {
+        match self {
+            Self::Krl => 24,
+            Self::Rapid => 28,
+            Self::Ls => 36,
+            Self::Jbi => 32,
+            Self::UrScript | Self::Drl => 64,
+        }
+    }
+
+    /// Most instructions of one program.
+    pub(super) fn most_lines(self) -> Option<usize> {
+        match self {
+            Self::Ls | Self::Jbi => Some(9999),
+            _ => None,
+        }
+    }
+
+    /// The slowest and the fastest speed that it takes, m/s.
+    pub(super) fn speeds(self) -> [f64; 2] {
+        match self {
+            Self::Krl | Self::Ls => [0.001, 2.0],
+            Self::Rapid => [0.001, 5.0],
+            Self::UrScript => [0.001, 3.0],
+            Self::Jbi => [0.001, 1.5],
+            Self::Drl => [0.001, 1.0],
+        }
+    }
+
+    /// The numbers of its digital outputs.
+    pub(super) fn outputs(self) -> [u16; 2] {
+        match self {
+            Self::Krl | Self::Jbi => [1, 4096],
+            Self::Ls => [1, 512],
+            Self::Rapid => [0, 9999],
+            Self::UrScript => [0, 7],
+            Self::Drl => [1, 16],
+        }
+    }
+
+    /// What it calls the axis of a rail; none if it has no external axes.
+    pub(super) fn rail_axis(self) -> Option<&'static str> {
+        match self {
+            Self::Krl | Self::Ls => Some("E1"),
+            Self::Rapid => Some("eax_a"),
+            Self::Jbi => Some("BC, base axis 1"),
+            Self::UrScript | Self::Drl => None,
+        }
+    }
+
+    /// The largest number of a tool; none if tools have names.
+    pub(super) fn most_tools(self) -> Option<u8> {
+        match self {
+            Self::Krl => Some(16),
+            Self::Ls => Some(10),
+            Self::Jbi => Some(63),
+            _ => None,
+        }
+    }
+}
