@@ -4,7 +4,8 @@
 //! (`scan3d`) or, of depth, from a file in the form of those beside depth images. `Mono16` is depth only if a
 //! person says so, because most cameras send grey values in it.
 //!
-//! Pixel format and acquisition mode are set; exposure, region and all else stay as the camera has them.
+//! Pixel format, acquisition mode and the selectors of what is read are set; exposure, region and all else stay as the
+//! camera has them.
 
 mod aravis;
 mod error;
@@ -212,7 +213,7 @@ impl Genicam {
         let name = format!("GenICam frame {}", self.num_frames);
         let part = || {
             let part = frame.part(self.format.number());
-            part.ok_or_else(|| format!("it is not {}", self.format.name()))
+            part.ok_or_else(|| format!("it has no picture, or several, in {}", self.format.name()))
         };
         let image = frame
             .whole()

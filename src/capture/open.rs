@@ -33,7 +33,8 @@ pub struct SourceListing {
     pub trouble: Option<CaptureError>,
 }
 
-/// The sources that can be found without being told a folder: the simulated cell and every connected camera.
+/// The sources that can be found without being told a folder: the simulated cell and every connected camera. Takes about
+/// a second, for which GenICam cameras may answer.
 pub fn list() -> Vec<SourceListing> {
     let simulated = SourceListing {
         title: "Simulated cell".into(),

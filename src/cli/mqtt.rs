@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::console::{Advised as _, Console, advised_error, with_advice};
+use super::console::{Advised as _, Console, advised_error};
 use crate::{
     history::Traceability,
     library::LibraryLoad,
@@ -19,19 +19,14 @@ use crate::{
 #[derive(Clone, Debug, Args)]
 pub(super) struct MqttChoice {
     /// Publish every verdict and the state of the cell at this MQTT broker; poses as --as
-    #[arg(long, value_name = "mqtt[s]://[USER@]HOST[:PORT]/PREFIX", value_parser = parse_broker)]
-    mqtt: Option<BrokerAddress>,
+    #[arg(long, value_name = "mqtt[s]://[USER@]HOST[:PORT]/PREFIX")]
+    mqtt: Option<String>,
     /// The file whose first line is the user's password at the broker
     #[arg(long, value_name = "FILE", requires = "mqtt")]
     mqtt_password_file: Option<PathBuf>,
     /// Certificates, PEM, of the authority that signed the broker's; without it the system's own
     #[arg(long, value_name = "FILE", requires = "mqtt")]
     mqtt_ca: Option<PathBuf>,
-}
-
-fn parse_broker(text: &str) -> Result<BrokerAddress, String> {
-    text.parse::<BrokerAddress>()
-        .map_err(|error| with_advice(&error))
 }
 
 /// A broker that can be connected to.
@@ -46,9 +41,11 @@ impl MqttChoice {
         &self,
         convention: Option<Convention>,
     ) -> anyhow::Result<Option<ChosenBroker>> {
-        let Some(broker) = &self.mqtt else {
+        let Some(address) = &self.mqtt else {
             return Ok(None);
         };
+        // Not parsed by clap, whose message would show a password in it.
+        let broker = address.parse::<BrokerAddress>().advised()?;
         let Some(convention) = convention else {
             return Err(advised_error(
                 "--mqtt publishes poses, and no convention is chosen",
@@ -56,7 +53,7 @@ impl MqttChoice {
             ));
         };
         let password = self.mqtt_password_file.as_deref();
-        let access = BrokerAccess::new(broker.clone(), password, self.mqtt_ca.as_deref());
+        let access = BrokerAccess::new(broker, password, self.mqtt_ca.as_deref());
         Ok(Some(ChosenBroker {
             access: access.advised()?,
             convention,
@@ -101,7 +98,7 @@ pub(super) fn show_news(link: &MqttLink, console: &Console) {
                 num_waiting,
                 num_dropped,
             } => console.note(&format_args!(
-                "MQTT: connected; {num_waiting} inspections waited, {num_dropped} were dropped since the start"
+                "MQTT: connected; inspections waiting: {num_waiting}, dropped since the start: {num_dropped}"
             )),
             LinkNews::Lost(trouble) => console.warn(&format_args!("MQTT: {trouble}"), &trouble),
         }

@@ -25,9 +25,10 @@ use partsight::{
 
 /// Longer than any step of a test takes, so that only one that hangs comes to its end.
 const PATIENCE: Duration = Duration::from_mins(1);
-/// The description of a 3-D camera, and what stands there for its `Scan3dOutputMode`.
+/// The description of a 3-D camera, and what stands there for its `Scan3dOutputMode` and its `ReverseX`.
 const DEPTH_CAMERA: &str = include_str!("camera.xml");
 const MODE: &str = "THE_MODE";
+const REVERSE: &str = "THE_REVERSE";
 const ID: &str = "Aravis-Fake-PS01";
 
 /// What is missing for a test, said aloud.
@@ -107,6 +108,12 @@ fn grey_as_depth(folder: &Path) -> SourceSpec {
         "genicam,format=Mono16,camera={}:{ID}",
         path.display()
     ))
+}
+
+/// Writes the description of a 3-D camera.
+fn describe(path: &Path, mode: &str, reverse: &str) {
+    let text = DEPTH_CAMERA.replace(MODE, mode).replace(REVERSE, reverse);
+    fs::write(path, text).expect("written");
 }
 
 fn trouble(text: &str) -> GenicamError {
@@ -210,7 +217,7 @@ fn a_3d_camera_says_itself_what_its_values_stand_for() {
     let _alone = alone();
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("camera.xml");
-    fs::write(&path, DEPTH_CAMERA.replace(MODE, "1")).expect("written");
+    describe(&path, "1", "0");
     let Some(camera) = FakeCamera::start(Some(&path)) else {
         return;
     };
@@ -243,13 +250,18 @@ fn a_3d_camera_says_itself_what_its_values_stand_for() {
     drop(source);
     drop(camera);
 
-    fs::write(&path, DEPTH_CAMERA.replace(MODE, "2")).expect("written");
-    let Some(_camera) = FakeCamera::start(Some(&path)) else {
-        return;
-    };
-    let error = trouble("genicam");
-    assert!(error.to_string().contains("DisparityC"), "{error}");
-    assert!(error.advice().contains("CalibratedC"), "{}", error.advice());
+    for (mode, reverse, words, advice) in [
+        ("2", "0", "DisparityC", "CalibratedC"),
+        ("1", "1", "ReverseX", "false"),
+    ] {
+        describe(&path, mode, reverse);
+        let Some(_camera) = FakeCamera::start(Some(&path)) else {
+            return;
+        };
+        let error = trouble("genicam");
+        assert!(error.to_string().contains(words), "{error}");
+        assert!(error.advice().contains(advice), "{}", error.advice());
+    }
 }
 
 #[test]

@@ -146,6 +146,20 @@ fn a_program_that_is_killed_becomes_offline_and_one_that_ends_says_so() {
 }
 
 #[test]
+fn a_password_in_the_address_is_refused_and_not_shown() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for address in ["mqtt://me:secret@broker/cell", "tcp://me:secret@broker/c"] {
+        let serve = ["serve", "--source", "simulated:fender", "--as", "kuka"];
+        let args = [&serve[..], &["--mqtt", address]].concat();
+        let refused = partsight(folder.path(), &args).output().expect("starts");
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(2), "{said}");
+        assert!(said.contains("to do: "), "{said}");
+        assert!(!said.contains("secret"), "{said}");
+    }
+}
+
+#[test]
 fn the_schema_of_the_messages_can_be_printed() {
     let folder = tempfile::tempdir().expect("a folder");
     let printed = partsight(folder.path(), &["report", "--schema=mqtt"]).output();

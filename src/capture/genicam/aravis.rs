@@ -15,6 +15,7 @@
 
 use std::{
     ffi::{CStr, CString, OsStr, OsString, c_char, c_int, c_uint, c_void},
+    ops::Range,
     ptr::{self, NonNull},
     slice,
     sync::Mutex,
@@ -88,6 +89,7 @@ functions! {
     arv_buffer_new_allocate: fn(usize) -> Object;
     arv_buffer_get_status: fn(Object) -> c_int;
     arv_buffer_get_system_timestamp: fn(Object) -> u64;
+    arv_buffer_get_data: fn(Object, *mut usize) -> *const c_void;
     arv_buffer_get_n_parts: fn(Object) -> c_uint;
     arv_buffer_get_part_pixel_format: fn(Object, c_uint) -> u32;
     arv_buffer_get_part_data: fn(Object, c_uint, *mut usize) -> *const c_void;
@@ -205,6 +207,7 @@ impl Aravis {
             functions,
             camera: NonNull::new(camera).ok_or("no reason given")?,
             stream: None,
+            buffer_bytes: 0,
         })
     }
 }
@@ -214,6 +217,8 @@ pub(super) struct Device {
     functions: &'static Functions,
     camera: NonNull<c_void>,
     stream: Option<NonNull<c_void>>,
+    /// Size of each of the stream's buffers.
+    buffer_bytes: usize,
 }
 
 impl Device {
@@ -363,6 +368,7 @@ impl Device {
         })?;
         let stream = NonNull::new(stream).ok_or("it has no stream")?;
         self.stream = Some(stream);
+        self.buffer_bytes = num_bytes;
         for _ in 0..NUM_BUFFERS {
             // SAFETY: a new buffer, which is given to the stream at once.
             unsafe {
@@ -464,20 +470,22 @@ impl Frame<'_> {
         unsafe { (self.device.functions.arv_buffer_get_system_timestamp)(self.buffer.as_ptr()) }
     }
 
-    /// The first picture of that pixel format, which is a number of the Pixel Format Naming Convention.
+    /// The picture of that pixel format, which is a number of the Pixel Format Naming Convention; `None` without one, and
+    /// where several have it: one of them may be grey values.
     pub(super) fn part(&self, format: u32) -> Option<Part<'_>> {
         let (functions, buffer) = (self.device.functions, self.buffer.as_ptr());
         // SAFETY: the buffer is ours, here and below.
         let num = unsafe { (functions.arv_buffer_get_n_parts)(buffer) };
-        let index = (0..num).find(|&index| {
+        let mut indices = (0..num).filter(|&index| {
             // SAFETY: an index below the number.
             unsafe { (functions.arv_buffer_get_part_pixel_format)(buffer, index) == format }
-        })?;
+        });
+        let index = indices.next().filter(|_| indices.next().is_none())?;
         let (mut x, mut y, mut width, mut height) = (0, 0, 0, 0);
         let (mut row_padding, mut end_padding) = (0, 0);
-        let mut num_bytes = 0;
+        let (mut num_received, mut num_bytes) = (0, 0);
         // SAFETY: as above; all are places to write a number to.
-        let bytes = unsafe {
+        let (all, bytes) = unsafe {
             (functions.arv_buffer_get_part_region)(
                 buffer,
                 index,
@@ -492,18 +500,31 @@ impl Frame<'_> {
                 &raw mut row_padding,
                 &raw mut end_padding,
             );
-            (functions.arv_buffer_get_part_data)(buffer, index, &raw mut num_bytes)
+            (
+                (functions.arv_buffer_get_data)(buffer, &raw mut num_received),
+                (functions.arv_buffer_get_part_data)(buffer, index, &raw mut num_bytes),
+            )
         };
-        let bytes = NonNull::new(bytes.cast_mut().cast::<u8>())?;
+        let all = NonNull::new(all.cast_mut().cast::<u8>())?;
+        let place = bytes.addr().checked_sub(all.addr().get())?;
+        let place = within(place, num_bytes, num_received.min(self.device.buffer_bytes))?;
+        // SAFETY: the library owns the buffer's bytes from `all` on, and does not write into a buffer that the stream
+        // does not have.
+        let received = unsafe { slice::from_raw_parts(all.as_ptr(), place.end) };
         Some(Part {
             width: usize::try_from(width).ok()?,
             height: usize::try_from(height).ok()?,
             row_padding: usize::try_from(row_padding).ok()?,
-            // SAFETY: the library owns that many bytes there, within the buffer, and does not write into a buffer that
-            // the stream does not have.
-            bytes: unsafe { slice::from_raw_parts(bytes.as_ptr(), num_bytes) },
+            bytes: received.get(place)?,
         })
     }
+}
+
+/// Where a part is within what came. Place and size of a part are the camera's own words, which the library does not
+/// compare with its buffer; what was not sent is cut off.
+fn within(start: usize, num_bytes: usize, num_received: usize) -> Option<Range<usize>> {
+    let end = start.saturating_add(num_bytes).min(num_received);
+    (start <= end).then_some(start..end)
 }
 
 impl Drop for Frame<'_> {
@@ -515,5 +536,20 @@ impl Drop for Frame<'_> {
                 self.buffer.as_ptr(),
             );
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_ends_where_what_came_ends_whatever_the_camera_says() {
+        assert_eq!(within(0, 100, 100), Some(0..100));
+        assert_eq!(within(20, 30, 100), Some(20..50));
+        assert_eq!(within(20, 1 << 40, 100), Some(20..100));
+        assert_eq!(within(20, usize::MAX, 100), Some(20..100));
+        assert_eq!(within(100, 1, 100), Some(100..100));
+        assert_eq!(within(1 << 40, 1, 100), None);
     }
 }

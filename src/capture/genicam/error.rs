@@ -39,7 +39,7 @@ pub enum GenicamError {
         symbol: &'static str,
     },
     /// No camera answered.
-    #[error("no GenICam camera answers, on no network interface and on no USB port")]
+    #[error("no GenICam camera answers on any network interface or USB port")]
     NoDevice,
     /// Others answered than the one asked for.
     #[error("no GenICam camera {device} answers, only {}", found.join(", "))]

@@ -5,8 +5,8 @@
 //! `Scan3dInvalidDataValue` is no reading where `Scan3dInvalidDataFlag` is set. Coordinate A is x, B is y, C is z.
 //!
 //! Only depth along the optical axis and points in the camera's own frame are taken. Disparities, distances along a
-//! ray, heights on a rectified grid and points in a frame that somebody set are errors, because they would be read as
-//! parts of another shape or in another place.
+//! ray, heights on a rectified grid, points in a frame that somebody set, and mirrored depth images are errors, because
+//! they would be read as parts of another shape or in another place.
 
 use std::ffi::CStr;
 
@@ -62,9 +62,15 @@ pub(super) struct Scan3d {
     distance_unit: Option<String>,
     axes: [AxisNodes; 3],
     focal_length: Option<f64>,
+    /// Focal length in rows over that in columns.
+    aspect_ratio: Option<f64>,
     principal_point: [Option<f64>; 2],
     /// Columns and rows.
     size: [Option<f64>; 2],
+    /// Columns and rows that the region leaves out before its first.
+    region_offset: [Option<f64>; 2],
+    /// Whether the order of columns, and that of rows, is reversed.
+    is_reversed: [Option<bool>; 2],
 }
 
 #[derive(Clone, Default)]
@@ -85,7 +91,8 @@ impl Scan3d {
             if device.has(c"Scan3dCoordinateSelector")? {
                 device.set(c"Scan3dCoordinateSelector", selected)?;
             }
-            let is_flagged = device.flag(c"Scan3dInvalidDataFlag")?.unwrap_or(false);
+            // A camera that has the value and no switch for it means the value.
+            let is_flagged = device.flag(c"Scan3dInvalidDataFlag")?.unwrap_or(true);
             let invalid = device.number(c"Scan3dInvalidDataValue")?;
             Ok(AxisNodes {
                 scale: device.number(c"Scan3dCoordinateScale")?,
@@ -93,6 +100,7 @@ impl Scan3d {
                 invalid: invalid.filter(|_| is_flagged),
             })
         };
+        let is_reversed = [device.flag(c"ReverseX")?, device.flag(c"ReverseY")?];
         let axes = match format {
             GenicamFormat::Coord3dC16 => [
                 AxisNodes::default(),
@@ -104,7 +112,13 @@ impl Scan3d {
                 axis(c"CoordinateB")?,
                 axis(c"CoordinateC")?,
             ],
-            GenicamFormat::Mono16 => return Ok(Self::default()),
+            // All else is the file's.
+            GenicamFormat::Mono16 => {
+                return Ok(Self {
+                    is_reversed,
+                    ..Self::default()
+                });
+            }
         };
         Ok(Self {
             output_mode: device.text(c"Scan3dOutputMode")?,
@@ -113,11 +127,14 @@ impl Scan3d {
             distance_unit: device.text(c"Scan3dDistanceUnit")?,
             axes,
             focal_length: device.number(FOCAL_LENGTH)?,
+            aspect_ratio: device.number(c"Scan3dAspectRatio")?,
             principal_point: [
                 device.number(c"Scan3dPrincipalPointU")?,
                 device.number(c"Scan3dPrincipalPointV")?,
             ],
             size: [device.number(c"Width")?, device.number(c"Height")?],
+            region_offset: [device.number(c"OffsetX")?, device.number(c"OffsetY")?],
+            is_reversed,
         })
     }
 
@@ -131,6 +148,7 @@ impl Scan3d {
             (GenicamFormat::Coord3dAbc32f, _) => self.points(),
             (GenicamFormat::Coord3dC16, file) => self.depth(file),
             (GenicamFormat::Mono16, Some(camera)) => {
+                self.check_order(&camera)?;
                 let units = (0..=u16::MAX).collect();
                 Ok((Decoder::Depth { camera, units }, Vec::new()))
             }
@@ -147,6 +165,7 @@ impl Scan3d {
         self.check_frame("CalibratedC", &["CalibratedC", "CalibratedABC_Grid"])?;
         let [.., nodes] = &self.axes;
         let (camera, axis, warnings) = if let Some(camera) = file {
+            self.check_order(&camera)?;
             // An offset is no number of the file, so the camera's counts.
             let (unit, warnings) = match nodes.offset {
                 None | Some(0.0) => (1.0, Vec::new()),
@@ -157,7 +176,10 @@ impl Scan3d {
         } else {
             let (unit, warnings) = self.unit()?;
             let scale = told(nodes.scale, "Scan3dCoordinateScale")?;
-            (self.camera()?, nodes.axis(scale, unit), warnings)
+            let camera = self.camera()?;
+            self.check_order(&camera)?;
+            self.check_region()?;
+            (camera, nodes.axis(scale, unit), warnings)
         };
         let (units, metres_per_unit) = depth_table(&axis)?;
         let camera = DepthCamera {
@@ -214,6 +236,37 @@ impl Scan3d {
         Ok(())
     }
 
+    /// An error if the camera reverses rows or columns of its depth images, unless the file says how they are stored: a
+    /// left part would be taken for a right one.
+    fn check_order(&self, camera: &DepthCamera) -> Result<(), GenicamError> {
+        let is_told = camera.stored != StoredOrientation::default();
+        for (node, is_reversed) in ["ReverseX", "ReverseY"].into_iter().zip(self.is_reversed) {
+            if is_reversed == Some(true) && !is_told {
+                return Err(GenicamError::WrongSetting {
+                    node,
+                    found: "true".into(),
+                    expected: "false",
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// An error if the region begins beside the first pixel: makers disagree on whether the principal point counts from
+    /// there.
+    fn check_region(&self) -> Result<(), GenicamError> {
+        for (node, offset) in ["OffsetX", "OffsetY"].into_iter().zip(self.region_offset) {
+            if let Some(found) = offset.filter(|offset| offset.abs() > 0.0) {
+                return Err(GenicamError::WrongSetting {
+                    node,
+                    found: found.to_string(),
+                    expected: "0",
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// Metres of the camera's unit of length.
     fn unit(&self) -> Result<(f64, Vec<CaptureWarning>), GenicamError> {
         match self.distance_unit.as_deref() {
@@ -237,7 +290,7 @@ impl Scan3d {
                 width: told(width, "Width")? as usize,
                 height: told(height, "Height")? as usize,
                 fx: focal,
-                fy: focal,
+                fy: focal * self.aspect_ratio.unwrap_or(1.0),
                 cx: told(u, "Scan3dPrincipalPointU")?,
                 cy: told(v, "Scan3dPrincipalPointV")?,
                 distortion: Distortion::NONE,

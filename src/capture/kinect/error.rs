@@ -114,12 +114,13 @@ pub enum KinectError {
 }
 
 /// The udev rules that let a user open a Kinect: as distributions name them, and our own package's.
-const RULES: [&str; 5] = [
+const RULES: [&str; 6] = [
     "/lib/udev/rules.d/60-libfreenect0.5.rules",
     "/usr/lib/udev/rules.d/60-libfreenect.rules",
     "/etc/udev/rules.d/51-kinect.rules",
     "/etc/udev/rules.d/66-kinect.rules",
     "/usr/lib/udev/rules.d/55-partsight-cameras.rules",
+    "/etc/udev/rules.d/55-partsight-cameras.rules",
 ];
 
 impl KinectError {

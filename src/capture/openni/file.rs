@@ -1,8 +1,9 @@
 //! Whether a recorded file is whole.
 //!
-//! libOpenNI2 does not tell the end of some files that were cut off, and is not made for damaged ones. So the chain of records is followed
-//! to its last one before the library may have the file. Their layout is that of `DataRecords.h` of OpenNI 2: a header of
-//! the file, then records, each with its magic, kind, node, and the sizes of its fields and its payload.
+//! libOpenNI2 does not tell the end of some files that were cut off, and is not made for damaged ones. So the chain of
+//! records is followed to its last one before the library may have the file. Their layout is that of `DataRecords.h` of
+//! OpenNI 2: a header of the file, then records, each with its magic, kind, node, and the sizes of its fields and its
+//! payload.
 
 use std::{
     io::{self, BufReader, Read as _},

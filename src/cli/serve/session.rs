@@ -234,12 +234,13 @@ impl ServeSession<'_> {
         if let Some(suspicion) = self.mirrored.suspicion() {
             console.warn(&suspicion, &suspicion);
         }
+        // First, because the broker may be waited for.
+        if let Some(recording) = self.recording {
+            recording.finish(console);
+        }
         #[cfg(feature = "plant")]
         if let Some(mqtt) = self.mqtt {
             end_link(mqtt, console);
-        }
-        if let Some(recording) = self.recording {
-            recording.finish(console);
         }
         if let Some(error) = self.failure {
             return Err(error);

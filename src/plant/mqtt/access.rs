@@ -107,7 +107,7 @@ impl BrokerAccess {
         })
     }
 
-    /// A doubt, if others on the network can read along.
+    /// A warning if others on the network can read what is sent.
     pub fn doubt(&self) -> Option<Unencrypted> {
         let host = &self.broker.host;
         let address = host.trim_matches(['[', ']']).parse::<std::net::IpAddr>();
@@ -179,7 +179,7 @@ fn tls_config(ca_file: Option<&Path>) -> Result<ClientConfig, AccessError> {
 /// Others can read what is sent to a broker.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
-    "the connection to {broker} is not encrypted: whoever is on the way can read and change verdicts, poses and the password"
+    "the connection to {broker} is not encrypted: anyone along the network path can read and change verdicts, poses and the password"
 )]
 pub struct Unencrypted {
     broker: BrokerAddress,

@@ -28,11 +28,8 @@ const MAX_PREFIX_BYTES: usize = 200;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum AddressError {
     /// It begins otherwise.
-    #[error("{text} does not begin with mqtt:// or mqtts://")]
-    Scheme {
-        /// What was given.
-        text: String,
-    },
+    #[error("the address of the broker does not begin with mqtt:// or mqtts://")]
+    Scheme,
     /// It has a password, which other users of this computer could read.
     #[error(
         "the address has a password, which everybody who lists the programs of this computer can read"
@@ -76,7 +73,7 @@ impl Advice for AddressError {
             Self::EncryptedIpv6 { .. } => {
                 "Give the name that stands in the broker's certificate".into()
             }
-            Self::Scheme { .. } | Self::Host { .. } | Self::Port { .. } => {
+            Self::Scheme | Self::Host { .. } | Self::Port { .. } => {
                 "Give an address such as mqtt://broker/cell7 or mqtts://user@192.168.1.5:8883/hall3/cell7".into()
             }
         }
@@ -92,8 +89,8 @@ impl FromStr for BrokerAddress {
         } else if let Some(rest) = text.strip_prefix("mqtt://") {
             (false, rest)
         } else {
-            let text = text.to_owned();
-            return Err(AddressError::Scheme { text });
+            // It is not shown: there may be a password in it.
+            return Err(AddressError::Scheme);
         };
         let (place, prefix) = rest.split_once('/').unwrap_or((rest, ""));
         let (user, place) = match place.rsplit_once('@') {
@@ -103,7 +100,12 @@ impl FromStr for BrokerAddress {
         if user.is_some_and(|user| user.contains(':')) {
             return Err(AddressError::Password);
         }
-        let (host, port) = host_and_port(place, if is_encrypted { 8883 } else { 1883 })?;
+        let found = host_and_port(place, if is_encrypted { 8883 } else { 1883 });
+        let (host, port) = found.map_err(|error| match error {
+            // What looks like a port is a password that holds a slash.
+            AddressError::Port { .. } if prefix.contains('@') => AddressError::Password,
+            error => error,
+        })?;
         if is_encrypted && host.starts_with('[') {
             let host = host.to_owned();
             return Err(AddressError::EncryptedIpv6 { host });
@@ -194,7 +196,10 @@ mod tests {
         for (text, words) in [
             ("broker/cell", "does not begin"),
             ("http://broker/cell", "does not begin"),
+            ("tcp://me:secret@broker/cell", "does not begin"),
+            ("me:secret@broker/cell", "does not begin"),
             ("mqtt://me:secret@broker/cell", "password"),
+            ("mqtt://me:secret/1@broker/cell", "password"),
             ("mqtt:///cell", "no name"),
             ("mqtt://a b/cell", "no name"),
             ("mqtt://[::1/cell", "no name"),

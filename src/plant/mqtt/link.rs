@@ -32,6 +32,8 @@ pub(super) const KEEP_ALIVE: Duration = Duration::from_secs(15);
 /// Before the second attempt to connect; each further pause is twice as long, up to the longest.
 const FIRST_PAUSE: Duration = Duration::from_millis(500);
 const LONGEST_PAUSE: Duration = Duration::from_secs(30);
+/// A broker that answers but leaves a message unacknowledged for so long is connected to again.
+const ACK_TIMEOUT: Duration = Duration::from_mins(1);
 /// At the end of the program what waits has so long to go out.
 const END_TIMEOUT: Duration = Duration::from_secs(3);
 /// Messages that the client library takes over; one is on its way at a time.
@@ -94,6 +96,8 @@ struct Outbox {
     is_state_due: bool,
     waiting: VecDeque<Waiting>,
     in_flight: Option<InFlight>,
+    /// When the last message was handed over.
+    handed_over_at: Instant,
     /// While connected.
     client: Option<Client>,
     /// What the person at the screen was told last.
@@ -108,6 +112,12 @@ impl Outbox {
             self.state.num_dropped += 1;
             self.is_state_due = true;
         }
+    }
+
+    /// True if the broker ought to have acknowledged by `now` what is on its way.
+    fn is_overdue(&self, now: Instant) -> bool {
+        let waited = now.saturating_duration_since(self.handed_over_at);
+        self.in_flight.is_some() && waited > ACK_TIMEOUT
     }
 }
 
@@ -146,6 +156,7 @@ impl MqttLink {
                 is_state_due: true,
                 waiting: VecDeque::new(),
                 in_flight: None,
+                handed_over_at: Instant::now(),
                 client: None,
                 told: None,
                 news: VecDeque::new(),
@@ -281,6 +292,15 @@ impl Shared {
                     outbox.in_flight = None;
                     self.send_next(&mut outbox);
                 }
+                // It comes every few seconds, as long as the broker is there.
+                Event::Incoming(Packet::PingResp) => {
+                    if lock(&self.outbox).is_overdue(Instant::now()) {
+                        return Err(LinkTrouble::Broken {
+                            broker: self.broker.clone(),
+                            cause: "it acknowledges no message".into(),
+                        });
+                    }
+                }
                 Event::Outgoing(Outgoing::Disconnect) => break,
                 _ => {}
             }
@@ -351,11 +371,13 @@ impl Shared {
         if is_state_next {
             outbox.is_state_due = false;
             outbox.in_flight = Some(InFlight::State);
+            outbox.handed_over_at = Instant::now();
             let json = outbox.state.to_json();
             let _ = client.try_publish(self.topic("state"), QoS::AtLeastOnce, true, json);
         } else if let Some(waiting) = outbox.waiting.pop_front() {
             let json = self.message(&waiting).to_json();
             outbox.in_flight = Some(InFlight::Inspection(waiting));
+            outbox.handed_over_at = Instant::now();
             let _ = client.try_publish(self.topic("inspection"), QoS::AtLeastOnce, false, json);
         } else if is_ending {
             let _ = client.try_disconnect();
@@ -390,5 +412,43 @@ impl Shared {
             trouble: Some(answer.trouble).filter(|trouble| !trouble.reason.is_empty()),
             traceability: self.subject.trace.clone(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_that_stays_unacknowledged_is_overdue() {
+        let start = Instant::now();
+        let mut outbox = Outbox {
+            phase: Phase::Running,
+            state: StateMessage {
+                schema: MESSAGE_SCHEMA,
+                program: "Partsight 0".into(),
+                boot: 7,
+                since: Timestamp::UNIX_EPOCH,
+                online: true,
+                camera: Some(CameraStatus::default()),
+                library: LibraryMessage {
+                    identity: "0123abcd".into(),
+                    num_parts: 8,
+                },
+                num_dropped: 0,
+            },
+            is_state_due: false,
+            waiting: VecDeque::new(),
+            in_flight: Some(InFlight::State),
+            handed_over_at: start,
+            client: None,
+            told: None,
+            news: VecDeque::new(),
+        };
+        let late = start + ACK_TIMEOUT + Duration::from_millis(1);
+        assert!(!outbox.is_overdue(start + ACK_TIMEOUT));
+        assert!(outbox.is_overdue(late));
+        outbox.in_flight = None;
+        assert!(!outbox.is_overdue(late));
     }
 }

@@ -147,7 +147,7 @@ impl Advice for LinkError {
 
 /// At the end of the program some inspections had not gone out.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{num} inspections did not reach {broker}")]
+#[error("inspections that did not reach {broker}: {num}")]
 pub struct Unsent {
     pub(super) num: u64,
     pub(super) broker: BrokerAddress,

@@ -1,4 +1,5 @@
 use super::*;
+use crate::error::Advice as _;
 
 /// What a camera of depth and points says.
 fn camera() -> Scan3d {
@@ -19,8 +20,11 @@ fn camera() -> Scan3d {
             nodes(0.25, 100.0, Some(65535.0)),
         ],
         focal_length: Some(500.5),
+        aspect_ratio: None,
         principal_point: [Some(1.0), Some(0.5)],
         size: [Some(3.0), Some(2.0)],
+        region_offset: [Some(0.0), None],
+        is_reversed: [Some(false), None],
     }
 }
 
@@ -135,7 +139,7 @@ fn a_picture_with_fewer_bytes_or_another_size_is_an_error() {
 #[test]
 fn what_is_no_depth_along_the_axis_in_a_known_unit_is_refused() {
     type Change = fn(&mut Scan3d);
-    let changes: [(Change, &str); 10] = [
+    let changes: [(Change, &str); 14] = [
         (|c| c.output_mode = Some("DisparityC".into()), "DisparityC"),
         (|c| c.output_mode = Some("RectifiedC".into()), "RectifiedC"),
         (
@@ -149,6 +153,10 @@ fn what_is_no_depth_along_the_axis_in_a_known_unit_is_refused() {
         (|c| c.axes[2].offset = Some(-1e6), "Scan3dCoordinateScale"),
         (|c| c.focal_length = None, "Scan3dFocalLength"),
         (|c| c.focal_length = Some(0.0), "fx"),
+        (|c| c.is_reversed[0] = Some(true), "ReverseX"),
+        (|c| c.is_reversed[1] = Some(true), "ReverseY"),
+        (|c| c.region_offset[0] = Some(16.0), "OffsetX"),
+        (|c| c.region_offset[1] = Some(8.0), "OffsetY"),
     ];
     for (change, words) in changes {
         let mut nodes = camera();
@@ -179,6 +187,42 @@ fn a_file_takes_the_place_of_what_the_camera_says_of_its_depth() {
     };
     assert_eq!(frame.depth, [0, 8, 9, 256, 0, 1]);
     assert!((frame.metres_per_unit - 0.002).abs() < 1e-15);
+}
+
+#[test]
+fn a_reversed_depth_image_needs_a_file_that_says_so() {
+    let mut nodes = camera();
+    nodes.is_reversed[0] = Some(true);
+    let file = camera().camera().expect("told");
+    let mirrored = DepthCamera {
+        stored: StoredOrientation {
+            is_mirrored: true,
+            ..StoredOrientation::default()
+        },
+        ..file
+    };
+    for format in [GenicamFormat::Coord3dC16, GenicamFormat::Mono16] {
+        let error = nodes.decoder(format, Some(file)).err().expect("reversed");
+        assert!(error.to_string().contains("ReverseX"), "{error}");
+        assert!(error.advice().contains("ReverseX to false"));
+        let (decoder, _) = nodes.decoder(format, Some(mirrored)).expect("told");
+        let values = [1_u16, 2, 3, 4, 5, 6].map(u16::to_le_bytes);
+        let image = decoder.image(part(3, 2, 0, values.as_flattened()));
+        let Ok(Image::Depth(frame)) = image else {
+            panic!("{image:?}")
+        };
+        assert!(frame.depth[0] > frame.depth[2], "{:?}", frame.depth);
+    }
+    // Points have their own x and y, whatever the order in which they come.
+    assert!(nodes.decoder(GenicamFormat::Coord3dAbc32f, None).is_ok());
+}
+
+#[test]
+fn rows_have_the_focal_length_of_columns_times_the_aspect_ratio() {
+    let mut nodes = camera();
+    nodes.aspect_ratio = Some(1.5);
+    let lens = nodes.camera().expect("told").intrinsics;
+    assert!((lens.fx - 500.5).abs() < 1e-9 && (lens.fy - 750.75).abs() < 1e-9);
 }
 
 #[test]
