@@ -16,7 +16,7 @@ mod outline_shift;
 mod piece_search;
 mod prepared_scene;
 
-use self::{candidate::ReferenceCandidate, prepared_scene::PreparedScene};
+use self::{candidate::ReferenceCandidate, evidence::most_score, prepared_scene::PreparedScene};
 pub use self::{
     confirmed_match::{ConfirmedMatch, ConfirmedRanking},
     evidence::{Evidence, FEATURES, NUM_FEATURES, NUM_TYPE_FEATURES, TYPE_FEATURES},
@@ -156,10 +156,14 @@ const MISSED_BELOW: f64 = 0.1;
 /// It is drawn again only for references on which a start cost less than this: 0.6 is a good fit, and where nothing is
 /// enrolled they cost more.
 const NEARLY: f64 = 1.3;
+/// Nor is it drawn again where one cost less than this: that draw found where the piece fits, and what speaks against the
+/// part there is not the draw's doing.
+const WELL_LAID: f64 = 0.25;
 
 /// Orders the matches by their confirmed scores, and gives the pose of the first.
 ///
-/// Poses that cannot reach `least_score` are not refined to the end; at 0 the best is, however badly it fits.
+/// Poses that cannot reach `least_score` are not refined to the end; at 0 the best is, however badly it fits. Where too
+/// little is in sight for any pose to reach it, none is looked for, and all scores are 0.
 pub fn confirm(
     scene: &Scene<'_>,
     references: &[Reference],
@@ -177,16 +181,23 @@ pub fn confirm(
         return (ConfirmedRanking::unexamined(ranking), Err(error));
     }
     let mut entries: Vec<&MatchEntry> = ranking.entries.iter().collect();
-    let num_looked_at = seen.select_entries(&mut entries, references, params);
+    let can_reach_it = most_score(scene.query.contour.area, seen.own_m()) >= least_score;
+    let num_looked_at = if can_reach_it {
+        seen.select_entries(&mut entries, references, params)
+    } else {
+        0
+    };
     let (looked_at, others) = entries.split_at(num_looked_at);
     let mut tried = seen.examine(looked_at, references, least_score);
     for draw in 1..MOST_DRAWS {
         let best = tried.first().map_or(0.0, |first| first.score);
-        let nearly = tried.iter().filter(|tried| tried.piece_cost < NEARLY);
-        let nearly: Vec<&MatchEntry> = nearly.map(|tried| tried.entry).collect();
-        if best >= MISSED_BELOW || nearly.is_empty() {
+        let costs = tried.iter().map(|tried| tried.piece_cost);
+        let least_cost = costs.fold(f64::INFINITY, f64::min);
+        if best >= MISSED_BELOW || !(WELL_LAID..NEARLY).contains(&least_cost) {
             break;
         }
+        let nearly = tried.iter().filter(|tried| tried.piece_cost < NEARLY);
+        let nearly: Vec<&MatchEntry> = nearly.map(|tried| tried.entry).collect();
         seen.draw_again(params.seed + draw);
         for again in seen.examine(&nearly, references, least_score) {
             let mut before = tried.iter_mut();

@@ -22,7 +22,7 @@ use tokio_rustls::rustls::{
 use super::{
     Service, accepted, certificate,
     client::{Client, connect},
-    http_settings, key, tls, tokens,
+    http_settings, key, patient, tls, tokens,
 };
 
 const TOKEN: &str = "0123456789abcdef0123456789abcdef";
@@ -51,7 +51,7 @@ fn encrypted(service: &Service) -> Client<StreamOwned<ClientConnection, TcpStrea
 
 #[test]
 fn without_a_right_token_nothing_but_the_health_is_told() {
-    let service = Service::start_with(ServerSettings::default(), with_token(), accepted);
+    let service = Service::start_with(patient(), with_token(), accepted);
     let mut good = service.client().with_token(TOKEN);
     assert_eq!(good.trigger().status, 200);
     for fields in [
@@ -120,7 +120,7 @@ fn a_web_page_may_not_ask_where_no_token_is_needed() {
 
 #[test]
 fn tokens_are_lines_of_a_file_and_are_sent_as_http_says() {
-    let service = Service::start_with(ServerSettings::default(), with_token(), accepted);
+    let service = Service::start_with(patient(), with_token(), accepted);
     for (sent, status) in [
         (format!("Bearer {TOKEN}"), 200),
         (format!("bearer  {TOKEN} "), 200),
@@ -157,7 +157,7 @@ fn https_answers_as_http_does_and_plain_requests_get_nothing() {
         tls: Some(tls()),
         ..with_token()
     };
-    let service = Service::start_with(ServerSettings::default(), settings, accepted);
+    let service = Service::start_with(patient(), settings, accepted);
     let mut good = encrypted(&service).with_token(TOKEN);
     for sequence in 1..=3 {
         // Who speaks no TLS is let go, at most with an alert.
@@ -187,7 +187,7 @@ fn curl_gets_an_answer_over_https() {
         tls: Some(tls()),
         ..with_token()
     };
-    let service = Service::start_with(ServerSettings::default(), settings, accepted);
+    let service = Service::start_with(patient(), settings, accepted);
     let url = service.http.as_ref().expect("serving").url();
     assert!(
         url.starts_with("https://127.0.0.1:") && url.ends_with("/v1"),

@@ -8,7 +8,7 @@ use std::{
 use partsight::serve::{CameraState, CameraStatus, Found, ServerSettings, Trouble};
 use serde_json::{Value, json};
 
-use super::{Service, accepted, client::Reply, http_settings, refused, schema, tokens};
+use super::{Service, accepted, client::Reply, http_settings, patient, refused, schema, tokens};
 
 /// Every path that is read.
 const READ: [&str; 7] = [
@@ -116,7 +116,7 @@ fn every_path_answers_about_the_last_inspection() {
 fn a_refused_part_and_a_stale_pose_have_no_numbers() {
     let never_fresh = ServerSettings {
         max_age: Duration::ZERO,
-        ..ServerSettings::default()
+        ..patient()
     };
     let old = |number| Found {
         captured: Instant::now().checked_sub(Duration::from_secs(1)),
@@ -311,7 +311,7 @@ fn every_answer_is_as_the_published_description_says() {
     let reply = client.trigger();
     assert_eq!(reply.status, 413);
     assert_described(&reply, "POST", "/v1/trigger", &document);
-    let closed = Service::start_with(ServerSettings::default(), with_token(), accepted);
+    let closed = Service::start_with(patient(), with_token(), accepted);
     let reply = closed.client().trigger();
     assert_eq!(reply.status, 401);
     assert_described(&reply, "POST", "/v1/trigger", &document);

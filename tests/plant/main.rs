@@ -116,7 +116,7 @@ struct Service {
 
 impl Service {
     fn start(find: impl FnMut(u32) -> Found + Send + 'static) -> Self {
-        Self::start_with(ServerSettings::default(), http_settings(), find)
+        Self::start_with(patient(), http_settings(), find)
     }
 
     fn start_with(
@@ -185,6 +185,14 @@ impl Service {
 impl Drop for Service {
     fn drop(&mut self) {
         self.end();
+    }
+}
+
+/// Also a client that this machine leaves waiting is not let go.
+fn patient() -> ServerSettings {
+    ServerSettings {
+        request_timeout: PATIENCE,
+        ..ServerSettings::default()
     }
 }
 

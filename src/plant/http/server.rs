@@ -169,7 +169,12 @@ async fn listen(listener: &TcpListener, api: Arc<Api>, tls: Option<Tls>, is_endi
     while !is_ending.load(Ordering::SeqCst) && !service.api.server.is_stopping() {
         select! {
             accepted = listener.accept() => match accepted {
-                Ok((stream, peer)) => connections.add(stream, peer, &service),
+                Ok((stream, peer)) => {
+                    connections.add(stream, peer, &service);
+                    // Those that are open get their turn before the next: else a flood of new ones would count as silent,
+                    // and good ones among them make room before they were read.
+                    task::yield_now().await;
+                }
                 Err(_) => sleep(ACCEPT_PAUSE).await,
             },
             _ = turn.tick() => {}

@@ -293,13 +293,13 @@ impl Shared {
                     self.send_next(&mut outbox);
                 }
                 // It comes every few seconds, as long as the broker is there.
-                Event::Incoming(Packet::PingResp) => {
-                    if lock(&self.outbox).is_overdue(Instant::now()) {
-                        return Err(LinkTrouble::Broken {
-                            broker: self.broker.clone(),
-                            cause: "it acknowledges no message".into(),
-                        });
-                    }
+                Event::Incoming(Packet::PingResp)
+                    if lock(&self.outbox).is_overdue(Instant::now()) =>
+                {
+                    return Err(LinkTrouble::Broken {
+                        broker: self.broker.clone(),
+                        cause: "it acknowledges no message".into(),
+                    });
                 }
                 Event::Outgoing(Outgoing::Disconnect) => break,
                 _ => {}

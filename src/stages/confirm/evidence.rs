@@ -261,7 +261,7 @@ impl Evidence {
             self.off.min(0.4) / 0.1,
             self.missing.min(0.4) / 0.1,
             self.relief_m / 0.005,
-            (0.5 / (self.edge_m + 2.0 * self.seen_m2).max(0.05)).min(2.0),
+            little(self.seen_m2, self.edge_m),
         ]
     }
 
@@ -293,17 +293,37 @@ impl Evidence {
 
     /// True if enough of the part would be in sight to tell it from something else.
     pub fn is_seen(&self) -> bool {
-        self.facing >= LEAST_FACING && self.seen_m2 >= LEAST_SEEN && self.edge_m >= LEAST_EDGE
+        self.facing >= LEAST_FACING && is_enough(self.seen_m2, self.edge_m)
     }
 
     /// The probability that the part hangs there and stands where it was found, 0..1; at most 0.4 for what is hardly
     /// seen.
     pub fn score(&self) -> f64 {
-        let most = if self.is_seen() { 1.0 } else { HARDLY_SEEN };
-        let weighted = self.features().into_iter().zip(WEIGHTS);
-        let sum: f64 = weighted.map(|(x, weight)| weight * x).sum();
-        most / (1.0 + (-(CONSTANT + sum)).exp())
+        score_of(self.features(), self.is_seen())
     }
+}
+
+/// What the best fit of any reference scores where the part covers so many square metres and so many metres of its
+/// outline are its own: no pose confirms more than that.
+pub(super) fn most_score(area_m2: f64, own_m: f64) -> f64 {
+    let features = [0.0, 0.0, 0.0, little(area_m2, own_m)];
+    score_of(features, is_enough(area_m2, own_m))
+}
+
+fn score_of(features: [f64; NUM_FEATURES], is_seen: bool) -> f64 {
+    let most = if is_seen { 1.0 } else { HARDLY_SEEN };
+    let weighted = features.into_iter().zip(WEIGHTS);
+    let sum: f64 = weighted.map(|(x, weight)| weight * x).sum();
+    most / (1.0 + (-(CONSTANT + sum)).exp())
+}
+
+/// How little of a reference is confirmed.
+fn little(seen_m2: f64, edge_m: f64) -> f64 {
+    (0.5 / (edge_m + 2.0 * seen_m2).max(0.05)).min(2.0)
+}
+
+fn is_enough(seen_m2: f64, edge_m: f64) -> bool {
+    seen_m2 >= LEAST_SEEN && edge_m >= LEAST_EDGE
 }
 
 /// The model of the score, as `bench calibration` fits it on the tuning seeds.
@@ -323,3 +343,51 @@ const TYPE_WEIGHTS: [f64; NUM_TYPE_FEATURES] = [-0.75, -2.54, -1.55, -1.64];
 pub const NUM_TYPE_FEATURES: usize = 4;
 /// Their names, in order.
 pub const TYPE_FEATURES: [&str; NUM_TYPE_FEATURES] = ["off", "relief", "outline", "shape"];
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn no_pose_scores_more_than_a_perfect_fit_of_all_that_is_in_sight(
+            area in 0.0_f64..0.6,
+            own in 0.0_f64..3.0,
+            [on, at_edges, shared, missing] in prop::array::uniform4(0.0_f64..1.0),
+            relief in 0.0_f64..0.01,
+            facing in 0.0_f64..1.0,
+        ) {
+            let found = Evidence {
+                off: 1.0 - on,
+                beyond: 1.0 - shared,
+                seen_m2: area * shared * on,
+                edge_m: own * at_edges,
+                rival: 0.0,
+                missing,
+                hidden: 0.0,
+                outside: 0.0,
+                relief_m: relief,
+                outline_m: 0.0,
+                outline_shift_m: None,
+                outline_median_m: None,
+                cut: 0.0,
+                facing,
+                shape: 1.0,
+            };
+            prop_assert!(found.score() <= most_score(area, own));
+            let perfect = Evidence {
+                off: 0.0,
+                beyond: 0.0,
+                seen_m2: area,
+                edge_m: own,
+                missing: 0.0,
+                relief_m: 0.0,
+                facing: 1.0,
+                ..found
+            };
+            prop_assert!((perfect.score() - most_score(area, own)).abs() < 1e-12);
+        }
+    }
+}
