@@ -349,7 +349,10 @@ impl Server {
         *lock(&self.shared.last) = Arc::clone(&inspected);
         // Of a client that went away meanwhile it is the last inspection all the same.
         let _ = job.reply.send(Arc::clone(&inspected));
-        inspector.recorded(InspectionRecord::of(&inspected, self.shared.situation()));
+        // The camera is asked for it, whose fault costs one record and not the service.
+        if let Ok(record) = guarded(|| InspectionRecord::of(&inspected, self.shared.situation())) {
+            inspector.recorded(record);
+        }
         inspector.answered();
     }
 

@@ -143,7 +143,10 @@ impl BrokerAccess {
 const MAX_PACKET_BYTES: usize = 1 << 20;
 
 fn read_password(path: &Path) -> Result<String, AccessError> {
-    let text = read_text(path, MAX_PASSWORD_BYTES)?;
+    let text = match read_text(path, MAX_PASSWORD_BYTES) {
+        Err(FileError::Empty { .. }) => String::new(),
+        text => text?,
+    };
     match text.lines().next() {
         Some(line) if !line.is_empty() => Ok(line.to_owned()),
         _ => Err(AccessError::NoPassword {
