@@ -11,8 +11,8 @@
 //!
 //! A point that is not reached, a move too fast for the rail and an arm that folds over cost more than all of that. So where
 //! the rail can run such that every point is reached by one configuration, the cheapest such run is found, among runs between
-//! these positions; of a move past more than [`MAX_LOOKED_AT`] points only so many are looked at. The run is a proposal: every
-//! point, and the way to it, is then checked with the rail where it is.
+//! these positions; of a move past more than [`MAX_LOOKED_AT`] points only so many and its last are looked at. The run is a
+//! proposal: every point, and the way to it, is then checked with the rail where it is.
 //!
 //! Known limits: how fast joints turn does not count here. Near the border of its reach an arm may be too slow, which the check
 //! then says.
@@ -205,7 +205,9 @@ impl Plan {
             }
             let mut passing = self.reached[end][to];
             let every = (end - point).div_ceil(MAX_LOOKED_AT);
-            for between in (point + 1..end).step_by(every) {
+            // The last as well: what a move is late for lies at its end.
+            let last = (every > 1).then_some(end - 1);
+            for between in (point + 1..end).step_by(every).chain(last) {
                 if passing == 0 {
                     return None;
                 }
