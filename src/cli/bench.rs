@@ -10,6 +10,7 @@ mod paint;
 mod recognition;
 mod registration;
 mod scaling;
+mod serve;
 mod soak;
 mod speed;
 mod systems;
@@ -54,6 +55,7 @@ Examples:
   partsight bench live --minutes 10
   partsight bench history
   partsight bench paint --plots films
+  partsight bench serve --json serve.json
   partsight bench soak --frames 1000000 --json soak.json
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
@@ -146,6 +148,8 @@ enum Bench {
     History,
     /// Spray paths planned over each part, beside plain ones with the same gun: film, time and paint, the part hung elsewhere, and what an error of its pose costs
     Paint,
+    /// The server that robots ask, on this computer: status requests of each protocol beside bare exchanges of as many bytes over TCP, and triggers beside the same inspections called directly
+    Serve,
     /// Small frames, one after the other, through all that inspect --source does: latency, memory, threads and open files; exit code 1 if the memory grows by more than 2 % after the warm-up
     Soak,
 }
@@ -169,6 +173,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::Live => live::run(args, console),
         Bench::History => history::run(args, console),
         Bench::Paint => paint::run(args, console),
+        Bench::Serve => serve::run(args, console),
         Bench::Soak => soak::run(args, console),
     }
 }

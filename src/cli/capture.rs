@@ -66,8 +66,9 @@ fn record(
     }
     let status = follow(source, console, |item, status, console| {
         let mut captured = match item {
-            FeedItem::Captured(captured) => captured,
-            FeedItem::Skipped(skipped) => {
+            None => return Ok(ControlFlow::Continue(())),
+            Some(FeedItem::Captured(captured)) => captured,
+            Some(FeedItem::Skipped(skipped)) => {
                 console.warn(
                     &format_args!("{}: {}", skipped.name, skipped.error),
                     &*skipped.error,

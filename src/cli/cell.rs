@@ -309,8 +309,9 @@ fn views(args: &Views, console: &mut Console) -> anyhow::Result<CellViews> {
         console.start_progress(wanted);
         follow(source, console, |item, _, console| {
             let captured = match item {
-                FeedItem::Captured(captured) => captured,
-                FeedItem::Skipped(skipped) => {
+                None => return Ok(ControlFlow::Continue(())),
+                Some(FeedItem::Captured(captured)) => captured,
+                Some(FeedItem::Skipped(skipped)) => {
                     let what = format_args!("{}: {}", skipped.name, skipped.error);
                     console.warn(&what, &*skipped.error);
                     return Ok(ControlFlow::Continue(()));

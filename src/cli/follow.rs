@@ -22,11 +22,12 @@ pub(super) fn parse_source(text: &str) -> Result<SourceSpec, String> {
         .map_err(|error| with_advice(&error))
 }
 
-/// Hands what a source gives to `each` until that breaks off, the source ends, or Ctrl-C. How the feed was at the end.
+/// Hands what a source gives to `each` until that breaks off, the source ends, or Ctrl-C; `None` about ten times a second
+/// while nothing comes, and how the feed is then. How it was at the end.
 pub(super) fn follow(
     spec: &SourceSpec,
     console: &mut Console,
-    mut each: impl FnMut(FeedItem, &FeedStatus, &mut Console) -> anyhow::Result<ControlFlow<()>>,
+    mut each: impl FnMut(Option<FeedItem>, &FeedStatus, &mut Console) -> anyhow::Result<ControlFlow<()>>,
 ) -> anyhow::Result<FeedStatus> {
     let interrupt = Interrupt::listen()?;
     let feed = Feed::start(spec.clone(), BackpressurePolicy::for_source(spec), || ()).advised()?;
@@ -34,33 +35,35 @@ pub(super) fn follow(
     while !interrupt.came() {
         // Asked before: what was put there before the end is taken yet.
         let status = feed.status();
-        match feed.wait(TURN) {
-            Some(item) => {
-                if lost.take().is_some() {
-                    console.note(&format_args!("{} is there again", spec.title()));
-                }
-                if each(item, &feed.status(), console)?.is_break() {
-                    break;
+        if let Some(item) = feed.wait(TURN) {
+            if lost.take().is_some() {
+                console.note(&format_args!("{} is there again", spec.title()));
+            }
+            if each(Some(item), &feed.status(), console)?.is_break() {
+                break;
+            }
+            continue;
+        }
+        if each(None, &status, console)?.is_break() {
+            break;
+        }
+        match status.state {
+            FeedState::Failed(error) => {
+                return Err(advised_error(error.to_string(), error.advice()));
+            }
+            FeedState::Lost { error, .. } => {
+                // Once for each cause, not once for each retry.
+                let words = error.to_string();
+                if lost.as_ref() != Some(&words) {
+                    console.warn(
+                        &format_args!("{words}; looked for again until Ctrl-C"),
+                        &*error,
+                    );
+                    lost = Some(words);
                 }
             }
-            None => match status.state {
-                FeedState::Failed(error) => {
-                    return Err(advised_error(error.to_string(), error.advice()));
-                }
-                FeedState::Lost { error, .. } => {
-                    // Once for each cause, not once for each retry.
-                    let words = error.to_string();
-                    if lost.as_ref() != Some(&words) {
-                        console.warn(
-                            &format_args!("{words}; looked for again until Ctrl-C"),
-                            &*error,
-                        );
-                        lost = Some(words);
-                    }
-                }
-                state if state.is_over() => break,
-                _ => {}
-            },
+            state if state.is_over() => break,
+            _ => {}
         }
     }
     Ok(feed.status())

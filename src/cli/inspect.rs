@@ -2,6 +2,8 @@
 
 pub(in crate::cli) mod hung;
 mod program;
+#[cfg(feature = "plant")]
+mod publish;
 mod scan;
 mod spray;
 
@@ -28,10 +30,12 @@ use super::{
     trace::TraceChoice,
     verdict::{outcome_of, show_in_robot},
 };
+#[cfg(feature = "plant")]
+use super::{mqtt::MqttChoice, numbers::NumbersChoice};
 use crate::{
     capture::{FeedItem, SourceSpec},
     error::{Advice, guarded},
-    history::{HungId, Traceability},
+    history::{HungId, NewEntry, Traceability},
     library::Library,
     pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
     report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
@@ -41,6 +45,9 @@ use crate::{
         scene::{EmptyCell, SceneCloud, scene_from_image},
     },
 };
+
+#[cfg(feature = "plant")]
+use crate::serve::Found;
 
 /// Recognise the part in captured scenes and say where it is
 #[derive(Debug, Args)]
@@ -120,11 +127,19 @@ pub(super) struct InspectArgs {
     /// Do not write to the history
     #[arg(long, conflicts_with = "history")]
     no_history: bool,
+    #[cfg(feature = "plant")]
+    #[command(flatten)]
+    mqtt: MqttChoice,
+    #[cfg(feature = "plant")]
+    #[command(flatten)]
+    numbers: NumbersChoice,
 }
 
 pub(super) fn run(mut args: InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     args.import.write_behind(&mut args.files);
     let args = &args;
+    #[cfg(feature = "plant")]
+    publish::check(args)?;
     if !args.scan.is_empty() {
         return scan::inspect(args, console);
     }
@@ -141,6 +156,8 @@ fn inspect(
     let trace = args.trace.of_parts(num_parts)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
+    #[cfg(feature = "plant")]
+    let publisher = publish::ChosenPublisher::of(args, &place, &load, robot.as_ref(), console)?;
     let (files, frame) = (&args.files, robot.as_ref());
     let (spray, program) = if args.program.is_wanted() {
         (None, args.program.start(files, frame, place, &load)?)
@@ -163,6 +180,11 @@ fn inspect(
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
         .flatten();
+    #[cfg(feature = "plant")]
+    let publisher = publisher
+        .zip(args.source.as_ref())
+        .map(|(publisher, source)| publisher.start(source, &load, &trace, console))
+        .transpose()?;
     format.head(console);
     let mut one = InspectSession {
         library: load.library,
@@ -178,6 +200,8 @@ fn inspect(
         followed: (args.source.as_ref())
             .filter(|source| source.is_followed())
             .map(|_| FollowedParts::new()),
+        #[cfg(feature = "plant")]
+        publisher,
         mirrored: MirrorTally::default(),
     };
     let outcome = match &args.source {
@@ -187,11 +211,16 @@ fn inspect(
     if let Some(suspicion) = one.mirrored.suspicion() {
         console.warn(&suspicion, &suspicion);
     }
-    if let Some(mut recording) = one.recording {
-        if let Some(entry) = one.followed.and_then(FollowedParts::end) {
-            recording.add(entry, console);
-        }
+    if let Some(kept) = one.followed.take().and_then(FollowedParts::end) {
+        one.keep(kept, console);
+    }
+    // First, because the broker may be waited for.
+    if let Some(recording) = one.recording {
         recording.finish(console);
+    }
+    #[cfg(feature = "plant")]
+    if let Some(publisher) = one.publisher {
+        publisher.end(console);
     }
     if let Some(folder) = &args.report {
         console.note(&format_args!("The reports are in {}", folder.display()));
@@ -228,8 +257,19 @@ struct InspectSession {
     report: Option<ReportFolder>,
     recording: Option<HistoryRecorder>,
     /// Of a source whose frames show one part after the other.
-    followed: Option<FollowedParts>,
+    followed: Option<FollowedParts<KeptInspection>>,
+    #[cfg(feature = "plant")]
+    publisher: Option<publish::Publisher>,
     mirrored: MirrorTally,
+}
+
+/// An inspection as others are told of it, once its verdict counts.
+struct KeptInspection {
+    /// For the history.
+    entry: Option<NewEntry>,
+    /// For the broker.
+    #[cfg(feature = "plant")]
+    found: Option<Found>,
 }
 
 impl InspectSession {
@@ -262,6 +302,10 @@ impl InspectSession {
         inspect: impl FnOnce(&mut Self, &mut Console) -> anyhow::Result<Outcome>,
     ) -> anyhow::Result<Outcome> {
         guarded(|| inspect(self, console)).unwrap_or_else(|fault| {
+            #[cfg(feature = "plant")]
+            if let Some(publisher) = &mut self.publisher {
+                publisher.failed(&fault);
+            }
             let shown = format!("{}: {fault}", path.display());
             self.unreadable(path, &fault, &shown, console)
         })
@@ -306,6 +350,8 @@ impl InspectSession {
             report,
             recording,
             followed,
+            #[cfg(feature = "plant")]
+            publisher,
             mirrored,
         } = self;
         let name = path.display().to_string();
@@ -347,36 +393,38 @@ impl InspectSession {
             show_in_robot(robot, &inspection, library, console);
         }
         let mut outcome = outcome_of(&inspection);
+        let seen = spray::SprayResult {
+            scene: &name,
+            inspection: &inspection,
+            library,
+            params: &recipe.stand_off,
+        };
         if let (Some(spray), Some(robot)) = (spray, robot) {
-            let seen = spray::SprayResult {
-                scene: &name,
-                inspection: &inspection,
-                library,
-                params: &recipe.stand_off,
-            };
             outcome = outcome.max(spray.write(&seen, robot, console)?);
         } else if let (Some(program), Some(robot)) = (program, robot) {
-            let seen = spray::SprayResult {
-                scene: &name,
-                inspection: &inspection,
-                library,
-                params: &recipe.stand_off,
-            };
-            let is_simulated = file_says_simulated;
-            let written = program.write(&seen, is_simulated, robot, console)?;
             // A refused part whose program was forced stays refused.
-            outcome = outcome.max(written);
+            outcome = outcome.max(program.write(&seen, file_says_simulated, robot, console)?);
         } else if let Some(report) = report {
             let pictures = stage_pictures(&scene, &inspection);
             report.write(path, &line, &pictures).advised()?;
         }
         // Last: it must not keep anybody from the verdict.
-        let Some(recording) = recording else {
+        let is_kept = recording.is_some();
+        #[cfg(feature = "plant")]
+        let is_kept = is_kept || publisher.is_some();
+        if !is_kept {
             return Ok(outcome);
+        }
+        let kept = |inspection: &Inspection, hung: HungId| KeptInspection {
+            entry: recording.as_ref().map(|recording| {
+                recording.entry(taken, &scene, inspection, &line_of(inspection), hung)
+            }),
+            #[cfg(feature = "plant")]
+            found: (publisher.as_ref()).and_then(|publisher| publisher.found(inspection, recipe)),
         };
         let (Some(followed), Some(capture)) = (followed, capture) else {
-            let entry = recording.entry(taken, &scene, &inspection, &line, HungId::new());
-            recording.add(entry, console);
+            let kept = kept(&inspection, HungId::new());
+            self.keep(kept, console);
             return Ok(outcome);
         };
         let frame = FollowedFrame {
@@ -387,13 +435,22 @@ impl InspectSession {
                 .and_then(Reference::middle),
             accept: &recipe.accept,
         };
-        let entries = followed.take(&frame, inspection, |inspection, hung| {
-            recording.entry(taken, &scene, inspection, &line_of(inspection), hung)
-        });
-        for entry in entries.into_iter().flatten() {
-            recording.add(entry, console);
+        let kept = followed.take(&frame, inspection, kept);
+        for kept in kept.into_iter().flatten() {
+            self.keep(kept, console);
         }
         Ok(outcome)
+    }
+
+    /// Hands an inspection to the history and to the broker.
+    fn keep(&mut self, kept: KeptInspection, console: &Console) {
+        if let (Some(recording), Some(entry)) = (&mut self.recording, kept.entry) {
+            recording.add(entry, console);
+        }
+        #[cfg(feature = "plant")]
+        if let (Some(publisher), Some(found)) = (&mut self.publisher, kept.found) {
+            publisher.publish(found);
+        }
     }
 }
 
@@ -408,12 +465,22 @@ fn inspect_source(
     let mut outcome = Outcome::Accepted;
     let mut num_inspected = 0;
     let status = follow(source, console, |item, status, console| {
+        #[cfg(feature = "plant")]
+        if let Some(publisher) = &mut inspector.publisher {
+            publisher.look(&status.state, console);
+            match &item {
+                Some(FeedItem::Captured(captured)) => publisher.begin(captured),
+                Some(FeedItem::Skipped(skipped)) => publisher.skipped(skipped),
+                None => {}
+            }
+        }
         let one = match item {
-            FeedItem::Skipped(skipped) => {
+            None => return Ok(ControlFlow::Continue(())),
+            Some(FeedItem::Skipped(skipped)) => {
                 let name = Path::new(&skipped.name);
                 inspector.unreadable(name, &*skipped.error, &skipped.error, console)?
             }
-            FeedItem::Captured(captured) => {
+            Some(FeedItem::Captured(captured)) => {
                 if num_inspected == 0 && captured.is_simulated {
                     console.note(&"Simulated: no camera is read.");
                 }
@@ -466,6 +533,8 @@ mod tests {
             report: Some(ReportFolder::make(folder.path()).expect("made")),
             recording: None,
             followed: None,
+            #[cfg(feature = "plant")]
+            publisher: None,
             mirrored: MirrorTally::default(),
         };
         let mut console = Console::new();

@@ -20,6 +20,7 @@ mod interrupt;
 mod library;
 #[cfg(feature = "plant")]
 mod mqtt;
+mod numbers;
 mod output;
 mod path;
 mod program;

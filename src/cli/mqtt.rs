@@ -12,7 +12,7 @@ use crate::{
         BrokerAccess, BrokerAddress, LibraryMessage, LinkNews, LinkSubject, MqttLink, PoseFormat,
     },
     robot::Convention,
-    serve::{PoseKind, Server},
+    serve::PoseKind,
 };
 
 /// Where verdicts and states are published.
@@ -36,6 +36,11 @@ pub(super) struct ChosenBroker {
 }
 
 impl MqttChoice {
+    /// True if a broker was given.
+    pub(super) fn is_wanted(&self) -> bool {
+        self.mqtt.is_some()
+    }
+
     /// The broker, if one was given, with its password and certificates read.
     pub(super) fn access(
         &self,
@@ -62,10 +67,10 @@ impl MqttChoice {
 }
 
 impl ChosenBroker {
-    /// Connects, without waiting for it.
+    /// Connects, without waiting for it; `boot` is the number of this start.
     pub(super) fn start(
         &self,
-        server: &Server,
+        boot: u32,
         kind: PoseKind,
         load: &LibraryLoad,
         trace: &Traceability,
@@ -75,7 +80,7 @@ impl ChosenBroker {
             console.warn(&doubt, &doubt);
         }
         let subject = LinkSubject {
-            boot: server.boot(),
+            boot,
             library: LibraryMessage {
                 identity: load.identity(),
                 num_parts: load.parts.len(),

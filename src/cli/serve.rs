@@ -13,7 +13,7 @@ use std::{
     time::Duration,
 };
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use self::session::ServeSession;
 #[cfg(feature = "plant")]
@@ -22,8 +22,9 @@ use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, advised_error, with_advice},
-    input::{open_empty_cell, parse_convention, within},
+    input::{open_empty_cell, within},
     interrupt::Interrupt,
+    numbers::NumbersChoice,
     output::{Columns, OutputFormat},
     recipe::RecipeChoice,
     record::{HistoryChoice, HistoryRecorder},
@@ -31,11 +32,10 @@ use super::{
 };
 use crate::{
     capture::{OpenNiSpec, Pace, RecordingSpec, SourceSpec},
-    library::{LibraryLoad, LibraryPlace},
+    library::LibraryLoad,
     pipeline::MirrorTally,
-    robot::Convention,
     serve::{
-        Camera, ClientEvent, ListenAddress, Listener, NumberedPart, PartFinder, PoseKind, Server,
+        Camera, ClientEvent, ListenAddress, Listener, NumberedPart, PartFinder, Server,
         ServerSettings,
     },
 };
@@ -70,16 +70,8 @@ pub(super) struct ServeArgs {
     /// Protocol and port, or IP address and port; may be given several times
     #[arg(long, value_name = "PROTOCOL=PORT", default_value = "ascii=30100", value_parser = parse_listen)]
     listen: Vec<ListenAddress>,
-    /// The convention of poses in ascii and binary; eki and urscript have their own
-    #[arg(long = "as", value_name = "CONVENTION", value_parser = parse_convention)]
-    convention: Option<Convention>,
-    /// Which pose is given
-    #[arg(long, value_enum, default_value_t = PoseArg::RobotFromPart)]
-    transform: PoseArg,
-    /// The number by which robots know an enrolled part, from 1 to 9999; may be given several times. Without any, parts
-    /// are numbered in the order of their names
-    #[arg(long, value_name = "NAME=N", value_parser = parse_number)]
-    number: Vec<PartNumber>,
+    #[command(flatten)]
+    numbers: NumbersChoice,
     /// A pose from an older frame is stale and not given, seconds (0.1 to 3600)
     #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = |text: &str| within(text, &(0.1..=3600.0)))]
     max_age: f64,
@@ -119,40 +111,6 @@ pub(super) struct ServeArgs {
     mqtt: MqttChoice,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PoseArg {
-    /// Where the part is: for a path in the part's own frame
-    RobotFromPart,
-    /// How far it is from its standard position: for a path taught in the base frame
-    RobotOffset,
-}
-
-impl From<PoseArg> for PoseKind {
-    fn from(choice: PoseArg) -> Self {
-        match choice {
-            PoseArg::RobotFromPart => Self::RobotFromPart,
-            PoseArg::RobotOffset => Self::RobotOffset,
-        }
-    }
-}
-
-/// A part, and the number by which robots know it.
-#[derive(Clone, Debug)]
-struct PartNumber {
-    name: String,
-    number: u32,
-}
-
-fn parse_number(text: &str) -> Result<PartNumber, String> {
-    let read = text.split_once('=').and_then(|(name, number)| {
-        let number = number.parse::<u32>().ok();
-        let number = number.filter(|number| (1..=9999).contains(number))?;
-        let name = name.to_owned();
-        Some(PartNumber { name, number })
-    });
-    read.ok_or_else(|| "expected NAME=N with a number from 1 to 9999, such as fender=3".into())
-}
-
 fn parse_listen(text: &str) -> Result<ListenAddress, String> {
     text.parse::<ListenAddress>()
         .map_err(|error| with_advice(&error))
@@ -183,14 +141,14 @@ const MAX_EVENTS: usize = 64;
 
 pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let listeners = args.listen.iter();
-    let listeners = listeners.map(|at| Listener::new(*at, args.convention));
+    let listeners = listeners.map(|at| Listener::new(*at, args.numbers.convention));
     let listeners = listeners.collect::<Result<Vec<_>, _>>().advised()?;
     #[cfg(feature = "plant")]
-    let http = args.http.settings(args.convention)?;
+    let http = args.http.settings(args.numbers.convention)?;
     let recipe = args.recipe.recipe()?;
     let trace = args.trace.of_parts(None)?;
     #[cfg(feature = "plant")]
-    let mqtt = args.mqtt.access(args.convention)?;
+    let mqtt = args.mqtt.access(args.numbers.convention)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let Some(robot) = args.calibration.frame(console)? else {
         return Err(advised_error(
@@ -198,7 +156,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
             "Make one with partsight calibrate, or name one with --calibration",
         ));
     };
-    let parts = numbered_parts(&args.number, &place, &load, console)?;
+    let parts = args.numbers.parts(&place, &load, console)?;
     let empty_cell = args.empty_cell.as_deref();
     let empty_cell = empty_cell.map(|path| open_empty_cell(path, console));
     let empty_cell = empty_cell.transpose()?;
@@ -211,7 +169,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     announce(&server, &listeners, &parts, &load, console);
     #[cfg(feature = "plant")]
     let mqtt = mqtt
-        .map(|mqtt| mqtt.start(&server, args.transform.into(), &load, &trace, console))
+        .map(|mqtt| mqtt.start(server.boot(), args.numbers.kind(), &load, &trace, console))
         .transpose()?;
     #[cfg(feature = "plant")]
     let _http = http::start(http, server.handle(), console)?;
@@ -230,7 +188,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         finder: PartFinder {
             parts,
             robot,
-            kind: args.transform.into(),
+            kind: args.numbers.kind(),
         },
         trace,
         empty_cell,
@@ -303,70 +261,9 @@ fn start(
     Ok(StartedServer { server, events })
 }
 
-/// What robots are told of each reference, in the order of the library.
-fn numbered_parts(
-    given: &[PartNumber],
-    place: &LibraryPlace,
-    load: &LibraryLoad,
-    console: &Console,
-) -> anyhow::Result<Vec<NumberedPart>> {
-    let names = load.parts.iter().map(|part| part.name.as_str());
-    let names: Vec<&str> = names.collect();
-    for (i, PartNumber { name, number }) in given.iter().enumerate() {
-        if !names.contains(&name.as_str()) {
-            return Err(advised_error(
-                format!("--number {name}={number}: the library has no part {name}"),
-                format!("Give one of {}", names.join(", ")),
-            ));
-        }
-        let is_same = |other: &PartNumber| other.name == *name || other.number == *number;
-        if given[..i].iter().any(is_same) {
-            return Err(advised_error(
-                format!("--number {name}={number}: the part or the number was given before"),
-                "Give each part one number of its own",
-            ));
-        }
-    }
-    let parts = (1..).zip(&load.parts).map(|(position, meta)| {
-        let name = meta.name.as_str();
-        let number = given.iter().find(|given| given.name == name);
-        let path = place.spray_path(name).unwrap_or_else(|error| {
-            console.warn(&format_args!("{name} has no spray path: {error}"), &error);
-            None
-        });
-        NumberedPart {
-            number: match number {
-                Some(given) => given.number,
-                None if given.is_empty() => position,
-                None => 0,
-            },
-            path,
-            is_simulated: meta.simulated,
-        }
-    });
-    Ok(parts.collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_number_belongs_to_a_name() {
-        let read = parse_number("fender=3").expect("read");
-        assert_eq!((read.name.as_str(), read.number), ("fender", 3));
-        for text in [
-            "fender",
-            "fender=",
-            "fender=0",
-            "fender=10000",
-            "3",
-            "fender=x",
-        ] {
-            let error = parse_number(text).expect_err(text);
-            assert!(error.contains("NAME=N"), "{error}");
-        }
-    }
 
     #[test]
     fn a_recording_is_replayed_with_its_pauses() {

@@ -37,15 +37,15 @@ impl fmt::Display for HungId {
 
 /// What is written down while a source is followed: an inspection for each part that hung there.
 #[derive(Debug)]
-pub struct HungRows {
+pub struct HungRows<E = NewEntry> {
     parts: HungParts,
     id: HungId,
     visit: u64,
     /// Of a part whose verdict does not count yet.
-    best: Option<NewEntry>,
+    best: Option<E>,
 }
 
-impl Default for HungRows {
+impl<E> Default for HungRows<E> {
     fn default() -> Self {
         Self {
             parts: HungParts::default(),
@@ -56,11 +56,11 @@ impl Default for HungRows {
     }
 }
 
-impl HungRows {
+impl<E> HungRows<E> {
     /// Takes in a frame. Answers with the inspection of a part that left before its verdict counted, and with what the
     /// frame is for the part that hangs there now: the best goes to [`hold`](Self::hold), the first and another one
     /// are written, all under [`id`](Self::id).
-    pub fn see(&mut self, frame: &HungFrame<'_>) -> (Option<NewEntry>, FrameRole) {
+    pub fn see(&mut self, frame: &HungFrame<'_>) -> (Option<E>, FrameRole) {
         let (left, role) = self.parts.see(frame);
         let best = self.best.take_if(|_| left != Left::Nothing);
         let left = best.filter(|_| left == Left::Part);
@@ -80,12 +80,12 @@ impl HungRows {
     }
 
     /// Keeps the frame that shows the part best, until its verdict counts or it leaves.
-    pub fn hold(&mut self, best: NewEntry) {
+    pub fn hold(&mut self, best: E) {
         self.best = Some(best);
     }
 
     /// The source has ended: the inspection of a part that still hangs there without a verdict that counts.
-    pub fn end(&mut self) -> Option<NewEntry> {
+    pub fn end(&mut self) -> Option<E> {
         self.parts = HungParts::default();
         self.visit = 0;
         self.best.take()

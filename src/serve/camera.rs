@@ -58,6 +58,20 @@ impl NewFrame {
     }
 }
 
+impl NewFrame {
+    /// When a frame was captured, for its age.
+    pub fn captured_at(self, captured: &Captured) -> Instant {
+        match self {
+            Self::SecondArrived => captured.arrived,
+            Self::WrittenAfter => {
+                let age = Timestamp::now().duration_since(captured.taken_at);
+                let age = Duration::try_from(age).unwrap_or_default();
+                Instant::now().checked_sub(age).unwrap_or(captured.arrived)
+            }
+        }
+    }
+}
+
 /// Why no frame came.
 #[derive(Clone, Debug, Error)]
 pub enum NoFrame {
@@ -125,6 +139,25 @@ impl Advice for NoFrame {
     }
 }
 
+/// How a source is, for a client.
+impl From<&FeedState> for CameraStatus {
+    fn from(state: &FeedState) -> Self {
+        let gone = |reason: &str, error: &Arc<CaptureError>| Some(Trouble::of(reason, &**error));
+        let (state, trouble) = match state {
+            FeedState::Opening => (CameraState::Opening, None),
+            FeedState::Running => (CameraState::Running, None),
+            FeedState::Lost { error } => (CameraState::Lost, gone("camera_lost", error)),
+            FeedState::Failed(error) => (CameraState::Over, gone("camera_failed", error)),
+            FeedState::Ended | FeedState::Stopped => {
+                let ended = NoFrame::Ended;
+                let trouble = Trouble::of(ended.reason(), &ended);
+                (CameraState::Over, Some(trouble))
+            }
+        };
+        Self { state, trouble }
+    }
+}
+
 impl Camera {
     /// Opens a source on a thread of its own.
     pub fn start(spec: &SourceSpec) -> Result<Self, CaptureError> {
@@ -160,19 +193,7 @@ impl Camera {
 
     /// How the source is, for a client.
     pub fn status(&self) -> CameraStatus {
-        let gone = |reason: &str, error: &Arc<CaptureError>| Some(Trouble::of(reason, &**error));
-        let (state, trouble) = match self.feed_status().state {
-            FeedState::Opening => (CameraState::Opening, None),
-            FeedState::Running => (CameraState::Running, None),
-            FeedState::Lost { error } => (CameraState::Lost, gone("camera_lost", &error)),
-            FeedState::Failed(error) => (CameraState::Over, gone("camera_failed", &error)),
-            FeedState::Ended | FeedState::Stopped => {
-                let ended = NoFrame::Ended;
-                let trouble = Trouble::of(ended.reason(), &ended);
-                (CameraState::Over, Some(trouble))
-            }
-        };
-        CameraStatus { state, trouble }
+        CameraStatus::from(&self.feed_status().state)
     }
 
     /// The next frame that was captured after a trigger. A source that is over is opened again first; one that is lost is
@@ -226,14 +247,7 @@ impl Camera {
 
     /// When the frame was captured, for its age.
     pub fn captured_at(&self, captured: &Captured) -> Instant {
-        match self.rule {
-            NewFrame::SecondArrived => captured.arrived,
-            NewFrame::WrittenAfter => {
-                let age = Timestamp::now().duration_since(captured.taken_at);
-                let age = Duration::try_from(age).unwrap_or_default();
-                Instant::now().checked_sub(age).unwrap_or(captured.arrived)
-            }
-        }
+        self.rule.captured_at(captured)
     }
 
     fn restart_if_over(&self) -> Result<(), NoFrame> {

@@ -43,10 +43,10 @@ pub use self::{
     protocol::{
         ByteOrder, Protocol,
         bad_request::BadRequest,
-        binary::{ANSWER_BYTES, MAX_NUMBERS, REQUEST_BYTES},
+        binary::{ANSWER_BYTES, MAX_NUMBERS, REQUEST_BYTES, request as binary_request},
         parsed::Parsed,
     },
-    record::InspectionRecord,
+    record::{InspectionRecord, InspectionRecorder},
     server::{
         Asked, ClientEvent, ClientNews, ClientSlot, Inspector, ServeError, Server, ServerSettings,
     },

@@ -1,8 +1,13 @@
 //! An inspection whose answer is wanted later.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use super::answer::{Answer, Found, Inspected, Request, Situation};
+use jiff::Timestamp;
+
+use super::{
+    answer::{Answer, CameraStatus, Found, Inspected, Request, Situation},
+    server::boot_number,
+};
 
 /// An inspection for others than the client that asked for it. It is judged anew whenever it is looked at, so that a
 /// pose that has become too old by then does not go out.
@@ -46,14 +51,51 @@ impl InspectionRecord {
     }
 }
 
+/// Makes records without a server, numbered as a server numbers its own.
+#[derive(Debug)]
+pub struct InspectionRecorder {
+    boot: u32,
+    max_age: Duration,
+    last: Inspected,
+}
+
+impl InspectionRecorder {
+    /// Before the first inspection. An accepted pose from an older frame than `max_age` is stale.
+    pub fn new(max_age: Duration) -> Self {
+        Self {
+            boot: boot_number(Timestamp::now()),
+            max_age,
+            last: Inspected::default(),
+        }
+    }
+
+    /// The number of this start, 1..=[`MAX_COUNT`](super::MAX_COUNT).
+    pub fn boot(&self) -> u32 {
+        self.boot
+    }
+
+    /// The next inspection, and how the camera is now.
+    pub fn record(&mut self, found: Found, camera: CameraStatus) -> InspectionRecord {
+        self.last = Inspected {
+            sequence: self.last.next_sequence(),
+            found,
+        };
+        let at = Situation {
+            boot: self.boot,
+            max_age: self.max_age,
+            camera,
+            now: Instant::now(),
+        };
+        InspectionRecord::of(&self.last, at)
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use super::*;
     use crate::{
         geometry::rigid::RigidTransform,
-        serve::{CameraStatus, PathStep, VerdictCode},
+        serve::{PathStep, VerdictCode},
     };
 
     fn inspected(pose: RigidTransform, step: RigidTransform) -> Inspected {
@@ -100,6 +142,28 @@ mod tests {
         let late = record.answer();
         assert_eq!((late.verdict, late.pose), (VerdictCode::Stale, None));
         assert_eq!(late.part, "fender");
+    }
+
+    #[test]
+    fn records_without_a_server_are_numbered_and_judged_as_its_own() {
+        let found = || inspected(RigidTransform::identity(), RigidTransform::identity()).found;
+        let mut recorder = InspectionRecorder::new(Duration::from_hours(1));
+        let answers = [(), ()].map(|()| {
+            let record = recorder.record(found(), CameraStatus::default());
+            record.answer()
+        });
+        assert_eq!(answers.each_ref().map(|answer| answer.sequence), [1, 2]);
+        for answer in &answers {
+            assert_eq!(answer.boot, recorder.boot());
+            assert!(answer.boot > 0 && answer.pose.is_some(), "{answer:?}");
+        }
+        let mut strict = InspectionRecorder::new(Duration::ZERO);
+        let old = Found {
+            captured: Instant::now().checked_sub(Duration::from_millis(5)),
+            ..found()
+        };
+        let late = strict.record(old, CameraStatus::default()).answer();
+        assert_eq!((late.verdict, late.pose), (VerdictCode::Stale, None));
     }
 
     #[test]

@@ -398,7 +398,7 @@ pub(crate) fn bound(
 }
 
 /// The number of a start: another one every second, for half a year.
-fn boot_number(now: Timestamp) -> u32 {
+pub(super) fn boot_number(now: Timestamp) -> u32 {
     let seconds = now.as_second().rem_euclid(i64::from(MAX_COUNT));
     u32::try_from(seconds).unwrap_or(0) + 1
 }

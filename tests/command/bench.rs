@@ -143,3 +143,53 @@ fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
         assert!(ran.err.contains(why), "{}", ran.err);
     }
 }
+
+#[test]
+fn protocols_are_timed_beside_bare_exchanges_and_direct_calls() {
+    let place = Workplace::new();
+    let ran = place.accepted(&["bench", "serve", "--poses", "1", "--json", "s.json"]);
+    let text = fs::read_to_string(place.path("s.json")).expect("written");
+    let file: Value = serde_json::from_str(&text).expect("JSON");
+    let mut protocols = vec!["ascii", "binary", "eki", "urscript"];
+    if cfg!(feature = "plant") {
+        protocols.push("http");
+    }
+    let rows = |list: &str| {
+        let rows = file[list].as_array().expect("a list");
+        let names: Vec<&str> = rows.iter().filter_map(|r| r["protocol"].as_str()).collect();
+        assert_eq!(names, protocols, "{list}");
+        rows
+    };
+    let number = |value: &Value| value.as_f64().filter(|number| *number > 0.0);
+    let assert_ratio = |row: &Value, beside: &Value| {
+        for (ratio, name) in [
+            ("median", "median_ms"),
+            ("p99", "p99_ms"),
+            ("per_s", "per_s"),
+            ("busy_per_s", "busy_per_s"),
+        ] {
+            let [found, of, by] = [&row["ratios"][ratio], &row["times"][name], &beside[name]]
+                .map(|value| number(value).unwrap_or_else(|| panic!("{name}: {row} {beside}")));
+            assert!((found - of / by).abs() < 1e-6 * found, "{name}: {row}");
+        }
+    };
+    for row in rows("status") {
+        assert_eq!(row["times"]["num"], 5000);
+        assert_eq!(row["bare"]["num"], 5000);
+        assert_ratio(row, &row["bare"]);
+    }
+    let binary = &rows("status")[1];
+    assert_eq!(
+        (&binary["request_bytes"], &binary["answer_bytes"]),
+        (&20.into(), &256.into())
+    );
+    let direct = &file["direct"];
+    assert_eq!(direct["num"], 8);
+    for row in rows("triggers") {
+        assert_eq!(row["times"]["num"], 8);
+        assert_ratio(row, direct);
+    }
+    for said in ["status", "called directly", "urscript"] {
+        assert!(ran.out.contains(said), "{said}: {}", ran.out);
+    }
+}

@@ -50,24 +50,36 @@ fn mosquitto() -> Option<&'static str> {
     names.find(|name| is_there(name) && is_there("mosquitto_passwd"))
 }
 
+/// A port at which nobody listens.
+pub(crate) fn free_port() -> u16 {
+    let socket = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a free port");
+    socket.local_addr().expect("its address").port()
+}
+
+/// True if there is a mosquitto; else it says so, and fails where it is required.
+#[expect(
+    clippy::print_stdout,
+    reason = "a test that checks nothing must say so"
+)]
+pub(crate) fn has_mosquitto() -> bool {
+    if mosquitto().is_some() {
+        return true;
+    }
+    let text = "skipped: mosquitto is not installed (apt-get install mosquitto)";
+    let is_required = std::env::var_os("PARTSIGHT_REQUIRE_MQTT").is_some_and(|value| value == "1");
+    assert!(!is_required, "PARTSIGHT_REQUIRE_MQTT=1, and {text}");
+    println!("{text}");
+    false
+}
+
 impl Broker {
     /// One that is not started yet; `None`, with a word about it, where there is no mosquitto.
-    #[expect(
-        clippy::print_stdout,
-        reason = "a test that checks nothing must say so"
-    )]
     pub(crate) fn prepare() -> Option<Self> {
-        if mosquitto().is_none() {
-            let text = "skipped: mosquitto is not installed (apt-get install mosquitto)";
-            let is_required =
-                std::env::var_os("PARTSIGHT_REQUIRE_MQTT").is_some_and(|value| value == "1");
-            assert!(!is_required, "PARTSIGHT_REQUIRE_MQTT=1, and {text}");
-            println!("{text}");
+        if !has_mosquitto() {
             return None;
         }
         let folder = tempfile::tempdir().expect("a folder");
-        let socket = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a free port");
-        let port = socket.local_addr().expect("its address").port();
+        let port = free_port();
         let broker = Self {
             folder,
             port,
@@ -155,6 +167,11 @@ pub(crate) struct Received {
     pub(crate) json: Value,
 }
 
+fn listener_name() -> String {
+    static NUM: AtomicU32 = AtomicU32::new(0);
+    format!("listener-{}", NUM.fetch_add(1, Ordering::SeqCst))
+}
+
 /// Somebody who subscribes to all topics of the cell, and again after every loss.
 pub(crate) struct Subscriber {
     received: Receiver<Received>,
@@ -166,10 +183,18 @@ pub(crate) struct Subscriber {
 impl Subscriber {
     /// Returns once it is subscribed.
     pub(crate) fn start(broker: &Broker) -> Self {
-        static NUM: AtomicU32 = AtomicU32::new(0);
-        let name = format!("listener-{}", NUM.fetch_add(1, Ordering::SeqCst));
-        let mut options = MqttOptions::new(name, "127.0.0.1", broker.port);
+        let mut options = MqttOptions::new(listener_name(), "127.0.0.1", broker.port);
         options.set_credentials("listener", "listens");
+        Self::start_with(options, "hall3/cell7/")
+    }
+
+    /// Of all topics with this prefix, at a broker that lets everybody in.
+    pub(crate) fn start_at(port: u16, prefix: &'static str) -> Self {
+        let options = MqttOptions::new(listener_name(), "127.0.0.1", port);
+        Self::start_with(options, prefix)
+    }
+
+    fn start_with(mut options: MqttOptions, prefix: &'static str) -> Self {
         options.set_max_packet_size(1 << 20, 1 << 20);
         let (tell, received) = mpsc::channel();
         let num_subscribed = Arc::new(AtomicU32::new(0));
@@ -180,14 +205,14 @@ impl Subscriber {
             while !is_over.load(Ordering::SeqCst) {
                 match connection.recv_timeout(Duration::from_secs(1)) {
                     Ok(Ok(Event::Incoming(Packet::ConnAck(_)))) => {
-                        let all = client.try_subscribe("hall3/cell7/#", QoS::AtLeastOnce);
+                        let all = client.try_subscribe(format!("{prefix}#"), QoS::AtLeastOnce);
                         all.expect("room");
                     }
                     Ok(Ok(Event::Incoming(Packet::SubAck(_)))) => {
                         theirs.fetch_add(1, Ordering::SeqCst);
                     }
                     Ok(Ok(Event::Incoming(Packet::Publish(publish)))) => {
-                        let topic = publish.topic.strip_prefix("hall3/cell7/");
+                        let topic = publish.topic.strip_prefix(prefix);
                         let received = Received {
                             topic: topic.expect("of the cell").to_owned(),
                             is_retained: publish.retain,

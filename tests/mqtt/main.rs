@@ -10,6 +10,9 @@ mod cell;
 #[path = "../kit/mod.rs"]
 mod kit;
 mod program;
+#[cfg(target_os = "linux")]
+mod three_cells;
+mod watch;
 
 use std::{thread, time::Duration};
 

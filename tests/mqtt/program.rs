@@ -15,7 +15,7 @@ use crate::{
     broker::{Broker, PASSWORD, Subscriber},
 };
 
-fn partsight(folder: &Path, args: &[&str]) -> Command {
+pub(crate) fn partsight(folder: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_partsight"));
     command
         .args(args)
@@ -25,6 +25,23 @@ fn partsight(folder: &Path, args: &[&str]) -> Command {
         .env("XDG_DATA_HOME", folder.join("data"))
         .env("HOME", folder);
     command
+}
+
+/// Writes the password of the cell and its calibration, `cell.toml`.
+pub(crate) fn prepare(folder: &Path) {
+    fs::write(folder.join("password"), PASSWORD).expect("written");
+    let matrix = "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1";
+    let mount = ["--mount", "eye-to-hand", "--out", "cell.toml"];
+    let calibrate = [&["calibrate", "set", matrix][..], &mount].concat();
+    let calibrated = partsight(folder, &calibrate).output();
+    assert!(calibrated.expect("starts").status.success());
+}
+
+pub(crate) fn interrupt(child: &Child) {
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.expect("kill is there").success());
 }
 
 /// The simulated cell, killed when dropped.
@@ -99,13 +116,7 @@ fn a_program_that_is_killed_becomes_offline_and_one_that_ends_says_so() {
         return;
     };
     let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("password"), PASSWORD).expect("written");
-    let matrix = "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1";
-    let mount = ["--mount", "eye-to-hand", "--out", "cell.toml"];
-    let calibrate = [&["calibrate", "set", matrix][..], &mount].concat();
-    let calibrated = partsight(folder.path(), &calibrate).output();
-    assert!(calibrated.expect("starts").status.success());
-
+    prepare(folder.path());
     let subscriber = Subscriber::start(&broker);
     let mut service = Service::start(folder.path(), &broker);
     service.trigger();
@@ -134,9 +145,7 @@ fn a_program_that_is_killed_becomes_offline_and_one_that_ends_says_so() {
 
     let mut service = Service::start(folder.path(), &broker);
     service.line("MQTT: connected");
-    let id = service.child.id().to_string();
-    let sent = Command::new("kill").args(["-INT", &id]).status();
-    assert!(sent.expect("kill is there").success());
+    interrupt(&service.child);
     assert!(service.child.wait().expect("ended").success());
     let kept = Subscriber::retained(&broker);
     assert_eq!(

@@ -1,4 +1,4 @@
-//! The parts that hang before a followed source one after the other: an inspection of each goes into the history.
+//! The parts that hang before a followed source one after the other: an inspection of each is kept and published.
 
 use std::{sync::Arc, time::Duration};
 
@@ -15,9 +15,9 @@ use crate::{
 };
 
 /// Tells them apart.
-pub(in crate::cli) struct FollowedParts {
+pub(in crate::cli) struct FollowedParts<E = NewEntry> {
     tracker: LiveTracker,
-    rows: HungRows,
+    rows: HungRows<E>,
 }
 
 /// A frame as it was inspected by itself.
@@ -29,7 +29,7 @@ pub(in crate::cli) struct FollowedFrame<'a> {
     pub(in crate::cli) accept: &'a AcceptParams,
 }
 
-impl FollowedParts {
+impl<E> FollowedParts<E> {
     /// Before the first frame.
     pub(in crate::cli) fn new() -> Self {
         Self {
@@ -49,8 +49,8 @@ impl FollowedParts {
         &mut self,
         frame: &FollowedFrame<'_>,
         mut inspection: Inspection,
-        entry: impl Fn(&Inspection, HungId) -> NewEntry,
-    ) -> [Option<NewEntry>; 2] {
+        entry: impl Fn(&Inspection, HungId) -> E,
+    ) -> [Option<E>; 2] {
         let at = Duration::try_from(frame.taken_at.as_duration()).unwrap_or_default();
         self.tracker.look(Arc::clone(frame.scene), at);
         let own = inspection.verdict.clone();
@@ -80,7 +80,7 @@ impl FollowedParts {
     }
 
     /// The source has ended; what is to be written yet.
-    pub(in crate::cli) fn end(mut self) -> Option<NewEntry> {
+    pub(in crate::cli) fn end(mut self) -> Option<E> {
         self.rows.end()
     }
 }

@@ -9,7 +9,7 @@ use std::{
 };
 
 use jiff::{SignedDuration, Timestamp};
-use rumqttc::{Client, Event, LastWill, MqttOptions, Outgoing, Packet, QoS};
+use rumqttc::{Client, Event, LastWill, MqttOptions, NetworkOptions, Outgoing, Packet, QoS};
 
 use super::{
     access::BrokerAccess,
@@ -284,6 +284,10 @@ impl Shared {
         ));
         // A client of its own for every connection: what is on its way is remembered here, not there.
         let (client, mut connection) = Client::new(options, CHANNEL);
+        // Else the end of a message that needs several packets waits until the broker has acknowledged the first ones.
+        let mut network = NetworkOptions::new();
+        network.set_tcp_nodelay(true);
+        connection.eventloop.set_network_options(network);
         for event in connection.iter() {
             match event.map_err(|error| LinkTrouble::of(error, &self.broker))? {
                 Event::Incoming(Packet::ConnAck(_)) => self.connected(client.clone()),

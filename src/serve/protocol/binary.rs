@@ -196,8 +196,7 @@ impl FrameWriter {
 }
 
 /// The frame of a request.
-#[cfg(test)]
-pub(super) fn request(request: Request, order: ByteOrder) -> Vec<u8> {
+pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
     let mut frame = FrameWriter {
         bytes: REQUEST_MAGIC.to_vec(),
         order,

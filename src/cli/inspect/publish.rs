@@ -1,0 +1,153 @@
+//! What `inspect --source --mqtt` publishes: of each part what the history keeps of it, and how the camera is.
+
+use crate::{
+    capture::{Captured, FeedState, SkippedCapture, SourceSpec},
+    cli::{
+        console::{Console, advised_error},
+        mqtt::{ChosenBroker, end_link, show_news},
+    },
+    error::Fault,
+    history::Traceability,
+    library::{LibraryLoad, LibraryPlace},
+    pipeline::{Inspection, Recipe},
+    plant::mqtt::MqttLink,
+    robot::RobotFrame,
+    serve::{
+        CameraStatus, Found, FrameOrigin, InspectionRecorder, NewFrame, NoFrame, PartFinder,
+        ServerSettings, Trouble,
+    },
+};
+
+use super::InspectArgs;
+
+/// Refuses options that would be passed over.
+pub(super) fn check(args: &InspectArgs) -> anyhow::Result<()> {
+    let is_wanted = args.mqtt.is_wanted();
+    if is_wanted && args.source.is_none() {
+        return Err(advised_error(
+            "--mqtt goes with --source",
+            "Follow a camera, a recording or a folder, such as --source watch:DIR",
+        ));
+    }
+    if !is_wanted && args.numbers.is_given() {
+        return Err(advised_error(
+            "--as, --transform and --number go with --mqtt",
+            "Leave them out, or name a broker with --mqtt",
+        ));
+    }
+    Ok(())
+}
+
+/// A broker, and in which numbers it is told of what was found.
+pub(super) struct ChosenPublisher {
+    broker: ChosenBroker,
+    finder: PartFinder,
+}
+
+impl ChosenPublisher {
+    /// The one that was chosen, if one was.
+    pub(super) fn of(
+        args: &InspectArgs,
+        place: &LibraryPlace,
+        load: &LibraryLoad,
+        robot: Option<&RobotFrame>,
+        console: &Console,
+    ) -> anyhow::Result<Option<Self>> {
+        let Some(broker) = args.mqtt.access(args.numbers.convention)? else {
+            return Ok(None);
+        };
+        let Some(robot) = robot else {
+            return Err(advised_error(
+                "--mqtt publishes poses in the robot's base frame, and no calibration says where the camera sits",
+                "Make one with partsight calibrate, or name one with --calibration",
+            ));
+        };
+        let finder = PartFinder {
+            parts: args.numbers.parts(place, load, console)?,
+            robot: robot.clone(),
+            kind: args.numbers.kind(),
+        };
+        Ok(Some(Self { broker, finder }))
+    }
+
+    /// Connects, without waiting for the broker.
+    pub(super) fn start(
+        self,
+        source: &SourceSpec,
+        load: &LibraryLoad,
+        trace: &Traceability,
+        console: &Console,
+    ) -> anyhow::Result<Publisher> {
+        let Self { broker, finder } = self;
+        let recorder = InspectionRecorder::new(ServerSettings::default().max_age);
+        let link = broker.start(recorder.boot(), finder.kind, load, trace, console)?;
+        Ok(Publisher {
+            link,
+            finder,
+            recorder,
+            new_frame: NewFrame::of_source(source),
+            camera: CameraStatus::default(),
+            origin: None,
+        })
+    }
+}
+
+/// Publishes inspections as a server does.
+pub(super) struct Publisher {
+    link: MqttLink,
+    finder: PartFinder,
+    recorder: InspectionRecorder,
+    new_frame: NewFrame,
+    camera: CameraStatus,
+    /// Of the frame that is being inspected.
+    origin: Option<FrameOrigin>,
+}
+
+impl Publisher {
+    /// Publishes how the source is, if that is new, and shows what happened to the connection.
+    pub(super) fn look(&mut self, state: &FeedState, console: &Console) {
+        self.camera = state.into();
+        self.link.set_camera(self.camera.clone());
+        show_news(&self.link, console);
+    }
+
+    /// This frame is inspected next.
+    pub(super) fn begin(&mut self, captured: &Captured) {
+        self.origin = Some(FrameOrigin {
+            captured: self.new_frame.captured_at(captured),
+            is_simulated: captured.is_simulated,
+        });
+    }
+
+    /// What an inspection of that frame came to.
+    pub(super) fn found(&self, inspection: &Inspection, recipe: &Recipe) -> Option<Found> {
+        let origin = self.origin?;
+        Some(self.finder.found(inspection, recipe, origin))
+    }
+
+    /// Publishes an inspection.
+    pub(super) fn publish(&mut self, found: Found) {
+        let record = self.recorder.record(found, self.camera.clone());
+        self.link.inspected(record);
+    }
+
+    /// Publishes that something could not be read.
+    pub(super) fn skipped(&mut self, skipped: &SkippedCapture) {
+        let why = NoFrame::Unreadable {
+            name: skipped.name.clone(),
+            error: skipped.error.clone(),
+        };
+        self.publish(Found::error(Trouble::of(why.reason(), &why)));
+    }
+
+    /// Publishes that the program itself failed at a frame.
+    pub(super) fn failed(&mut self, fault: &Fault) {
+        self.publish(Found::error(Trouble::of("fault", fault)));
+    }
+
+    /// Sends what waits, for a few seconds at most, and takes leave of the broker.
+    pub(super) fn end(self, console: &Console) {
+        show_news(&self.link, console);
+        end_link(self.link, console);
+    }
+}

@@ -1,0 +1,136 @@
+//! In which numbers robots and other systems are told of poses and parts, as options.
+
+use clap::{Args, ValueEnum};
+
+use super::{
+    console::{Console, advised_error},
+    input::parse_convention,
+};
+use crate::{
+    library::{LibraryLoad, LibraryPlace},
+    robot::Convention,
+    serve::{NumberedPart, PoseKind},
+};
+
+/// The numbers of poses and parts.
+#[derive(Debug, Args)]
+pub(super) struct NumbersChoice {
+    /// The convention of poses; the protocols eki and urscript of serve have their own
+    #[arg(long = "as", value_name = "CONVENTION", value_parser = parse_convention)]
+    pub(super) convention: Option<Convention>,
+    /// Which pose is given; default: robot-from-part
+    #[arg(long, value_enum)]
+    transform: Option<PoseArg>,
+    /// The number by which robots know an enrolled part, from 1 to 9999; may be given several times. Without any, parts
+    /// are numbered in the order of their names
+    #[arg(long, value_name = "NAME=N", value_parser = parse_number)]
+    number: Vec<PartNumber>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PoseArg {
+    /// Where the part is: for a path in the part's own frame
+    RobotFromPart,
+    /// How far it is from its standard position: for a path taught in the base frame
+    RobotOffset,
+}
+
+/// A part, and the number by which robots know it.
+#[derive(Clone, Debug)]
+struct PartNumber {
+    name: String,
+    number: u32,
+}
+
+fn parse_number(text: &str) -> Result<PartNumber, String> {
+    let read = text.split_once('=').and_then(|(name, number)| {
+        let number = number.parse::<u32>().ok();
+        let number = number.filter(|number| (1..=9999).contains(number))?;
+        let name = name.to_owned();
+        Some(PartNumber { name, number })
+    });
+    read.ok_or_else(|| "expected NAME=N with a number from 1 to 9999, such as fender=3".into())
+}
+
+impl NumbersChoice {
+    /// True if any option was given.
+    #[cfg(feature = "plant")]
+    pub(super) fn is_given(&self) -> bool {
+        self.convention.is_some() || self.transform.is_some() || !self.number.is_empty()
+    }
+
+    /// Which pose is given.
+    pub(super) fn kind(&self) -> PoseKind {
+        match self.transform {
+            None | Some(PoseArg::RobotFromPart) => PoseKind::RobotFromPart,
+            Some(PoseArg::RobotOffset) => PoseKind::RobotOffset,
+        }
+    }
+
+    /// What robots are told of each reference, in the order of the library.
+    pub(super) fn parts(
+        &self,
+        place: &LibraryPlace,
+        load: &LibraryLoad,
+        console: &Console,
+    ) -> anyhow::Result<Vec<NumberedPart>> {
+        let given = &self.number;
+        let names = load.parts.iter().map(|part| part.name.as_str());
+        let names: Vec<&str> = names.collect();
+        for (i, PartNumber { name, number }) in given.iter().enumerate() {
+            if !names.contains(&name.as_str()) {
+                return Err(advised_error(
+                    format!("--number {name}={number}: the library has no part {name}"),
+                    format!("Give one of {}", names.join(", ")),
+                ));
+            }
+            let is_same = |other: &PartNumber| other.name == *name || other.number == *number;
+            if given[..i].iter().any(is_same) {
+                return Err(advised_error(
+                    format!("--number {name}={number}: the part or the number was given before"),
+                    "Give each part one number of its own",
+                ));
+            }
+        }
+        let parts = (1..).zip(&load.parts).map(|(position, meta)| {
+            let name = meta.name.as_str();
+            let number = given.iter().find(|given| given.name == name);
+            let path = place.spray_path(name).unwrap_or_else(|error| {
+                console.warn(&format_args!("{name} has no spray path: {error}"), &error);
+                None
+            });
+            NumberedPart {
+                number: match number {
+                    Some(given) => given.number,
+                    None if given.is_empty() => position,
+                    None => 0,
+                },
+                path,
+                is_simulated: meta.simulated,
+            }
+        });
+        Ok(parts.collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_belongs_to_a_name() {
+        let read = parse_number("fender=3").expect("read");
+        assert_eq!((read.name.as_str(), read.number), ("fender", 3));
+        for text in [
+            "fender",
+            "fender=",
+            "fender=0",
+            "fender=10000",
+            "3",
+            "fender=x",
+        ] {
+            let error = parse_number(text).expect_err(text);
+            assert!(error.contains("NAME=N"), "{error}");
+        }
+    }
+}
