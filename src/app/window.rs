@@ -167,8 +167,12 @@ impl Window {
         window.forget_a_vanished_file();
         window.state.session.usual_cell = cell;
         window.with_robot(ctx, RobotCell::load_remembered);
-        let first = match (scene, &window.state.session.source) {
+        let session = &window.state.session;
+        let answers = session.answering.is_on && session.source.followed().is_some();
+        let first = match (scene, &session.source) {
             (Some(path), _) => Action::Open(path),
+            // Robots that were answered before are answered again: that takes frames.
+            (None, _) if answers => Action::Live(LiveAction::Toggle),
             (None, Source::Camera(spec)) => Action::Live(LiveAction::Use((**spec).clone())),
             (None, _) => Action::Capture,
         };
@@ -407,7 +411,7 @@ impl Window {
         }
         let work = self.work();
         if self.state.session.is_operator_view() {
-            operator_bars::ui(ui, &self.state, work, theme, &mut actions);
+            operator_bars::ui(ui, &self.state, &self.robot, work, theme, &mut actions);
         } else {
             top_bar::ui(ui, &self.state, &self.robot, work, theme, &mut actions);
             rail::ui(ui, &self.state, theme, &mut actions);

@@ -97,6 +97,9 @@ pub enum CaptureError {
         /// What the system says.
         source: io::Error,
     },
+    /// Frames are asked for that nobody takes from the source now.
+    #[error("the window does not follow its source, so there are no frames")]
+    NotFollowed,
     /// The camera's thread ended by a fault of the program.
     #[error("the camera's thread ended by a fault of the program")]
     Crashed,
@@ -140,6 +143,7 @@ impl CaptureError {
             | Self::FolderInUse { .. }
             | Self::Unwritable { .. }
             | Self::NoThread { .. }
+            | Self::NotFollowed
             | Self::Crashed => Recovery::None,
         }
     }
@@ -182,6 +186,7 @@ impl Advice for CaptureError {
             Self::FolderInUse { .. } => "Name a folder that is not there yet".into(),
             Self::Unwritable { source, .. } => advice_on(source).into(),
             Self::NoThread { .. } => "Close other programs and start again".into(),
+            Self::NotFollowed => "Press Live in the window".into(),
             Self::Crashed => "Choose the source again, and report what was done before".into(),
         }
     }

@@ -45,7 +45,7 @@ impl BackpressurePolicy {
 }
 
 /// What a feed hands over.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 #[expect(
     clippy::large_enum_variant,
     reason = "nearly all are captures, each moved once"
@@ -143,6 +143,26 @@ impl Feed {
             slot,
             thread: Some(thread),
         })
+    }
+
+    /// Another feed of the same source, which takes nothing away from this one: of what comes from now on it keeps the
+    /// newest. It does not keep the source open, and is over once this one is.
+    #[must_use]
+    pub fn tap(&self) -> Self {
+        Self {
+            slot: self.slot.tap(),
+            thread: None,
+        }
+    }
+
+    /// A feed that has failed for this reason.
+    pub fn failed(error: CaptureError) -> Self {
+        let slot = Slot::new(BackpressurePolicy::Newest, Box::new(|| ()));
+        slot.set_state(FeedState::Failed(Arc::new(error)));
+        Self {
+            slot: Arc::new(slot),
+            thread: None,
+        }
     }
 
     /// What came since it was asked last, waiting for it; `None` after `at_most`, or as soon as nothing will come any

@@ -30,9 +30,24 @@ const TURN: Duration = Duration::from_millis(100);
 
 /// A source that goes on while nobody asks for frames.
 pub struct Camera {
-    start: Box<dyn Fn() -> Result<Feed, CaptureError> + Send + Sync>,
-    feed: Mutex<Arc<Feed>>,
+    start: Box<dyn Fn() -> Result<(Feed, NewFrame), CaptureError> + Send + Sync>,
+    opened: Mutex<Opened>,
+}
+
+/// A source at work, and which of its frames are new.
+#[derive(Clone)]
+struct Opened {
+    feed: Arc<Feed>,
     rule: NewFrame,
+}
+
+impl From<(Feed, NewFrame)> for Opened {
+    fn from((feed, rule): (Feed, NewFrame)) -> Self {
+        Self {
+            feed: Arc::new(feed),
+            rule,
+        }
+    }
 }
 
 /// By what a frame is known to have been captured after a trigger.
@@ -163,32 +178,35 @@ impl Camera {
     pub fn start(spec: &SourceSpec) -> Result<Self, CaptureError> {
         let rule = NewFrame::of_source(spec);
         let spec = spec.clone();
-        Self::start_with(
-            move || Feed::start(spec.clone(), BackpressurePolicy::Newest, || ()),
-            rule,
-        )
+        Self::start_with(move || {
+            let feed = Feed::start(spec.clone(), BackpressurePolicy::Newest, || ());
+            feed.map(|feed| (feed, rule))
+        })
     }
 
     /// As [`Self::start`], with another way to start the source; its feed has to drop what nobody takes.
     pub fn start_with(
-        start: impl Fn() -> Result<Feed, CaptureError> + Send + Sync + 'static,
-        rule: NewFrame,
+        start: impl Fn() -> Result<(Feed, NewFrame), CaptureError> + Send + Sync + 'static,
     ) -> Result<Self, CaptureError> {
-        let feed = Mutex::new(Arc::new(start()?));
+        let opened = Mutex::new(start()?.into());
         Ok(Self {
             start: Box::new(start),
-            feed,
-            rule,
+            opened,
         })
     }
 
-    fn feed(&self) -> Arc<Feed> {
-        Arc::clone(&lock(&self.feed))
+    fn opened(&self) -> Opened {
+        lock(&self.opened).clone()
     }
 
     /// How the source is, in full.
     pub fn feed_status(&self) -> FeedStatus {
-        self.feed().status()
+        self.opened().feed.status()
+    }
+
+    /// Starts the source anew, whatever it does: it may be another one by now.
+    pub fn restart(&self) -> Result<(), NoFrame> {
+        self.start_again(&mut lock(&self.opened))
     }
 
     /// How the source is, for a client.
@@ -205,7 +223,7 @@ impl Camera {
         is_ending: impl Fn() -> bool,
     ) -> Result<Captured, NoFrame> {
         self.restart_if_over()?;
-        let feed = self.feed();
+        let Opened { feed, rule } = self.opened();
         let until = Instant::now() + at_most;
         let mut num_arrived = 0;
         let mut unreadable = None;
@@ -215,7 +233,7 @@ impl Camera {
             match feed.wait(TURN) {
                 Some(FeedItem::Captured(captured)) => {
                     num_arrived += usize::from(captured.arrived > asked.at);
-                    let is_new = match self.rule {
+                    let is_new = match rule {
                         NewFrame::SecondArrived => num_arrived >= 2,
                         NewFrame::WrittenAfter => captured.taken_at >= asked.by_clock,
                     };
@@ -247,17 +265,22 @@ impl Camera {
 
     /// When the frame was captured, for its age.
     pub fn captured_at(&self, captured: &Captured) -> Instant {
-        self.rule.captured_at(captured)
+        self.opened().rule.captured_at(captured)
     }
 
     fn restart_if_over(&self) -> Result<(), NoFrame> {
-        let mut feed = lock(&self.feed);
-        if feed.status().state.is_over() {
-            let started = (self.start)();
-            *feed = Arc::new(started.map_err(|error| NoFrame::Failed {
-                error: Arc::new(error),
-            })?);
+        let mut opened = lock(&self.opened);
+        if opened.feed.status().state.is_over() {
+            self.start_again(&mut opened)?;
         }
+        Ok(())
+    }
+
+    fn start_again(&self, opened: &mut Opened) -> Result<(), NoFrame> {
+        let started = (self.start)().map_err(|error| NoFrame::Failed {
+            error: Arc::new(error),
+        })?;
+        *opened = started.into();
         Ok(())
     }
 }
@@ -341,9 +364,10 @@ mod tests {
                 });
                 Ok(source)
             };
-            Feed::start_with(open, BackpressurePolicy::Newest, || ())
+            let feed = Feed::start_with(open, BackpressurePolicy::Newest, || ());
+            feed.map(|feed| (feed, NewFrame::SecondArrived))
         };
-        Camera::start_with(start, NewFrame::SecondArrived).expect("started")
+        Camera::start_with(start).expect("started")
     }
 
     fn scripted(
@@ -358,9 +382,10 @@ mod tests {
                 Ok(source)
             };
             // Every step counts here, however the threads run.
-            Feed::start_with(open, BackpressurePolicy::Every, || ())
+            let feed = Feed::start_with(open, BackpressurePolicy::Every, || ());
+            feed.map(|feed| (feed, rule))
         };
-        Camera::start_with(start, rule).expect("started")
+        Camera::start_with(start).expect("started")
     }
 
     #[test]

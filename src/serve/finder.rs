@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::answer::{Answer, Found, PathStep, Trouble, VerdictCode, in_words};
 use crate::{
@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// Which of the poses goes out; see [`crate::robot`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PoseKind {
     /// Where the part is: for paths in the part's own frame.

@@ -6,13 +6,15 @@ use std::{
     str::FromStr,
 };
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::protocol::{Protocol, binary::MAX_NUMBERS};
 use crate::{error::Advice, robot::Convention};
 
 /// A protocol and the address that it is spoken at, written `ascii=30100` or `eki=192.168.1.10:54600`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct ListenAddress {
     /// The protocol.
     pub protocol: Protocol,
@@ -102,6 +104,20 @@ pub fn parse_address(text: &str) -> Result<SocketAddr, ListenError> {
     address.ok_or_else(|| ListenError::NoAddress {
         found: text.to_owned(),
     })
+}
+
+impl TryFrom<String> for ListenAddress {
+    type Error = ListenError;
+
+    fn try_from(text: String) -> Result<Self, ListenError> {
+        text.parse()
+    }
+}
+
+impl From<ListenAddress> for String {
+    fn from(at: ListenAddress) -> Self {
+        at.to_string()
+    }
 }
 
 /// As it is read again.

@@ -389,6 +389,26 @@ fn in_every_language_the_check_of_the_cell_fits_where_it_does_in_english() {
 }
 
 #[test]
+fn in_every_language_the_page_of_robots_that_ask_fits_where_it_does_in_english() {
+    let shown = |language: Language| {
+        let mut harness = open_in(language, SMALL);
+        act(&mut harness, Action::Robot(RobotAction::Toggle));
+        let mut dialog = harness.state().robot().dialog().expect("open").clone();
+        dialog.page = RobotPage::Answer;
+        // With its doubt, and without a calibration.
+        dialog.address = "0.0.0.0:30100".into();
+        let turned = RobotAction::Edit(Box::new(dialog));
+        act(&mut harness, Action::Robot(turned));
+        misfits(&harness)
+    };
+    let usual = shown(Language::English);
+    for language in [Language::German, Language::Spanish, Language::Chinese] {
+        let wrong = only_here(shown(language), &usual);
+        assert!(wrong.is_empty(), "{language}: {}", wrong.join("\n"));
+    }
+}
+
+#[test]
 fn what_does_not_fit_is_found() {
     let fitting = Scenery::Workspace(WorkspaceKind::Inspect);
     let narrow = Vec2::new(560.0, 768.0);

@@ -2,6 +2,7 @@
 //! says in words that there is none.
 
 mod align;
+mod answering;
 mod cell_check;
 mod compare;
 mod enrol;

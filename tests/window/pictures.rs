@@ -22,7 +22,12 @@ use partsight::{
             library_cache::LibraryCache,
             source::{CellChoice, SceneSource},
         },
-        shell::{action::Action, robot::RobotAction, roles::RoleAction, session::WorkspaceKind},
+        shell::{
+            action::Action,
+            robot::{RobotAction, RobotPage},
+            roles::RoleAction,
+            session::WorkspaceKind,
+        },
         workspaces::{
             align::{AlignWorkspace, MethodRun},
             paint::{PaintAction, PaintWorkspace},
@@ -337,6 +342,14 @@ fn the_robots_cell_looks_as_it_did() {
         }
         compare(&mut harness, name);
     }
+    let mut harness = open_drawn(SMALL);
+    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
+    act(&mut harness, Action::Robot(RobotAction::Toggle));
+    let mut dialog = harness.state().robot().dialog().expect("open").clone();
+    dialog.page = RobotPage::Answer;
+    let turned = RobotAction::Edit(Box::new(dialog));
+    act(&mut harness, Action::Robot(turned));
+    compare(&mut harness, "robot_answers");
     let turns: Vec<[f64; 3]> = (0..6).map(|i| [0.0, 0.0, 0.3 * f64::from(i)]).collect();
     std::fs::write(&pairs, robot::pairs(&turns)).expect("written");
     let mut harness = open_drawn(SMALL);

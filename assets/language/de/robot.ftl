@@ -129,3 +129,42 @@ robot-checks-written =
     } nach { $path } geschrieben
 robot-moved = Letzte Kontrolle der Zelle, { $time }: { $finding }
 robot-moved-advice = Vor dem Lackieren einen Einrichter nachsehen lassen: Roboter…, Zellenkontrolle
+
+## Answering robots
+
+robot-answer = Anfragen
+robot-answer-says = Roboter und SPS fragen über TCP nach einer Prüfung und erhalten Ergebnis und Pose, wie von partsight serve. Jeder Trigger wird aus einem Bild beantwortet, das die Quelle des Fensters danach liefert
+robot-protocol = Protokoll
+robot-port = Port, oder IP-Adresse und Port
+robot-pose-told = Pose
+robot-pose-of-part = Lage des Teils
+robot-pose-offset = Abstand von der Standardposition
+robot-poses-as = Posen als
+robot-no-address = „{ $text }“ ist kein Port und keine IP-Adresse mit Port
+robot-no-address-advice = Einen Port von 1 bis 65535 angeben, oder dazu die Adresse der Netzwerkkarte dieses Rechners, etwa 192.168.1.10:30100
+robot-other-convention = Neben der Pose in Prüfen eine andere Konvention wählen
+robot-open-to-network = { $at } ist ohne Verschlüsselung vom Netzwerk erreichbar: Wer es erreicht, kann Prüfungen auslösen und Posen lesen
+robot-open-to-network-advice = Ein eigenes Netzwerk der Zelle verwenden und in der Firewall nur Roboter und SPS zu diesem Port durchlassen
+robot-turn-on = Einschalten
+robot-turn-off = Ausschalten
+robot-calibrate-first = Zuerst kalibrieren: Sonst gibt es keine Pose
+robot-answers-at = Antwortet Robotern · { $at }
+robot-answers-without-frames = Antwortet Robotern, ohne Bilder
+robot-answers-without-frames-advice = Live drücken: Bis dahin wird jeder Trigger mit einem Fehler beantwortet
+robot-answers-soon = Antworten an Roboter wird gestartet
+robot-answers-nobody = Roboter erhalten keine Antwort
+robot-port-in-use = { $at } ist nicht verfügbar: Ein anderes Programm verwendet diesen Port
+robot-port-in-use-advice = Das andere Programm beenden und hier aus- und wieder einschalten, oder einen anderen Port wählen
+robot-cannot-listen-advice = Einen anderen Port ab 1024 wählen, oder die Adresse einer Netzwerkkarte dieses Rechners
+robot-listens-at = erreichbar unter
+robot-clients = Verbindungen
+robot-last-client = letzte Verbindung
+robot-client-connected = { $peer } ist verbunden
+robot-client-left = { $peer } ist getrennt
+robot-client-turned-away = { $peer } wurde abgewiesen: Es sind so viele Clients verbunden wie erlaubt
+robot-client-turned-away-advice = Eine ungenutzte Verbindung schließen
+robot-last-trigger = letzter Trigger
+robot-no-trigger = noch keiner
+robot-answer-number = Nr. { $number }
+robot-answer-age = Bild { $age } ms alt
+robot-part-numbers = Nummern der Teile, in der Reihenfolge ihrer Namen

@@ -129,3 +129,42 @@ robot-checks-written =
     } written to { $path }
 robot-moved = Last check of the cell, { $time }: { $finding }
 robot-moved-advice = Have an engineer look before parts are painted: Robot…, Check of the cell
+
+## Answering robots
+
+robot-answer = Answer robots
+robot-answer-says = Robots and PLCs ask over TCP for an inspection and get verdict and pose, as from partsight serve. Each trigger is answered from a frame that the window's source gives after it
+robot-protocol = Protocol
+robot-port = Port, or IP address and port
+robot-pose-told = Pose
+robot-pose-of-part = Where the part is
+robot-pose-offset = How far it is from its standard position
+robot-poses-as = poses as
+robot-no-address = "{ $text }" is no port, and no IP address with a port
+robot-no-address-advice = Give a port from 1 to 65535, or the address of this computer's network card with it, such as 192.168.1.10:30100
+robot-other-convention = Choose another convention beside the pose in Inspect
+robot-open-to-network = { $at } is open to the network without encryption: whoever reaches it can trigger inspections and read poses
+robot-open-to-network-advice = Use a network of the cell's own, and let the firewall pass only the robot and the PLC to this port
+robot-turn-on = Turn on
+robot-turn-off = Turn off
+robot-calibrate-first = Calibrate it first: no pose can be given without
+robot-answers-at = Answers robots · { $at }
+robot-answers-without-frames = Answers robots, without frames
+robot-answers-without-frames-advice = Press Live: until then every trigger is answered with an error
+robot-answers-soon = Starting to answer robots
+robot-answers-nobody = Robots are not answered
+robot-port-in-use = Cannot listen at { $at }: another program listens at this port
+robot-port-in-use-advice = End the other program, then turn this off and on again, or choose another port
+robot-cannot-listen-advice = Choose another port from 1024 up, or the address of a network card of this computer
+robot-listens-at = listens at
+robot-clients = connections
+robot-last-client = last connection
+robot-client-connected = { $peer } connected
+robot-client-left = { $peer } left
+robot-client-turned-away = { $peer } was turned away: as many clients are connected as are allowed
+robot-client-turned-away-advice = Close a connection that is not used
+robot-last-trigger = last trigger
+robot-no-trigger = none yet
+robot-answer-number = no. { $number }
+robot-answer-age = frame { $age } ms old
+robot-part-numbers = Numbers of the parts, in the order of their names

@@ -129,3 +129,42 @@ robot-checks-written =
     } en { $path }
 robot-moved = Última comprobación de la celda, { $time }: { $finding }
 robot-moved-advice = Pedir a un técnico que lo revise antes de pintar: Robot…, Comprobación
+
+## Answering robots
+
+robot-answer = Peticiones
+robot-answer-says = Robots y PLC piden por TCP una inspección y reciben resultado y pose, como de partsight serve. Cada trigger se responde con una imagen que la fuente de la ventana da después
+robot-protocol = Protocolo
+robot-port = Puerto, o dirección IP y puerto
+robot-pose-told = Pose
+robot-pose-of-part = Dónde está la pieza
+robot-pose-offset = Distancia a su posición estándar
+robot-poses-as = poses como
+robot-no-address = "{ $text }" no es un puerto ni una dirección IP con puerto
+robot-no-address-advice = Indicar un puerto de 1 a 65535, o con él la dirección de la tarjeta de red de este equipo, como 192.168.1.10:30100
+robot-other-convention = Elegir otra convención junto a la pose en Inspeccionar
+robot-open-to-network = { $at } está abierto a la red sin cifrado: quien llegue a él puede iniciar inspecciones y leer poses
+robot-open-to-network-advice = Usar una red propia de la celda y dejar que el cortafuegos solo permita el robot y el PLC en este puerto
+robot-turn-on = Activar
+robot-turn-off = Desactivar
+robot-calibrate-first = Calibrarla primero: sin ello no hay pose
+robot-answers-at = Responde a robots · { $at }
+robot-answers-without-frames = Responde a robots, sin imágenes
+robot-answers-without-frames-advice = Pulsar En vivo: hasta entonces cada trigger recibe un error
+robot-answers-soon = Empezando a responder a robots
+robot-answers-nobody = No se responde a los robots
+robot-port-in-use = No se puede escuchar en { $at }: otro programa usa este puerto
+robot-port-in-use-advice = Cerrar el otro programa y desactivar y activar de nuevo, o elegir otro puerto
+robot-cannot-listen-advice = Elegir otro puerto desde 1024, o la dirección de una tarjeta de red de este equipo
+robot-listens-at = escucha en
+robot-clients = conexiones
+robot-last-client = última conexión
+robot-client-connected = { $peer } se conectó
+robot-client-left = { $peer } se desconectó
+robot-client-turned-away = { $peer } fue rechazado: ya están conectados todos los clientes permitidos
+robot-client-turned-away-advice = Cerrar una conexión que no se use
+robot-last-trigger = último trigger
+robot-no-trigger = ninguno aún
+robot-answer-number = n.º { $number }
+robot-answer-age = imagen de hace { $age } ms
+robot-part-numbers = Números de las piezas, en el orden de sus nombres

@@ -151,6 +151,14 @@ impl Camera {
         failed.map_or(Ok(frames), Err)
     }
 
+    /// What this source gives to whoever follows it, beside them; it is over where nobody does.
+    pub fn tap(&self, spec: &SourceSpec) -> Feed {
+        match &*self.lock() {
+            Some(opened) if opened.spec == *spec => opened.feed.tap(),
+            Some(_) | None => Feed::failed(CaptureError::NotFollowed),
+        }
+    }
+
     /// Tells a scene of this source what earlier ones showed of the field of view, and remembers what this one shows.
     pub fn share_view(&self, spec: &SourceSpec, scene: &mut Arc<SceneCloud>) {
         let mut views = lock(&self.views);

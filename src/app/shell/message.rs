@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::{
     notice::Notice,
     program_setup::ProgramSetup,
+    robot::AnswerSetup,
     session::{RememberedCell, Source, WorkspaceKind},
 };
 use crate::{
@@ -39,6 +40,8 @@ pub enum Message {
     UseRecipe(Arc<NamedRecipe>),
     /// Use this calibration of the robot's cell, with where the camera stands by it.
     UseCalibration(RememberedCell, Option<Arc<RobotFrame>>),
+    /// Answer robots that ask like this.
+    UseAnswering(AnswerSetup),
     /// Tell the robot poses in these numbers.
     UseConvention(Convention),
     /// Write robot programs for this arm and gun.

@@ -7,6 +7,7 @@ use egui::{
 use super::{
     action::Action,
     live::{self, LiveAction},
+    robot::{self, RobotCell},
     roles::RoleAction,
     session::{Session, WorkspaceKind},
     shift::ShiftParts,
@@ -31,6 +32,7 @@ const BUTTON: f32 = 52.0;
 pub(in crate::app) fn ui(
     ui: &mut Ui,
     state: &State,
+    robot: &RobotCell,
     work: Option<Progress>,
     theme: &Theme,
     actions: &mut Vec<Action>,
@@ -43,7 +45,7 @@ pub(in crate::app) fn ui(
         .resizable(false)
         .frame(frame)
         .show(ui, |ui| {
-            ui.horizontal_centered(|ui| upper(ui, state, work, theme, actions));
+            ui.horizontal_centered(|ui| upper(ui, state, robot, work, theme, actions));
         });
     Panel::bottom("operator's lower bar")
         .exact_size(LOWER)
@@ -57,6 +59,7 @@ pub(in crate::app) fn ui(
 fn upper(
     ui: &mut Ui,
     state: &State,
+    robot: &RobotCell,
     work: Option<Progress>,
     theme: &Theme,
     actions: &mut Vec<Action>,
@@ -85,6 +88,7 @@ fn upper(
         }
         language_menu(ui, state, actions);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            robot::chip(ui, robot, &state.session, work.is_some(), theme);
             progress(ui, state, work, theme, actions);
         });
     });

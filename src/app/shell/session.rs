@@ -9,6 +9,7 @@ use super::{
     live::LiveState,
     message::ReinspectionPurpose,
     program_setup::ProgramSetup,
+    robot::AnswerSetup,
     shift::{ShiftParts, ShiftStarts},
 };
 pub use crate::app::ui::theme::ThemeChoice;
@@ -59,6 +60,8 @@ pub struct Session {
     pub program: ProgramSetup,
     /// Where the camera stands in the robot's base frame, if the cell is calibrated.
     pub robot: Option<Arc<RobotFrame>>,
+    /// Whether robots that ask are answered, and where.
+    pub answering: AnswerSetup,
     /// Which calibration of the robot's cell is used.
     pub cell: RememberedCell,
     /// Where the user's own calibration is; none: nowhere, and nothing is written.

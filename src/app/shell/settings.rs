@@ -12,6 +12,7 @@ use super::{
     current_trace::CurrentTrace,
     live::LiveState,
     program_setup::ProgramSetup,
+    robot::AnswerSetup,
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
     session::{RememberedCell, Session, Source, ThemeChoice, UserRole, WorkspaceKind},
     shift::ShiftStarts,
@@ -84,6 +85,8 @@ pub struct Settings {
     pub shifts: ShiftStarts,
     /// Which calibration of the robot's cell is used.
     pub cell: RememberedCell,
+    /// Whether robots that ask are answered, and where.
+    pub answering: AnswerSetup,
     /// The order that is worked on, and the operator.
     pub traceability: Traceability,
 }
@@ -130,6 +133,7 @@ impl Default for Settings {
             role: UserRole::default(),
             shifts: ShiftStarts::default(),
             cell: RememberedCell::default(),
+            answering: AnswerSetup::default(),
             traceability: Traceability::default(),
         }
     }
@@ -164,6 +168,7 @@ impl Settings {
             role: state.session.role,
             shifts: state.session.shift_starts.clone(),
             cell: state.session.cell.clone(),
+            answering: state.session.answering,
             traceability: state.session.trace.remembered(),
         }
     }
@@ -197,6 +202,7 @@ impl Settings {
             && self.role == state.session.role
             && self.shifts == state.session.shift_starts
             && self.cell == state.session.cell
+            && self.answering == state.session.answering
             && self.traceability == state.session.trace.remembered()
             && self.window == window
     }
@@ -230,6 +236,7 @@ impl Settings {
             }),
             role,
             cell: self.cell,
+            answering: self.answering,
             trace: CurrentTrace::starting(self.traceability),
             shift_starts: self.shifts,
             live: LiveState::averaging(self.average),
@@ -358,6 +365,7 @@ mod tests {
     use std::fs;
 
     use super::*;
+    use crate::serve::PoseKind;
 
     fn unusual() -> Settings {
         let mut recipe = Recipe::default();
@@ -385,6 +393,11 @@ mod tests {
                 .try_into()
                 .expect("times of day"),
             cell: RememberedCell::File("/media/stick/cell.toml".into()),
+            answering: AnswerSetup {
+                is_on: true,
+                at: "eki=192.168.1.10:54600".parse().expect("an address"),
+                pose: PoseKind::RobotOffset,
+            },
             ..Settings::default()
         }
     }
@@ -424,13 +437,14 @@ mod tests {
     fn a_bad_file_is_set_aside_and_never_lost() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("settings.toml");
-        let bad: [&[u8]; 6] = [
+        let bad: [&[u8]; 7] = [
             b"theme = [",
             b"theme = \"Purple\"",
             b"schema = 99\nnew = 1",
             b"\xff\xfe\x00",
             b"window = [\"wide\", 3]",
             b"shifts = [\"six\"]",
+            b"[answering]\nat = \"ascii=robot\"",
         ];
         for (number, contents) in bad.into_iter().enumerate() {
             fs::write(&path, contents).expect("written");

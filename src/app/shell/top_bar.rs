@@ -5,7 +5,7 @@ use egui::{Align, Button, Color32, Frame, Layout, Margin, Panel, RichText, Ui, V
 use super::{
     action::{Action, DialogRequest},
     live::{self, LiveAction},
-    robot::{RobotAction, RobotCell},
+    robot::{self, RobotAction, RobotCell},
     session::WorkspaceKind,
     source_menu,
     state::State,
@@ -78,6 +78,7 @@ pub(in crate::app) fn ui(
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     settings(ui, state, work.is_some(), theme, actions);
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                        robot::chip(ui, robot, &state.session, work.is_some(), theme);
                         progress(ui, state, work, theme, actions);
                     });
                 });

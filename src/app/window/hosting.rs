@@ -104,6 +104,15 @@ impl Window {
                 self.state.session.cell = cell;
                 self.state.session.robot = robot;
             }
+            Message::UseAnswering(setup) => {
+                let session = &mut self.state.session;
+                let was_on = std::mem::replace(&mut session.answering, setup).is_on;
+                let can_follow = !session.is_live() && session.source.followed().is_some();
+                if setup.is_on && !was_on && can_follow {
+                    // Without frames nothing could be answered.
+                    self.act(Action::Live(LiveAction::Toggle), ctx);
+                }
+            }
             Message::UseConvention(convention) => {
                 self.act(Action::UseConvention(convention), ctx);
             }

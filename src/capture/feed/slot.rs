@@ -2,7 +2,7 @@
 
 use std::{
     collections::VecDeque,
-    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak},
     thread,
     time::{Duration, Instant},
 };
@@ -30,6 +30,14 @@ struct Inner {
     is_stopping: bool,
     status: FeedStatus,
     rate: FrameRate,
+    /// Those that get everything that this one gets.
+    taps: Vec<Weak<Slot>>,
+}
+
+impl Inner {
+    fn taps(&self) -> impl Iterator<Item = Arc<Slot>> {
+        self.taps.iter().filter_map(Weak::upgrade)
+    }
 }
 
 impl Slot {
@@ -50,6 +58,7 @@ impl Slot {
                     rate: None,
                 },
                 rate: FrameRate::default(),
+                taps: Vec::new(),
             }),
             changed: Condvar::new(),
         }
@@ -93,7 +102,24 @@ impl Slot {
         self.changed.notify_all();
     }
 
-    // The thread's side.
+    /// Another slot, which gets what this one gets from now on and keeps the newest.
+    pub(super) fn tap(&self) -> Arc<Self> {
+        let tap = Arc::new(Self::new(BackpressurePolicy::Newest, Box::new(|| ())));
+        let mut inner = self.lock();
+        {
+            // Nobody else knows it yet.
+            let mut theirs = tap.lock();
+            theirs.status.state = inner.status.state.clone();
+            theirs.status.title.clone_from(&inner.status.title);
+            theirs.status.is_simulated = inner.status.is_simulated;
+        }
+        inner.taps.retain(|known| known.strong_count() > 0);
+        inner.taps.push(Arc::downgrade(&tap));
+        drop(inner);
+        tap
+    }
+
+    // The thread's side. A slot is locked before its taps.
 
     pub(super) fn is_stopping(&self) -> bool {
         self.lock().is_stopping
@@ -101,6 +127,9 @@ impl Slot {
 
     pub(super) fn opened(&self, title: String, is_simulated: bool) {
         let mut inner = self.lock();
+        for tap in inner.taps() {
+            tap.opened(title.clone(), is_simulated);
+        }
         inner.status.title = Some(title);
         inner.status.is_simulated = Some(is_simulated);
     }
@@ -116,13 +145,21 @@ impl Slot {
     }
 
     pub(super) fn set_state(&self, state: FeedState) {
-        self.lock().status.state = state;
+        let mut inner = self.lock();
+        for tap in inner.taps() {
+            tap.set_state(state.clone());
+        }
+        inner.status.state = state;
+        drop(inner);
         self.tell();
     }
 
     /// Hands an item over. Where every capture counts, waits until the one before was taken, or nobody wants it.
     pub(super) fn put(&self, item: FeedItem) {
         let mut inner = self.lock();
+        for tap in inner.taps() {
+            tap.put(item.clone());
+        }
         match &item {
             FeedItem::Captured(captured) => {
                 inner.status.num_captured += 1;

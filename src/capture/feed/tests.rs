@@ -261,6 +261,44 @@ fn news_are_told_for_every_capture_and_the_end() {
     assert_eq!(told.load(Ordering::SeqCst), 7);
 }
 
+#[test]
+fn a_tap_gets_the_newest_of_what_comes_and_takes_nothing_away() {
+    let (feed, open) = feed_of(BackpressurePolicy::Every, |_| Ok(numbers(1..=5)));
+    assert_eq!(number_of(feed.wait(PATIENCE)), 1);
+    let tap = feed.tap();
+    for number in 2..=5 {
+        assert_eq!(number_of(feed.wait(PATIENCE)), number);
+    }
+    // It was there before the feed itself had it.
+    assert_eq!(number_of(tap.wait(PATIENCE)), 5);
+    assert!(tap.wait(Duration::ZERO).is_none());
+    let status = tap.status();
+    assert!(matches!(status.state, FeedState::Running), "{status:?}");
+    assert_eq!(status.title.as_deref(), Some("Script"));
+    drop(tap);
+    drop(feed.tap());
+    let tap = feed.tap();
+    drop(feed);
+    assert_eq!(open.load(Ordering::SeqCst), 0, "a tap keeps nothing open");
+    assert!(matches!(tap.status().state, FeedState::Stopped));
+    assert!(tap.wait(PATIENCE).is_none());
+}
+
+#[test]
+fn a_tap_knows_how_the_source_was_before_and_a_failed_feed_why() {
+    let (feed, _) = feed_of(BackpressurePolicy::Newest, |_| Err(gone()));
+    wait_until(&feed, |status| {
+        matches!(status.state, FeedState::Lost { .. })
+    });
+    let tap = feed.tap();
+    assert!(matches!(tap.status().state, FeedState::Lost { .. }));
+    drop(feed);
+    assert!(matches!(tap.status().state, FeedState::Stopped));
+    let failed = Feed::failed(hopeless());
+    assert!(failed.wait(PATIENCE).is_none());
+    assert!(matches!(failed.status().state, FeedState::Failed(_)));
+}
+
 /// Of this process, by the name that the camera's thread has.
 #[cfg(target_os = "linux")]
 fn num_camera_threads(name: &str) -> usize {

@@ -3,7 +3,7 @@
 use egui::{Button, Context, RichText, ScrollArea, Ui, vec2};
 
 use super::{
-    by_hand, check_page, from_pairs, in_use,
+    answer_page, by_hand, check_page, from_pairs, in_use,
     state::{RobotAction, RobotCell, RobotDialog, RobotPage},
 };
 use crate::{
@@ -42,7 +42,7 @@ impl RobotCell {
             let title = RichText::new(text!("robot-title")).font(font::verdict());
             ui.label(title.color(theme.text));
             ui.add_space(space::SMALL);
-            ui.horizontal(|ui| {
+            ui.horizontal_wrapped(|ui| {
                 for page in RobotPage::ALL {
                     choice(ui, &mut dialog.page, page, page.title());
                 }
@@ -88,6 +88,7 @@ impl RobotCell {
             }
             // It says itself what went wrong, above its list.
             RobotPage::Check => return check_page::ui(ui, self, session, dialog, theme, caused),
+            RobotPage::Answer => answer_page::ui(ui, self, session, dialog, theme, caused),
         }
         if let Some(trouble) = &dialog.trouble {
             ui.add_space(space::SMALL);

@@ -1,6 +1,8 @@
-//! The robot's cell in the window: which calibration is in use, the dialog in which another one is made, and the check of
-//! whether the cell still stands as it was calibrated.
+//! The robot's cell in the window: which calibration is in use, the dialog in which another one is made, the check of
+//! whether the cell still stands as it was calibrated, and the server that robots ask.
 
+mod answer_page;
+pub mod answering;
 mod by_hand;
 pub mod cell_check;
 mod check_page;
@@ -10,7 +12,9 @@ mod in_use;
 pub mod state;
 pub mod work;
 
+pub(in crate::app) use self::answer_page::chip;
 pub use self::{
+    answering::{AnswerSetup, Answering, AnsweringStatus, LastAnswer},
     cell_check::{CellChecks, CheckAction, CheckFolderContent},
     state::{RobotAction, RobotCell, RobotDialog, RobotFile, RobotPage},
     work::{CellInUse, RobotResult, SolvedPairs},

@@ -5,6 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 use jiff::Timestamp;
 
 use super::{
+    answering::{AnswerSetup, Answering},
     cell_check::{CellChecks, CheckAction},
     work::{self, CellInUse, RobotResult, SolvedPairs},
 };
@@ -17,7 +18,7 @@ use crate::{
             file_dialog::{FileChoice, FileDialog, FileRequest, all_files},
             message::Message,
             notice::Notice,
-            session::RememberedCell,
+            session::{RememberedCell, Session},
         },
         task::{Task, TaskEvent, TaskRunner},
         user_error::UserError,
@@ -29,15 +30,17 @@ use crate::{
         hand_eye::Mount,
         parse_written_pose,
     },
+    serve::{PoseKind, Protocol, parse_address},
 };
 
-/// The calibration of the robot's cell, its checks, and the dialog about them.
+/// The calibration of the robot's cell, its checks, the server that robots ask, and the dialog about them.
 #[derive(Debug)]
 pub struct RobotCell {
     in_use: Option<Arc<CellInUse>>,
     dialog: Option<RobotDialog>,
     task: Task<RobotResult>,
     checks: CellChecks,
+    answering: Answering,
     files: FileDialog<RobotFile>,
 }
 
@@ -53,11 +56,19 @@ pub enum RobotPage {
     FromPairs,
     /// Whether camera and cell still stand where they stood.
     Check,
+    /// Whether robots that ask are answered.
+    Answer,
 }
 
 impl RobotPage {
     /// All of them, in their order.
-    pub const ALL: [Self; 4] = [Self::InUse, Self::ByHand, Self::FromPairs, Self::Check];
+    pub const ALL: [Self; 5] = [
+        Self::InUse,
+        Self::ByHand,
+        Self::FromPairs,
+        Self::Check,
+        Self::Answer,
+    ];
 
     /// What a person calls it.
     pub fn title(self) -> String {
@@ -66,6 +77,7 @@ impl RobotPage {
             Self::ByHand => text!("robot-by-hand"),
             Self::FromPairs => text!("robot-from-pairs"),
             Self::Check => text!("robot-check"),
+            Self::Answer => text!("robot-answer"),
         }
     }
 }
@@ -97,17 +109,30 @@ pub struct RobotDialog {
     pub limits: CellLimits,
     /// True while a person is asked whether the baseline is to be replaced.
     pub is_replacing: bool,
+    /// How robots ask.
+    pub protocol: Protocol,
+    /// The port where they do, or address and port, as it is typed.
+    pub address: String,
+    /// Which pose they are told.
+    pub pose: PoseKind,
     /// What went wrong last.
     pub trouble: Option<UserError>,
 }
 
 impl RobotDialog {
-    fn new(convention: Convention) -> Self {
+    fn new(session: &Session) -> Self {
+        let AnswerSetup { at, pose, .. } = session.answering;
+        // A port alone is one of this computer.
+        let port = at.address.port().to_string();
+        let address = match parse_address(&port) {
+            Ok(own) if own == at.address => port,
+            _ => at.address.to_string(),
+        };
         Self {
             page: RobotPage::InUse,
             name: String::new(),
             mount: Mount::EyeToHand,
-            convention,
+            convention: session.convention,
             numbers: String::new(),
             arm: String::new(),
             pairs: None,
@@ -116,6 +141,9 @@ impl RobotDialog {
             insists: false,
             limits: CellLimits::default(),
             is_replacing: false,
+            protocol: at.protocol,
+            address,
+            pose,
             trouble: None,
         }
     }
@@ -172,6 +200,8 @@ pub enum RobotAction {
     Forget,
     /// Of the check of the cell.
     Check(CheckAction),
+    /// Answer robots there, or no longer.
+    Answer(AnswerSetup),
 }
 
 /// What a person is asked to choose.
@@ -218,6 +248,7 @@ impl RobotCell {
             dialog: None,
             task: Task::new("robot", runner),
             checks: CellChecks::new(checks, runner),
+            answering: Answering::new(runner),
             files: FileDialog::default(),
         }
     }
@@ -237,9 +268,16 @@ impl RobotCell {
         &self.checks
     }
 
-    /// True while nothing is read, written, calculated or captured.
+    /// The server that robots ask.
+    pub fn answering(&self) -> &Answering {
+        &self.answering
+    }
+
+    /// True while nothing is read, written, calculated or captured, and no server is being started or ended.
     pub fn is_idle(&self) -> bool {
-        self.task.running().is_none() && self.checks.running().is_none()
+        self.task.running().is_none()
+            && self.checks.running().is_none()
+            && self.answering.is_settled()
     }
 
     /// Reads the calibration that the window starts with.
@@ -253,7 +291,7 @@ impl RobotCell {
     pub fn apply(&mut self, action: RobotAction, cx: &mut ShellContext<'_>) {
         match action {
             RobotAction::Toggle if self.dialog.is_none() => {
-                self.dialog = Some(RobotDialog::new(cx.session.convention));
+                self.dialog = Some(RobotDialog::new(cx.session));
             }
             RobotAction::Toggle | RobotAction::Close => {
                 self.dialog = None;
@@ -285,7 +323,7 @@ impl RobotCell {
             }
             RobotAction::Load(path) => self.load(path),
             RobotAction::Pairs(path) => {
-                let open = || RobotDialog::new(cx.session.convention);
+                let open = || RobotDialog::new(cx.session);
                 let dialog = self.dialog.get_or_insert_with(open);
                 dialog.page = RobotPage::FromPairs;
                 dialog.pairs = Some(path);
@@ -304,6 +342,7 @@ impl RobotCell {
                     dialog.trouble = started.err();
                 }
             }
+            RobotAction::Answer(setup) => cx.send(Message::UseAnswering(setup)),
         }
     }
 
@@ -420,6 +459,7 @@ impl RobotCell {
         if let Some(error) = self.checks.update(cx) {
             self.report(error, cx);
         }
+        self.answering.update(cx);
         match self.files.poll()? {
             (RobotFile::Calibration, Ok(path)) => Some(RobotAction::Load(path)),
             (RobotFile::Pairs, Ok(path)) => Some(RobotAction::Pairs(path)),

@@ -1,0 +1,283 @@
+//! The page on answering robots that ask, and what the bars say of it.
+
+use egui::{Button, Label, RichText, Role, Sense, TextEdit, Ui, Vec2, WidgetInfo};
+use jiff::{Timestamp, tz::TimeZone};
+
+use super::{
+    answering::{AnswerSetup, AnsweringStatus, LastAnswer},
+    dialog::{choice, told},
+    state::{RobotAction, RobotCell, RobotDialog},
+};
+use crate::{
+    app::{
+        language::text,
+        shell::session::Session,
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{self, Mark, heading, labelled, mark, row},
+        },
+        user_error::UserError,
+    },
+    error::Advice as _,
+    serve::{ClientEvent, ClientNews, ListenAddress, Listener, PoseKind, Protocol, parse_address},
+};
+
+/// In a narrower part of a bar the chip is its sign alone, logical pixels; and while the bar also says what is at work.
+const ROOM: [f32; 2] = [180.0, 480.0];
+
+/// In a bar: whether robots are answered, while they are to be.
+pub(in crate::app) fn chip(
+    ui: &mut Ui,
+    robot: &RobotCell,
+    session: &Session,
+    is_at_work: bool,
+    theme: &Theme,
+) {
+    let Some((sign, words)) = robot.answering().words(session) else {
+        return;
+    };
+    ui.add_space(space::SMALL);
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
+    mark(ui.painter(), rect.center(), 7.5, sign, theme);
+    let room = if is_at_work { ROOM[1] } else { ROOM[0] };
+    if ui.available_width() > room {
+        let text = RichText::new(&words).color(theme.text);
+        ui.add(Label::new(text).truncate());
+    } else {
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
+    }
+    response.on_hover_text(words);
+}
+
+pub(super) fn ui(
+    ui: &mut Ui,
+    robot: &RobotCell,
+    session: &Session,
+    dialog: &mut RobotDialog,
+    theme: &Theme,
+    caused: &mut Vec<RobotAction>,
+) {
+    let says = RichText::new(text!("robot-answer-says")).font(font::small());
+    ui.label(says.color(theme.weak_text));
+    ui.add_space(space::SMALL);
+    fields(ui, dialog);
+    let typed = typed(session, dialog);
+    match &typed {
+        Ok(listener) => {
+            let poses = listener.convention().title();
+            row(ui, theme, &text!("robot-poses-as"), poses);
+            if listener.doubt().is_some() {
+                let open = UserError {
+                    what: text!("robot-open-to-network", at = listener.at.to_string()),
+                    advice: text!("robot-open-to-network-advice"),
+                };
+                told(ui, Mark::Look, &open, theme);
+            }
+        }
+        Err(trouble) => told(ui, Mark::Bad, trouble, theme),
+    }
+    ui.add_space(space::SMALL);
+    let at = typed.ok().map(|listener| listener.at);
+    buttons(ui, session, at, dialog.pose, theme, caused);
+    state(ui, robot, session, theme);
+    numbers(ui, session, theme);
+}
+
+/// Where robots ask, how, and for which pose.
+fn fields(ui: &mut Ui, dialog: &mut RobotDialog) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label(text!("robot-protocol"));
+        for protocol in Protocol::ALL {
+            choice(ui, &mut dialog.protocol, protocol, protocol.name().into());
+        }
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label(text!("robot-port"));
+        ui.add(TextEdit::singleline(&mut dialog.address).desired_width(200.0))
+            .labelled_by(label.id);
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.label(text!("robot-pose-told"));
+        for (pose, text) in [
+            (PoseKind::RobotFromPart, text!("robot-pose-of-part")),
+            (PoseKind::RobotOffset, text!("robot-pose-offset")),
+        ] {
+            choice(ui, &mut dialog.pose, pose, text);
+        }
+    });
+}
+
+/// Where a server would listen by what is typed.
+fn typed(session: &Session, dialog: &RobotDialog) -> Result<Listener, UserError> {
+    let text = dialog.address.trim();
+    let address = parse_address(text).map_err(|_no_address| UserError {
+        what: text!("robot-no-address", text = text),
+        advice: text!("robot-no-address-advice"),
+    })?;
+    let at = ListenAddress {
+        protocol: dialog.protocol,
+        address,
+    };
+    Listener::new(at, Some(session.convention)).map_err(|error| UserError {
+        what: error.to_string(),
+        advice: text!("robot-other-convention"),
+    })
+}
+
+fn buttons(
+    ui: &mut Ui,
+    session: &Session,
+    at: Option<ListenAddress>,
+    pose: PoseKind,
+    theme: &Theme,
+    caused: &mut Vec<RobotAction>,
+) {
+    let now = session.answering;
+    let wanted = at.map(|at| AnswerSetup {
+        is_on: true,
+        at,
+        pose,
+    });
+    let mut act = |setup| caused.push(RobotAction::Answer(setup));
+    ui.horizontal(|ui| {
+        if !now.is_on {
+            let can = wanted.is_some() && session.robot.is_some();
+            let is_pressed = widgets::default_button(ui, &text!("robot-turn-on"), can, theme);
+            if let (true, Some(setup)) = (is_pressed, wanted) {
+                act(setup);
+            }
+            return;
+        }
+        if let Some(setup) = wanted.filter(|setup| *setup != now)
+            && widgets::default_button(ui, &text!("robot-use-it"), true, theme)
+        {
+            act(setup);
+        }
+        let off = text!("robot-turn-off");
+        if labelled(ui, Button::new(&*off), &off).clicked() {
+            act(AnswerSetup {
+                is_on: false,
+                ..now
+            });
+        }
+    });
+}
+
+/// Whether robots are answered, and if not, why.
+fn state(ui: &mut Ui, robot: &RobotCell, session: &Session, theme: &Theme) {
+    let answering = robot.answering();
+    ui.add_space(space::SMALL);
+    if session.robot.is_none() {
+        let nowhere = UserError {
+            what: text!("robot-not-calibrated"),
+            advice: text!("robot-calibrate-first"),
+        };
+        told(ui, Mark::Look, &nowhere, theme);
+    }
+    let Some((sign, what)) = answering.words(session) else {
+        return;
+    };
+    let advice = match sign {
+        Mark::Look => text!("robot-answers-without-frames-advice"),
+        Mark::Good | Mark::Bad | Mark::Open => String::new(),
+    };
+    match answering.trouble() {
+        Some(trouble) => told(ui, Mark::Bad, trouble, theme),
+        None => told(ui, sign, &UserError { what, advice }, theme),
+    }
+    if let Some(status) = answering.status() {
+        figures(ui, status, theme);
+    }
+}
+
+/// Where the server listens, who is connected, and what was answered last.
+fn figures(ui: &mut Ui, status: &AnsweringStatus, theme: &Theme) {
+    row(
+        ui,
+        theme,
+        &text!("robot-listens-at"),
+        &status.at.to_string(),
+    );
+    let clients = status.num_clients.to_string();
+    row(ui, theme, &text!("robot-clients"), &clients);
+    if let Some(event) = &status.client {
+        client(ui, event, theme);
+    }
+    let last = match &status.last {
+        Some(last) => in_words(last),
+        None => text!("robot-no-trigger"),
+    };
+    row(ui, theme, &text!("robot-last-trigger"), &last);
+    if let Some(trouble) = &status.trouble {
+        told(ui, Mark::Bad, trouble, theme);
+    }
+}
+
+/// What happened to a connection last.
+fn client(ui: &mut Ui, event: &ClientEvent, theme: &Theme) {
+    let peer = event.peer.to_string();
+    let name = text!("robot-last-client");
+    match &event.news {
+        ClientNews::Connected => {
+            let connected = text!("robot-client-connected", peer = peer);
+            row(ui, theme, &name, &connected);
+        }
+        ClientNews::Left => {
+            let left = text!("robot-client-left", peer = peer);
+            row(ui, theme, &name, &left);
+        }
+        ClientNews::TurnedAway => {
+            let full = UserError {
+                what: text!("robot-client-turned-away", peer = peer),
+                advice: text!("robot-client-turned-away-advice"),
+            };
+            told(ui, Mark::Look, &full, theme);
+        }
+        ClientNews::BadRequest(why) => {
+            let bad = UserError {
+                what: format!("{peer}: {why}"),
+                advice: why.advice(),
+            };
+            told(ui, Mark::Look, &bad, theme);
+        }
+        // Of HTTP alone.
+        ClientNews::WrongToken => {}
+    }
+}
+
+/// When a trigger came and what it was answered, in the words that the robot is told.
+fn in_words(last: &LastAnswer) -> String {
+    let LastAnswer { at, answer } = last;
+    let at = clock(*at);
+    let verdict = match answer.trouble.reason.as_str() {
+        "" => answer.verdict.name().to_owned(),
+        reason => format!("{} ({reason})", answer.verdict.name()),
+    };
+    let part = (!answer.part.is_empty()).then(|| answer.part.clone());
+    let number = text!("robot-answer-number", number = answer.sequence);
+    let age = answer
+        .age_ms
+        .map(|age| text!("robot-answer-age", age = age));
+    let all = [Some(at), Some(verdict), part, Some(number), age];
+    let all: Vec<String> = all.into_iter().flatten().collect();
+    all.join(" · ")
+}
+
+/// The time of day by the local clock.
+fn clock(at: Timestamp) -> String {
+    let at = at.to_zoned(TimeZone::system());
+    at.strftime("%H:%M:%S").to_string()
+}
+
+/// By which numbers robots know the parts.
+fn numbers(ui: &mut Ui, session: &Session, theme: &Theme) {
+    let Some(library) = &session.library else {
+        return;
+    };
+    heading(ui, theme, &text!("robot-part-numbers"));
+    let parts = (1..).zip(&library.parts);
+    let parts = parts.map(|(number, part): (u32, _)| format!("{number} {}", part.name));
+    let parts: Vec<String> = parts.collect();
+    let small = RichText::new(parts.join(" · ")).font(font::small());
+    ui.add(Label::new(small.color(theme.text)).wrap());
+}

@@ -1,0 +1,200 @@
+//! Answering robots from the window: the server of `partsight serve`, with the source that the window follows as its
+//! camera, and the window's library, recipe and calibration.
+
+mod work;
+
+use std::sync::{
+    Arc, Mutex,
+    atomic::{AtomicBool, Ordering},
+};
+
+use serde::{Deserialize, Serialize};
+
+use self::work::{AnswerInputs, AnswerRequest, answer};
+pub use self::work::{AnsweringStatus, LastAnswer};
+use crate::{
+    app::{
+        language::text,
+        shell::{context::ShellContext, session::Session},
+        task::{Task, TaskEvent, TaskRunner},
+        ui::widgets::Mark,
+        user_error::UserError,
+    },
+    error::lock,
+    robot::RobotFrame,
+    serve::{ListenAddress, Listener, PoseKind, Protocol},
+};
+
+/// The usual port, as of the command.
+const PORT: u16 = 30100;
+
+/// Whether robots are answered, and where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct AnswerSetup {
+    /// True if they are.
+    pub is_on: bool,
+    /// Protocol and address.
+    pub at: ListenAddress,
+    /// Which pose they are told.
+    pub pose: PoseKind,
+}
+
+impl Default for AnswerSetup {
+    fn default() -> Self {
+        Self {
+            is_on: false,
+            at: ListenAddress {
+                protocol: Protocol::Ascii,
+                address: ([127, 0, 0, 1], PORT).into(),
+            },
+            pose: PoseKind::default(),
+        }
+    }
+}
+
+/// The server, while robots are answered.
+#[derive(Debug)]
+pub struct Answering {
+    task: Task<AnsweringStatus>,
+    run: Option<AnsweringRun>,
+    /// How it stands, once it listens.
+    status: Option<AnsweringStatus>,
+    /// Why it could not go on, and where it listened: there it is not tried again by itself.
+    failed: Option<(Listener, UserError)>,
+}
+
+/// A server at work.
+#[derive(Debug)]
+struct AnsweringRun {
+    listener: Listener,
+    inputs: Arc<Mutex<AnswerInputs>>,
+    is_ending: Arc<AtomicBool>,
+}
+
+impl AnsweringRun {
+    fn is_ending(&self) -> bool {
+        self.is_ending.load(Ordering::Relaxed)
+    }
+}
+
+impl Answering {
+    pub(super) fn new(runner: &TaskRunner) -> Self {
+        Self {
+            task: Task::new("robots", runner),
+            run: None,
+            status: None,
+            failed: None,
+        }
+    }
+
+    /// How the server stands; `None` unless it listens.
+    pub fn status(&self) -> Option<&AnsweringStatus> {
+        self.status.as_ref()
+    }
+
+    /// Why no server listens.
+    pub fn trouble(&self) -> Option<&UserError> {
+        self.failed.as_ref().map(|(_, trouble)| trouble)
+    }
+
+    /// True while no server is being started or ended.
+    pub(super) fn is_settled(&self) -> bool {
+        match &self.run {
+            Some(run) => self.status.is_some() && !run.is_ending(),
+            None => true,
+        }
+    }
+
+    /// Whether robots are answered, in words and a sign for them; `None` while nobody wants that.
+    pub(in crate::app) fn words(&self, session: &Session) -> Option<(Mark, String)> {
+        if !session.answering.is_on {
+            return None;
+        }
+        Some(match &self.status {
+            Some(status) if session.is_live() => {
+                let at = status.at.address.to_string();
+                (Mark::Good, text!("robot-answers-at", at = at))
+            }
+            Some(_) => (Mark::Look, text!("robot-answers-without-frames")),
+            None if self.run.is_some() => (Mark::Open, text!("robot-answers-soon")),
+            None => (Mark::Bad, text!("robot-answers-nobody")),
+        })
+    }
+
+    /// Starts the server, ends it, or tells it what has changed, as the session wants it; takes in what it reports.
+    pub(super) fn update(&mut self, cx: &mut ShellContext<'_>) {
+        while let Some(event) = self.task.poll() {
+            match event {
+                TaskEvent::Partial(status) => self.status = Some(status),
+                TaskEvent::Done(_) => self.ended(),
+                TaskEvent::Failed(trouble) => {
+                    let listener = self.run.as_ref().map(|run| run.listener);
+                    self.failed = listener.map(|listener| (listener, trouble.clone()));
+                    cx.notify(trouble);
+                    self.ended();
+                }
+            }
+        }
+        let Some((listener, robot)) = wanted(cx.session) else {
+            self.failed = None;
+            self.end();
+            return;
+        };
+        let is_elsewhere = |(failed, _): &(Listener, UserError)| *failed != listener;
+        if self.failed.as_ref().is_some_and(is_elsewhere) {
+            self.failed = None;
+        }
+        match &self.run {
+            Some(run) if run.listener == listener && !run.is_ending() => {
+                *lock(&run.inputs) = AnswerInputs::of(cx.session, robot);
+            }
+            // What it still answers is answered first.
+            Some(_) => self.end(),
+            None if self.failed.is_none() => self.start(listener, robot, cx),
+            None => {}
+        }
+    }
+
+    fn start(&mut self, listener: Listener, robot: Arc<RobotFrame>, cx: &ShellContext<'_>) {
+        let inputs = Arc::new(Mutex::new(AnswerInputs::of(cx.session, robot)));
+        let is_ending = Arc::new(AtomicBool::new(false));
+        let egui = cx.egui.clone();
+        let request = AnswerRequest {
+            listener,
+            inputs: Arc::clone(&inputs),
+            is_ending: Arc::clone(&is_ending),
+            library_cache: cx.services.library_cache.clone(),
+            on_history: Box::new(move || egui.request_repaint()),
+        };
+        self.task
+            .start(text!("robot-answers-soon"), move |context| {
+                answer(request, context)
+            });
+        self.run = Some(AnsweringRun {
+            listener,
+            inputs,
+            is_ending,
+        });
+    }
+
+    fn end(&self) {
+        if let Some(run) = &self.run {
+            run.is_ending.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn ended(&mut self) {
+        self.run = None;
+        self.status = None;
+    }
+}
+
+/// Where a server is to listen, and where the camera stands; `None` if there is to be none. Without a calibration no
+/// pose is in the robot's frame.
+fn wanted(session: &Session) -> Option<(Listener, Arc<RobotFrame>)> {
+    let setup = session.answering;
+    let robot = session.robot.as_ref().filter(|_| setup.is_on)?;
+    let listener = Listener::new(setup.at, Some(session.convention)).ok()?;
+    Some((listener, Arc::clone(robot)))
+}

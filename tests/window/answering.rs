@@ -1,0 +1,388 @@
+//! Answering robots from the window: asked over TCP as a robot asks, with a camera that gives the same frame again and
+//! again.
+
+use std::{
+    fs,
+    io::{BufRead as _, BufReader, Write as _},
+    net::{SocketAddr, TcpListener, TcpStream},
+    path::Path,
+    thread,
+    time::{Duration, Instant},
+};
+
+use egui::Role;
+use egui_kittest::{Harness, kittest::Queryable as _};
+use jiff::{SignedDuration, Timestamp};
+use partsight::{
+    app::{
+        Window, WindowOptions,
+        inspection::camera::Camera,
+        shell::{
+            action::{Action, DialogRequest},
+            robot::{AnswerSetup, RobotAction, RobotDialog, RobotPage},
+            roles::RoleAction,
+        },
+        workspaces::history::HistoryWorkspace,
+    },
+    capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
+    geometry::{depth_frame::DepthFrame, rigid::RigidTransform},
+    robot::Convention,
+    serve::VerdictCode,
+    simulate::{PartKind, SensorNoise},
+};
+
+use crate::kit::{HangingPart, copy_library};
+
+use super::{
+    live::toggle,
+    robot::save_calibration,
+    set_up::{
+        SMALL, USUAL, WindowHarness, act, history_of, open, open_with, plain_options, press,
+        wait_for, wait_until,
+    },
+};
+
+/// Long enough for a machine at work with other things; what is waited for comes at once.
+const PATIENCE: Duration = Duration::from_mins(3);
+/// Between two frames, by the camera's clock.
+const APART: i64 = 150;
+
+/// A camera before which nothing ever changes.
+struct Steady {
+    frame: DepthFrame,
+    number: u64,
+}
+
+impl DepthSource for Steady {
+    fn title(&self) -> String {
+        "steady camera".into()
+    }
+
+    fn is_simulated(&self) -> bool {
+        true
+    }
+
+    fn next(&mut self, _: Duration) -> Result<NextCapture, CaptureError> {
+        // Leaves the processor to others.
+        thread::sleep(Duration::from_millis(5));
+        self.number += 1;
+        let at = SignedDuration::from_millis(APART * self.number as i64);
+        Ok(NextCapture::Captured(Captured {
+            number: self.number,
+            name: format!("steady frame {}", self.number),
+            taken_at: Timestamp::UNIX_EPOCH + at,
+            arrived: Instant::now(),
+            image: Image::Depth(self.frame.clone()),
+            is_simulated: true,
+            truth: None,
+            robot_from_flange: None,
+            warnings: Vec::new(),
+        }))
+    }
+}
+
+/// A calibrated window that remembers in this folder; a fender hangs before its camera.
+fn options(folder: &Path) -> WindowOptions {
+    let cell = folder.join("cell.toml");
+    save_calibration(&cell);
+    let fender = HangingPart::new(PartKind::Fender, 3);
+    let frame = fender.frame(SensorNoise::kinect(1), &RigidTransform::identity());
+    let camera = Camera::opened_by(move |_| {
+        Ok(Box::new(Steady {
+            frame: frame.clone(),
+            number: 0,
+        }))
+    });
+    WindowOptions {
+        camera,
+        cell: Some(cell),
+        settings: Some(folder.join("settings.toml")),
+        ..plain_options()
+    }
+}
+
+/// Does what a person could cause; the window does not come to rest while it follows its source.
+fn cause(harness: &mut WindowHarness, action: Action) {
+    let context = harness.ctx.clone();
+    harness.state_mut().act(action, &context);
+    harness.run_steps(4);
+}
+
+fn answer(harness: &mut WindowHarness, setup: AnswerSetup) {
+    cause(harness, Action::Robot(RobotAction::Answer(setup)));
+}
+
+fn on_at(at: &str) -> AnswerSetup {
+    AnswerSetup {
+        is_on: true,
+        at: at.parse().expect("an address"),
+        ..AnswerSetup::default()
+    }
+}
+
+/// Where the window listens, waited for.
+fn listening(harness: &mut WindowHarness) -> SocketAddr {
+    wait_for(harness, |window| {
+        window.robot().answering().status().is_some()
+    });
+    let status = harness.state().robot().answering().status();
+    status.expect("it listens").at.address
+}
+
+/// Answers robots at any free port.
+fn turn_on(harness: &mut WindowHarness) -> SocketAddr {
+    answer(harness, on_at("ascii=0"));
+    listening(harness)
+}
+
+fn turn_off(harness: &mut WindowHarness) {
+    let setup = harness.state().state().session.answering;
+    answer(
+        harness,
+        AnswerSetup {
+            is_on: false,
+            ..setup
+        },
+    );
+    wait_for(harness, |window| {
+        window.robot().answering().status().is_none()
+    });
+}
+
+fn says(harness: &WindowHarness, text: &str) -> bool {
+    harness.query_all_by_label_contains(text).next().is_some()
+}
+
+/// The pose that the window shows, in the camera's frame, if it counts.
+fn shown_pose(window: &Window) -> Option<RigidTransform> {
+    let shown = window.state().session.shown.as_ref()?;
+    let inspection = &shown.inspected.inspection;
+    let pose = inspection.pose.as_ref()?.as_ref().ok()?;
+    let is_followed = shown.session.is_some();
+    let counts = is_followed && inspection.verdict.is_accepted();
+    counts.then(|| pose.camera_from_part())
+}
+
+/// A robot that speaks `ascii`.
+struct Robot(BufReader<TcpStream>);
+
+impl Robot {
+    fn connect(at: SocketAddr) -> Self {
+        let stream = TcpStream::connect(at).expect("connected");
+        stream.set_read_timeout(Some(PATIENCE)).expect("set");
+        Self(BufReader::new(stream))
+    }
+
+    /// The fields of the answer; of KUKA's convention the numbers are 12 to 17, the reason 18 and the message 19.
+    fn ask(&mut self, request: &str) -> Vec<String> {
+        let line = format!("{request}\n");
+        self.0.get_mut().write_all(line.as_bytes()).expect("sent");
+        let mut told = String::new();
+        self.0.read_line(&mut told).expect("a line");
+        told.trim_end().split(';').map(str::to_owned).collect()
+    }
+}
+
+#[test]
+fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    act(&mut harness, Action::UseConvention(Convention::Kuka));
+    let at = turn_on(&mut harness);
+    assert!(at.ip().is_loopback(), "{at}");
+    assert!(harness.state().state().session.is_live());
+    wait_for(&mut harness, |window| shown_pose(window).is_some());
+    let is_settled = |window: &Window| {
+        let history = window.workspace::<HistoryWorkspace>();
+        history.is_some_and(|history| history.state().is_settled())
+    };
+    wait_for(&mut harness, is_settled);
+    let num_rows = history_of(&harness).num_rows();
+
+    // The window draws nothing meanwhile: a robot does not wait for it.
+    let mut robot = Robot::connect(at);
+    let told = robot.ask("TRIGGER");
+    assert_eq!(told[1], "accepted", "{told:?}");
+    let [sequence, camera, part, flags] = [2, 5, 6, 8].map(|field| told[field].as_str());
+    // Flags: with a pose, and simulated.
+    assert_eq!(
+        [sequence, camera, part, flags],
+        ["1", "running", "fender", "5"]
+    );
+    let session = &harness.state().state().session;
+    let library = session.library.as_ref().expect("loaded");
+    let place = library.place_of("fender").expect("enrolled");
+    assert_eq!(told[7], (place + 1).to_string());
+    let pose = shown_pose(harness.state()).expect("shown");
+    let frame = session.robot.as_ref().expect("calibrated");
+    let expected = Convention::Kuka.write(&frame.robot_from_part(&pose));
+    let numbers = told[12..18].iter().map(|number| number.parse::<f64>());
+    for (told, expected) in numbers.zip(expected.numbers()) {
+        let told = told.expect("a number");
+        assert!((told - expected).abs() < 0.01, "{told} for {expected}");
+    }
+    assert_eq!(robot.ask("LAST")[2], "1");
+
+    wait_for(&mut harness, |window| {
+        let status = window.robot().answering().status();
+        status.is_some_and(|status| status.last.is_some() && status.num_clients == 1)
+    });
+    let status = harness.state().robot().answering().status();
+    let last = status.and_then(|status| status.last.clone());
+    let answer = last.expect("told").answer;
+    assert_eq!(
+        (answer.verdict, answer.sequence),
+        (VerdictCode::Accepted, 1)
+    );
+    wait_for(&mut harness, |window| {
+        let history = window.workspace::<HistoryWorkspace>();
+        history.is_some_and(|history| history.state().num_rows() == num_rows + 1)
+    });
+    wait_for(&mut harness, is_settled);
+    let newest = history_of(&harness).row(0).expect("kept");
+    assert_eq!(newest.part.as_deref(), Some("fender"));
+    assert!(newest.is_simulated && newest.scene.contains("teady frame"));
+    assert!(says(&harness, "Answers robots · 127.0.0.1:"));
+}
+
+#[test]
+fn without_live_a_trigger_is_answered_with_what_to_do_and_with_it_again_with_a_pose() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    act(&mut harness, Action::UseConvention(Convention::Kuka));
+    let at = turn_on(&mut harness);
+    let mut robot = Robot::connect(at);
+    toggle(&mut harness);
+    assert!(!harness.state().state().session.is_live());
+    harness.run_steps(4);
+    let told = robot.ask("TRIGGER");
+    let [verdict, number, reason] = [1, 12, 18].map(|field| told[field].as_str());
+    assert_eq!([verdict, number, reason], ["error", "", "camera_failed"]);
+    assert!(told[19].contains("Press Live"), "{told:?}");
+    assert_eq!(robot.ask("STATUS")[5], "over");
+    assert!(says(&harness, "Answers robots, without frames"));
+
+    toggle(&mut harness);
+    wait_until(&mut harness, |state| state.session.live.status.is_some());
+    let told = robot.ask("TRIGGER");
+    assert_eq!([&*told[1], &*told[2]], ["accepted", "2"], "{told:?}");
+    assert!(!says(&harness, "without frames"));
+}
+
+#[test]
+fn another_library_is_the_one_that_robots_are_answered_by() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let parts = folder.path().join("other parts");
+    copy_library(&parts);
+    fs::remove_dir_all(parts.join("fender")).expect("removed");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    let at = turn_on(&mut harness);
+    let mut robot = Robot::connect(at);
+    wait_until(&mut harness, |state| state.session.live.status.is_some());
+    assert_eq!(robot.ask("TRIGGER")[6], "fender");
+    let choose = Action::Chosen(DialogRequest::Library, parts);
+    cause(&mut harness, choose);
+    wait_until(&mut harness, |state| {
+        let library = state.session.library.as_ref();
+        library.is_some_and(|library| library.path.ends_with("other parts"))
+    });
+    let told = robot.ask("TRIGGER");
+    assert!(told[1] != "accepted" && told[6] != "fender", "{told:?}");
+    assert_eq!(told[2], "2", "the same server");
+}
+
+#[test]
+fn a_port_in_use_is_said_with_what_to_do_and_tried_again_once_turned_on_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    let taken = TcpListener::bind("127.0.0.1:0").expect("bound");
+    let port = taken.local_addr().expect("an address").port();
+    let setup = on_at(&format!("ascii={port}"));
+    answer(&mut harness, setup);
+    wait_for(&mut harness, |window| {
+        window.robot().answering().trouble().is_some()
+    });
+    turn_to_page(&mut harness);
+    assert!(says(&harness, "another program listens at this port"));
+    assert!(says(&harness, "or choose another port"));
+    assert!(says(&harness, "Robots are not answered"));
+    drop(taken);
+    turn_off(&mut harness);
+    assert!(harness.state().robot().answering().trouble().is_none());
+    answer(&mut harness, setup);
+    assert_eq!(listening(&mut harness).port(), port);
+    harness.run_steps(4);
+    assert!(says(&harness, &format!("ascii=127.0.0.1:{port}")));
+}
+
+/// Brings the page to the front.
+fn turn_to_page(harness: &mut WindowHarness) {
+    cause(harness, Action::Robot(RobotAction::Toggle));
+    let mut dialog = harness.state().robot().dialog().expect("open").clone();
+    dialog.page = RobotPage::Answer;
+    let turned = RobotAction::Edit(Box::new(dialog));
+    cause(harness, Action::Robot(turned));
+}
+
+#[test]
+fn turned_off_the_port_is_closed_and_robots_are_let_go() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    let at = turn_on(&mut harness);
+    let mut robot = Robot::connect(at);
+    assert_eq!(robot.ask("STATUS")[0], "STATUS");
+    turn_off(&mut harness);
+    let mut rest = String::new();
+    assert_eq!(robot.0.read_line(&mut rest).expect("closed"), 0);
+    TcpListener::bind(at).expect("nobody listens there any more");
+    assert!(!says(&harness, "Answers robots"));
+}
+
+#[test]
+fn a_window_that_answered_robots_answers_again_when_it_is_opened_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, options(folder.path()));
+    turn_on(&mut harness);
+    let settings = folder.path().join("settings.toml");
+    wait_for(&mut harness, |_| {
+        fs::read_to_string(&settings).is_ok_and(|text| text.contains("is_on = true"))
+    });
+    drop(harness);
+
+    let options = options(folder.path());
+    let mut harness: WindowHarness = Harness::builder().with_size(SMALL).build_eframe(|cc| {
+        Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads")
+    });
+    let at = listening(&mut harness);
+    wait_until(&mut harness, |state| state.session.live.status.is_some());
+    let told = Robot::connect(at).ask("TRIGGER");
+    assert_eq!(told[1], "accepted", "{told:?}");
+    assert!(says(&harness, "Answers robots · 127.0.0.1:"));
+    // An operator sees it, too.
+    cause(&mut harness, Action::Role(RoleAction::Switch));
+    assert!(says(&harness, "Answers robots · 127.0.0.1:"));
+}
+
+#[test]
+fn nobody_is_answered_without_a_calibration_or_at_no_address() {
+    let mut harness = open();
+    press(&mut harness, "Robot…");
+    press(&mut harness, "Answer robots");
+    harness.get_by_label("Calibrate it first: no pose can be given without");
+    press(&mut harness, "Turn on");
+    assert!(!harness.state().state().session.answering.is_on);
+    let port = harness.get_by_role_and_label(Role::TextInput, "Port, or IP address and port");
+    port.focus();
+    harness.run_steps(2);
+    harness.event(egui::Event::Text("x".into()));
+    harness.run_steps(3);
+    harness.get_by_label_contains("is no port, and no IP address with a port");
+    let dialog = harness.state().robot().dialog().expect("open").clone();
+    let open_to_all = RobotDialog {
+        address: "0.0.0.0:30100".into(),
+        ..dialog
+    };
+    let edit = RobotAction::Edit(Box::new(open_to_all));
+    act(&mut harness, Action::Robot(edit));
+    harness.get_by_label_contains("is open to the network without encryption");
+}
