@@ -26,7 +26,8 @@
 //! without notice.
 //!
 //! Features, both on by default: `cli`, the command line, pictures and reports; `window`, the window. Without them only
-//! the algorithms build. Off by default: `plant`, HTTP and MQTT beside the protocols of the server.
+//! the algorithms build. Off by default: `plant`, HTTP and MQTT beside the protocols of the server, and
+//! the history in PostgreSQL.
 
 #[cfg(feature = "window")]
 #[doc(hidden)]

@@ -11,7 +11,7 @@ use std::{
 };
 
 /// Crates that only these folders may name.
-const RESERVED: [(&str, &[&str]); 8] = [
+const RESERVED: [(&str, &[&str]); 9] = [
     ("egui", &["app"]),
     ("eframe", &["app"]),
     ("rfd", &["app"]),
@@ -20,6 +20,7 @@ const RESERVED: [(&str, &[&str]); 8] = [
     ("indicatif", &["cli"]),
     ("axum", &["plant"]),
     ("tokio", &["plant"]),
+    ("tokio_postgres", &["plant"]),
 ];
 
 #[test]

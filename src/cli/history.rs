@@ -3,6 +3,8 @@
 mod again;
 mod export;
 mod moments;
+#[cfg(feature = "plant")]
+mod plant;
 mod show;
 
 use std::{
@@ -80,6 +82,9 @@ enum HistoryCommand {
     },
     /// Show or change which frames are kept, and how long
     Keep(KeepArgs),
+    /// Send to the plant's PostgreSQL database what it has not got yet
+    #[cfg(feature = "plant")]
+    Send(plant::SendArgs),
 }
 
 /// Which inspections.
@@ -156,6 +161,9 @@ struct ListArgs {
     /// Write one line of JSON per inspection, and nothing else, to standard output
     #[arg(long)]
     json: bool,
+    #[cfg(feature = "plant")]
+    #[command(flatten)]
+    from: plant::FromChoice,
 }
 
 #[derive(Debug, Args)]
@@ -187,6 +195,9 @@ struct ExportArgs {
     /// With --cases: use the accepted part where no true label is set
     #[arg(long, requires = "cases")]
     accepted_as_truth: bool,
+    #[cfg(feature = "plant")]
+    #[command(flatten)]
+    from: plant::FromChoice,
 }
 
 #[derive(Debug, Args)]
@@ -213,6 +224,10 @@ enum KeepChoice {
 }
 
 pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    #[cfg(feature = "plant")]
+    if let Some(outcome) = plant::overview(&args.command, console)? {
+        return Ok(outcome);
+    }
     let folder = args.place.folder().advised()?;
     match &args.command {
         HistoryCommand::List(asked) => list(&open_to_read(&folder, console)?, asked, console),
@@ -246,6 +261,8 @@ pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<O
             Ok(Outcome::Accepted)
         }
         HistoryCommand::Keep(asked) => keep(&mut open(&folder, console)?, asked, console),
+        #[cfg(feature = "plant")]
+        HistoryCommand::Send(asked) => plant::send(&mut open(&folder, console)?, asked, console),
     }
 }
 
@@ -309,49 +326,80 @@ fn here(at: Timestamp) -> String {
 }
 
 fn list(history: &History, asked: &ListArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let filter = asked.filter.filter();
-    let most = if asked.limit == 0 {
-        i64::MAX as usize
-    } else {
-        asked.limit
-    };
-    let page = history.page(&filter, 0, most).advised()?;
-    if asked.json {
-        for row in &page.rows {
-            console.line(&show::line_of(row));
+    let page = history
+        .page(&asked.filter.filter(), 0, asked.most())
+        .advised()?;
+    let rows: Vec<CellRow<'_>> = page.rows.iter().map(|row| (None, row)).collect();
+    show_rows(&rows, asked, console);
+    if !asked.json {
+        note_counts(&rows, [page.num_matching, page.num_all], asked, console);
+    }
+    Ok(Outcome::Accepted)
+}
+
+impl ListArgs {
+    /// How many rows are shown at most.
+    fn most(&self) -> usize {
+        if self.limit == 0 {
+            i64::MAX as usize
+        } else {
+            self.limit
         }
-        return Ok(Outcome::Accepted);
+    }
+}
+
+/// A row, and the name of its cell where it is one of several.
+type CellRow<'a> = (Option<&'a str>, &'a Summary);
+
+fn show_rows(rows: &[CellRow<'_>], asked: &ListArgs, console: &mut Console) {
+    if asked.json {
+        for (cell, row) in rows {
+            console.line(&show::line_of(row, *cell));
+        }
+        return;
     }
     let mut heading = vec![
         "NUMBER", "TIME", "VERDICT", "PART", "SCORE", "AGAIN", "SCENE", "FRAME", "LABEL", "REMARK",
     ];
-    let is_traced = |row: &Summary| row.trace.known().next().is_some();
-    let has_traces = page.rows.iter().any(is_traced);
+    let is_traced = |(_, row): &CellRow<'_>| row.trace.known().next().is_some();
+    let has_traces = rows.iter().any(is_traced);
     if has_traces {
         heading.extend(["SERIAL", "ORDER", "OPERATOR"]);
     }
+    let has_cells = rows.iter().any(|(cell, _)| cell.is_some());
+    if has_cells {
+        heading.insert(0, "CELL");
+    }
     let mut table = Table::new(&heading);
-    for row in &page.rows {
+    for (cell, row) in rows {
         let Traceability {
             serial,
             order,
             operator,
         } = row.trace.clone();
         let trace = has_traces.then_some([serial, order, operator]);
-        table.row(cells(row).into_iter().chain(trace.into_iter().flatten()));
+        let cell = cell.map(str::to_owned).into_iter();
+        table.row(cell.chain(cells(row)).chain(trace.into_iter().flatten()));
     }
     table.show(console);
-    let (num, num_matching) = (page.rows.len(), page.num_matching);
+}
+
+/// How many rows are shown, of how many that match, and how many parts there are.
+fn note_counts(
+    rows: &[CellRow<'_>],
+    [num_matching, num_all]: [usize; 2],
+    asked: &ListArgs,
+    console: &Console,
+) {
+    let num = rows.len();
     console.note(&format_args!(
-        "{num} of {num_matching} {} shown, {} parts in all",
-        if filter.with_below {
+        "{num} of {num_matching} {} shown, {num_all} parts in all",
+        if asked.filter.reinspections {
             "inspections"
         } else {
             "parts"
         },
-        page.num_all
     ));
-    Ok(Outcome::Accepted)
 }
 
 fn cells(row: &Summary) -> [String; 10] {

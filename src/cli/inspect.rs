@@ -31,7 +31,7 @@ use super::{
     verdict::{outcome_of, show_in_robot},
 };
 #[cfg(feature = "plant")]
-use super::{mqtt::MqttChoice, numbers::NumbersChoice};
+use super::{database::HistoryToChoice, mqtt::MqttChoice, numbers::NumbersChoice};
 use crate::{
     capture::{FeedItem, SourceSpec},
     error::{Advice, guarded},
@@ -133,6 +133,9 @@ pub(super) struct InspectArgs {
     #[cfg(feature = "plant")]
     #[command(flatten)]
     numbers: NumbersChoice,
+    #[cfg(feature = "plant")]
+    #[command(flatten)]
+    history_to: HistoryToChoice,
 }
 
 pub(super) fn run(mut args: InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -154,6 +157,8 @@ fn inspect(
     let recipe = args.recipe.recipe()?;
     let num_parts = args.source.is_none().then_some(args.files.len());
     let trace = args.trace.of_parts(num_parts)?;
+    #[cfg(feature = "plant")]
+    let database = args.history_to.chosen(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
     #[cfg(feature = "plant")]
@@ -184,6 +189,10 @@ fn inspect(
     let publisher = publisher
         .zip(args.source.as_ref())
         .map(|(publisher, source)| publisher.start(source, &load, &trace, console))
+        .transpose()?;
+    #[cfg(feature = "plant")]
+    let recording = recording
+        .map(|recording| recording.sent_to(database))
         .transpose()?;
     format.head(console);
     let mut one = InspectSession {

@@ -9,6 +9,8 @@ mod calibrate;
 mod capture;
 mod cell;
 mod console;
+#[cfg(feature = "plant")]
+mod database;
 mod enrol;
 mod evaluate;
 mod first_look;

@@ -10,6 +10,13 @@ use clap::Args;
 use jiff::Timestamp;
 
 use super::console::Console;
+#[cfg(feature = "plant")]
+use super::{
+    console::Advised as _,
+    database::{ChosenDatabase, end_sender, show_news},
+};
+#[cfg(feature = "plant")]
+use crate::plant::database::HistorySender;
 use crate::{
     history::{
         HistoryBuffer, HistoryError, HistoryEvent, HungId, InspectionContext, NewEntry,
@@ -52,6 +59,8 @@ pub(super) struct HistoryRecorder {
     recipe: NamedRecipe,
     trace: Traceability,
     num: u64,
+    #[cfg(feature = "plant")]
+    sender: Option<HistorySender>,
 }
 
 impl HistoryRecorder {
@@ -86,7 +95,20 @@ impl HistoryRecorder {
             recipe: recipe.clone(),
             trace: trace.clone(),
             num: 0,
+            #[cfg(feature = "plant")]
+            sender: None,
         })
+    }
+
+    /// The same, and the history is sent to this database from now on, on a thread of its own.
+    #[cfg(feature = "plant")]
+    pub(super) fn sent_to(mut self, database: Option<ChosenDatabase>) -> anyhow::Result<Self> {
+        if let Some((folder, database)) = self.keeper.folder().zip(database) {
+            let ChosenDatabase { access, cell } = database;
+            let sender = HistorySender::start(folder.to_owned(), access, cell);
+            self.sender = Some(sender.advised()?);
+        }
+        Ok(self)
     }
 
     /// An inspection to be handed over; `line` is what `--json` shows of it.
@@ -128,33 +150,13 @@ impl HistoryRecorder {
     }
 
     /// Says what went wrong, once.
-    fn tell(&self, console: &Console) {
+    pub(super) fn tell(&self, console: &Console) {
         for news in self.keeper.take_news() {
-            match news {
-                HistoryEvent::Failed { what, advice } => {
-                    console.note(&format_args!("warning: {what}"));
-                    console.note(&format_args!(
-                        "  to do: {advice}; the verdicts are not affected"
-                    ));
-                }
-                HistoryEvent::SetAside(aside) => {
-                    console.note(&format_args!("warning: the history: {}", aside.what));
-                    let place = aside.aside.display();
-                    console.note(&format_args!("  it was set aside as {place}"));
-                }
-                HistoryEvent::Works { numbers, .. } => {
-                    let num = numbers.len();
-                    console.note(&format_args!(
-                        "The history is writable again: {num} waiting inspections were saved"
-                    ));
-                }
-                HistoryEvent::Added { .. }
-                | HistoryEvent::Changed { .. }
-                | HistoryEvent::NotChanged { .. }
-                | HistoryEvent::FilesChanged
-                | HistoryEvent::RuleChanged
-                | HistoryEvent::Swept(_) => {}
-            }
+            tell_of(news, console);
+        }
+        #[cfg(feature = "plant")]
+        if let Some(sender) = &self.sender {
+            show_news(sender, console, tell_of);
         }
     }
 
@@ -162,6 +164,11 @@ impl HistoryRecorder {
     pub(super) fn finish(self, console: &Console) {
         self.writer.finish();
         self.tell(console);
+        // All that is sent is written now.
+        #[cfg(feature = "plant")]
+        if let Some(sender) = self.sender {
+            end_sender(sender, console, tell_of);
+        }
         let num_waiting = self.keeper.num_waiting();
         let [num_bare, num_lost] = self.writer.take_dropped();
         for (num, what) in [
@@ -176,6 +183,34 @@ impl HistoryRecorder {
                 console.note(&format_args!("warning: {num} inspections {what}"));
             }
         }
+    }
+}
+
+fn tell_of(news: HistoryEvent, console: &Console) {
+    match news {
+        HistoryEvent::Failed { what, advice } => {
+            console.note(&format_args!("warning: {what}"));
+            console.note(&format_args!(
+                "  to do: {advice}; the verdicts are not affected"
+            ));
+        }
+        HistoryEvent::SetAside(aside) => {
+            console.note(&format_args!("warning: the history: {}", aside.what));
+            let place = aside.aside.display();
+            console.note(&format_args!("  it was set aside as {place}"));
+        }
+        HistoryEvent::Works { numbers, .. } => {
+            let num = numbers.len();
+            console.note(&format_args!(
+                "The history is writable again: {num} waiting inspections were saved"
+            ));
+        }
+        HistoryEvent::Added { .. }
+        | HistoryEvent::Changed { .. }
+        | HistoryEvent::NotChanged { .. }
+        | HistoryEvent::FilesChanged
+        | HistoryEvent::RuleChanged
+        | HistoryEvent::Swept(_) => {}
     }
 }
 

@@ -16,8 +16,6 @@ use std::{
 use clap::Args;
 
 use self::session::ServeSession;
-#[cfg(feature = "plant")]
-use super::mqtt::MqttChoice;
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
@@ -30,6 +28,8 @@ use super::{
     record::{HistoryChoice, HistoryRecorder},
     trace::TraceChoice,
 };
+#[cfg(feature = "plant")]
+use super::{database::HistoryToChoice, mqtt::MqttChoice};
 use crate::{
     capture::{OpenNiSpec, Pace, RecordingSpec, SourceSpec},
     library::LibraryLoad,
@@ -108,6 +108,9 @@ pub(super) struct ServeArgs {
     no_history: bool,
     #[cfg(feature = "plant")]
     #[command(flatten)]
+    history_to: HistoryToChoice,
+    #[cfg(feature = "plant")]
+    #[command(flatten)]
     mqtt: MqttChoice,
 }
 
@@ -149,6 +152,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let trace = args.trace.of_parts(None)?;
     #[cfg(feature = "plant")]
     let mqtt = args.mqtt.access(args.numbers.convention)?;
+    #[cfg(feature = "plant")]
+    let database = args.history_to.chosen(console)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let Some(robot) = args.calibration.frame(console)? else {
         return Err(advised_error(
@@ -166,6 +171,10 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
         .flatten();
+    #[cfg(feature = "plant")]
+    let recording = recording
+        .map(|recording| recording.sent_to(database))
+        .transpose()?;
     announce(&server, &listeners, &parts, &load, console);
     #[cfg(feature = "plant")]
     let mqtt = mqtt

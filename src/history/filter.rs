@@ -48,7 +48,7 @@ impl Filter {
     }
 
     /// The condition in SQL, `1` where there is none, and its values.
-    pub(super) fn condition(&self) -> (String, Vec<Value>) {
+    pub(crate) fn condition(&self) -> (String, Vec<Value>) {
         let mut parts: Vec<String> = Vec::new();
         let mut values = Vec::new();
         let mut add = |part: &str, value: Value| {

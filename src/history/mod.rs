@@ -28,6 +28,8 @@ mod outcomes;
 mod retention;
 mod rows;
 mod schema;
+#[cfg(feature = "plant")]
+mod sending;
 mod shots;
 mod store;
 mod table;
@@ -58,4 +60,12 @@ pub use self::{
     table::write_table,
     traceability::Traceability,
     writer::Writer,
+};
+#[cfg(feature = "plant")]
+pub use self::{
+    sending::{
+        Column, ColumnKind, DETAIL_COLUMNS, INSPECTION_COLUMNS, RECIPE_COLUMNS, RowReader,
+        UnsentRows,
+    },
+    table::write_cells_table,
 };

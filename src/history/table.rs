@@ -29,18 +29,54 @@ pub fn write_table(
     path: &Path,
     each: impl FnOnce(&mut dyn FnMut(Record) -> Result<(), HistoryError>) -> Result<(), HistoryError>,
 ) -> Result<usize, HistoryError> {
-    let mut table = format!("{HEAD}\n").into_bytes();
-    let mut num = 0;
-    each(&mut |record| {
-        num += 1;
-        let written = write_row(&mut table, &record);
-        written.map_err(|error| FileError::writing(path, error).into())
-    })?;
-    write_atomically(path, |writer| writer.write_all(&table))?;
-    Ok(num)
+    let mut table = Table::new("");
+    each(&mut |record| table.add(path, &record, ""))?;
+    table.write(path)
 }
 
-fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
+/// The same of inspections of several cells, each with the name of its cell, which is the last column.
+#[cfg(feature = "plant")]
+pub fn write_cells_table<E: From<HistoryError>>(
+    path: &Path,
+    each: impl FnOnce(&mut dyn FnMut(&str, Record) -> Result<(), E>) -> Result<(), E>,
+) -> Result<usize, E> {
+    let mut table = Table::new(",cell");
+    each(&mut |cell: &str, record: Record| {
+        let cell = format!(",{}", quoted(cell));
+        table.add(path, &record, &cell).map_err(E::from)
+    })?;
+    Ok(table.write(path)?)
+}
+
+/// The lines so far.
+struct Table {
+    text: Vec<u8>,
+    num: usize,
+}
+
+impl Table {
+    /// With further columns, each behind a comma.
+    fn new(columns: &str) -> Self {
+        Self {
+            text: format!("{HEAD}{columns}\n").into_bytes(),
+            num: 0,
+        }
+    }
+
+    /// Adds a line; `columns` are the further ones, each behind a comma.
+    fn add(&mut self, path: &Path, record: &Record, columns: &str) -> Result<(), HistoryError> {
+        self.num += 1;
+        let written = write_row(&mut self.text, record, columns);
+        written.map_err(|error| FileError::writing(path, error).into())
+    }
+
+    fn write(self, path: &Path) -> Result<usize, HistoryError> {
+        write_atomically(path, |writer| writer.write_all(&self.text))?;
+        Ok(self.num)
+    }
+}
+
+fn write_row(writer: &mut dyn Write, record: &Record, columns: &str) -> io::Result<()> {
     let Record { summary, detail } = record;
     let [score, margin] = summary
         .score
@@ -64,7 +100,7 @@ fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
         [&trace.serial, &trace.order, &trace.operator].map(|text| quoted(text));
     writeln!(
         writer,
-        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind}",
+        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator},{kind}{columns}",
         summary.number,
         summary.at,
         quoted(&summary.scene),

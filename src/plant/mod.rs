@@ -1,4 +1,9 @@
-//! How the server speaks with the systems of a plant, beside the line protocols of [`crate::serve`].
+//! How the program speaks with the systems of a plant, beside the line protocols of [`crate::serve`].
 
+mod credentials;
+pub mod database;
+mod host;
 pub mod http;
 pub mod mqtt;
+
+pub use self::credentials::CredentialError;

@@ -44,6 +44,9 @@ struct RowLine<'a> {
     /// `serial`, `order` and `operator`, where they are known.
     #[serde(flatten)]
     trace: &'a Traceability,
+    /// In an overview over several cells: its name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cell: Option<&'a str>,
 }
 
 impl<'a> RowLine<'a> {
@@ -66,13 +69,17 @@ impl<'a> RowLine<'a> {
             parent: row.parent,
             reinspections: row.num_below,
             trace: &row.trace,
+            cell: None,
         }
     }
 }
 
-/// A row as one line of JSON.
-pub(super) fn line_of(row: &Summary) -> String {
-    json(&RowLine::of(row))
+/// A row as one line of JSON, with the name of its cell where it is one of several.
+pub(super) fn line_of(row: &Summary, cell: Option<&str>) -> String {
+    json(&RowLine {
+        cell,
+        ..RowLine::of(row)
+    })
 }
 
 fn json(line: &impl Serialize) -> String {

@@ -23,11 +23,17 @@ use crate::{
 pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let recipe = args.recipe.recipe()?;
     let trace = args.trace.of_parts(Some(1))?;
+    #[cfg(feature = "plant")]
+    let database = args.history_to.chosen(console)?;
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
     let scan = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
         .flatten();
+    #[cfg(feature = "plant")]
+    let recording = recording
+        .map(|recording| recording.sent_to(database))
+        .transpose()?;
     let ScanInspection {
         inspection,
         first,

@@ -147,6 +147,9 @@ impl Inspector for ServeSession<'_> {
             show_event(&event, self.console);
         }
         self.look_at_camera();
+        if let Some(recording) = &self.recording {
+            recording.tell(self.console);
+        }
         #[cfg(feature = "plant")]
         if let Some(mqtt) = &self.mqtt {
             mqtt.set_camera(self.camera.status());

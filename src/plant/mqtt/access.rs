@@ -3,23 +3,18 @@
 use std::{path::Path, sync::Arc};
 
 use rumqttc::{MqttOptions, TlsConfiguration, Transport};
-use rustls::{
-    ClientConfig, RootCertStore,
-    crypto::ring,
-    pki_types::{CertificateDer, pem::PemObject as _},
-};
+use rustls::ClientConfig;
 use thiserror::Error;
 
 use super::address::BrokerAddress;
 use crate::{
     error::Advice,
-    files::{FileError, crc32, read_limited, read_text},
+    files::crc32,
+    plant::{
+        credentials::{CredentialError, read_password, tls_config},
+        host::is_loopback,
+    },
 };
-
-/// A password is one line.
-const MAX_PASSWORD_BYTES: u64 = 4096;
-/// The certificates of a whole system are a quarter of this.
-const MAX_CA_BYTES: u64 = 1 << 20;
 
 /// A broker, and what lets the program in there.
 #[derive(Clone)]
@@ -33,53 +28,23 @@ pub struct BrokerAccess {
 /// Why a broker cannot be used as it was given.
 #[derive(Debug, Error)]
 pub enum AccessError {
-    /// The password or the certificates cannot be read.
+    /// The password or the certificates cannot be used.
     #[error(transparent)]
-    File(#[from] FileError),
+    Credential(#[from] CredentialError),
     /// Nobody has the password.
     #[error("a password is given, but no user")]
     NoUser,
-    /// The file holds nothing.
-    #[error("{path}: the file holds no password")]
-    NoPassword {
-        /// Which file.
-        path: String,
-    },
     /// The connection is not encrypted.
     #[error("certificates are given, but mqtt:// is not encrypted")]
     NotEncrypted,
-    /// The file holds none.
-    #[error("{path}: the file holds no certificate in PEM form")]
-    NoCertificate {
-        /// Which file.
-        path: String,
-    },
-    /// The system holds none.
-    #[error("this system has no certificates by which a broker could be known")]
-    NoSystemCertificates,
-    /// The library for encryption refuses.
-    #[error("encrypted connections cannot be prepared: {source}")]
-    Tls {
-        /// What it says.
-        source: rustls::Error,
-    },
 }
 
 impl Advice for AccessError {
     fn advice(&self) -> String {
         match self {
-            Self::File(error) => error.advice(),
+            Self::Credential(error) => error.advice(),
             Self::NoUser => "Name the user in the address: mqtt://USER@HOST/PREFIX".into(),
-            Self::NoPassword { .. } => "Write the password into the file's first line".into(),
             Self::NotEncrypted => "Begin the address with mqtts://, or leave --mqtt-ca out".into(),
-            Self::NoCertificate { .. } => {
-                "Give the certificate of the authority that signed the broker's, as PEM".into()
-            }
-            Self::NoSystemCertificates => {
-                "Name the certificate of the authority that signed the broker's with --mqtt-ca"
-                    .into()
-            }
-            Self::Tls { .. } => "Report this with the message".into(),
         }
     }
 }
@@ -109,9 +74,7 @@ impl BrokerAccess {
 
     /// A warning if others on the network can read what is sent.
     pub fn doubt(&self) -> Option<Unencrypted> {
-        let host = &self.broker.host;
-        let address = host.trim_matches(['[', ']']).parse::<std::net::IpAddr>();
-        let is_here = host == "localhost" || address.is_ok_and(|address| address.is_loopback());
+        let is_here = is_loopback(&self.broker.host);
         (!self.broker.is_encrypted && !is_here).then(|| Unencrypted {
             broker: self.broker.clone(),
         })
@@ -141,43 +104,6 @@ impl BrokerAccess {
 
 /// Far more than a message has; the client library refuses to send longer ones.
 const MAX_PACKET_BYTES: usize = 1 << 20;
-
-fn read_password(path: &Path) -> Result<String, AccessError> {
-    let text = match read_text(path, MAX_PASSWORD_BYTES) {
-        Err(FileError::Empty { .. }) => String::new(),
-        text => text?,
-    };
-    match text.lines().next() {
-        Some(line) if !line.is_empty() => Ok(line.to_owned()),
-        _ => Err(AccessError::NoPassword {
-            path: path.display().to_string(),
-        }),
-    }
-}
-
-fn tls_config(ca_file: Option<&Path>) -> Result<ClientConfig, AccessError> {
-    let mut roots = RootCertStore::empty();
-    if let Some(path) = ca_file {
-        let bytes = read_limited(path, MAX_CA_BYTES)?;
-        let found = CertificateDer::pem_slice_iter(&bytes);
-        roots.add_parsable_certificates(found.filter_map(Result::ok));
-        if roots.is_empty() {
-            return Err(AccessError::NoCertificate {
-                path: path.display().to_string(),
-            });
-        }
-    } else {
-        let found = rustls_native_certs::load_native_certs();
-        roots.add_parsable_certificates(found.certs);
-        if roots.is_empty() {
-            return Err(AccessError::NoSystemCertificates);
-        }
-    }
-    let config = ClientConfig::builder_with_provider(Arc::new(ring::default_provider()))
-        .with_safe_default_protocol_versions()
-        .map_err(|source| AccessError::Tls { source })?;
-    Ok(config.with_root_certificates(roots).with_no_client_auth())
-}
 
 /// Others can read what is sent to a broker.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -227,7 +153,11 @@ mod tests {
             let error = access("mqtt://me@broker/cell", [Some(&path), None])
                 .err()
                 .expect("empty");
-            assert!(matches!(error, AccessError::NoPassword { .. }), "{error}");
+            let is_empty = matches!(
+                error,
+                AccessError::Credential(CredentialError::NoPassword { .. })
+            );
+            assert!(is_empty, "{error}");
         }
         let error = access("mqtt://broker/cell", [Some(&path), None])
             .err()
@@ -246,15 +176,17 @@ mod tests {
         let error = access("mqtts://broker/cell", [None, Some(&path)])
             .err()
             .expect("missing");
-        assert!(matches!(error, AccessError::File(_)), "{error}");
+        let is_missing = matches!(error, AccessError::Credential(CredentialError::File(_)));
+        assert!(is_missing, "{error}");
         fs::write(&path, "no certificate").expect("written");
         let error = access("mqtts://broker/cell", [None, Some(&path)])
             .err()
             .expect("none");
-        assert!(
-            matches!(error, AccessError::NoCertificate { .. }),
-            "{error}"
+        let is_none = matches!(
+            error,
+            AccessError::Credential(CredentialError::NoCertificate { .. })
         );
+        assert!(is_none, "{error}");
     }
 
     #[test]

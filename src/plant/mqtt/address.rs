@@ -4,7 +4,10 @@ use std::{fmt, str::FromStr};
 
 use thiserror::Error;
 
-use crate::error::Advice;
+use crate::{
+    error::Advice,
+    plant::host::{HostError, host_and_port},
+};
 
 /// A broker and the beginning of the topics: `mqtt[s]://[user@]host[:port]/TOPIC_PREFIX`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -103,8 +106,9 @@ impl FromStr for BrokerAddress {
         let found = host_and_port(place, if is_encrypted { 8883 } else { 1883 });
         let (host, port) = found.map_err(|error| match error {
             // What looks like a port is a password that holds a slash.
-            AddressError::Port { .. } if prefix.contains('@') => AddressError::Password,
-            error => error,
+            HostError::Port { .. } if prefix.contains('@') => AddressError::Password,
+            HostError::Port { port } => AddressError::Port { port },
+            HostError::Host { host } => AddressError::Host { host },
         })?;
         if is_encrypted && host.starts_with('[') {
             let host = host.to_owned();
@@ -122,34 +126,6 @@ impl FromStr for BrokerAddress {
             prefix: prefix.to_owned(),
         })
     }
-}
-
-fn host_and_port(place: &str, usual: u16) -> Result<(&str, u16), AddressError> {
-    // The colons of an IPv6 address stand in brackets.
-    let end = place.find(']').map_or(0, |end| end + 1);
-    let (host, port) = match place[end..].split_once(':') {
-        Some((rest, port)) => (&place[..end + rest.len()], Some(port)),
-        None => (place, None),
-    };
-    let is_letter = |c: char| c.is_alphanumeric() || "-._".contains(c);
-    let is_host = match host.strip_prefix('[') {
-        Some(inner) => inner
-            .strip_suffix(']')
-            .is_some_and(|inner| inner.parse::<std::net::Ipv6Addr>().is_ok()),
-        None => !host.is_empty() && host.chars().all(is_letter),
-    };
-    if !is_host {
-        let host = host.to_owned();
-        return Err(AddressError::Host { host });
-    }
-    let port = match port {
-        None => usual,
-        Some(text) => match text.parse() {
-            Ok(port) if port > 0 => port,
-            _ => return Err(AddressError::Port { port: text.into() }),
-        },
-    };
-    Ok((host, port))
 }
 
 /// Topics of a client have no wildcards, and those of the broker itself begin with `$`.

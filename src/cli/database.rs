@@ -1,0 +1,126 @@
+//! The plant's database of histories, as options.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::console::{Advised as _, Console, advised_error, with_advice};
+use crate::{
+    history::HistoryEvent,
+    plant::database::{CellName, DatabaseAccess, DatabaseAddress, HistorySender, SendNews},
+};
+
+/// What lets the program in.
+#[derive(Clone, Debug, Args)]
+pub(super) struct DatabaseFiles {
+    /// The file whose first line is the user's password at the database
+    #[arg(long, value_name = "FILE")]
+    database_password_file: Option<PathBuf>,
+    /// Certificates, PEM, of the authority that signed the database server's; without it the system's own
+    #[arg(long, value_name = "FILE")]
+    database_ca: Option<PathBuf>,
+}
+
+impl DatabaseFiles {
+    /// A database at this address, with password and certificates read.
+    pub(super) fn access(
+        &self,
+        address: &str,
+        console: &Console,
+    ) -> anyhow::Result<DatabaseAccess> {
+        // Not parsed by clap, whose message would show a password in it.
+        let address = address.parse::<DatabaseAddress>().advised()?;
+        let password = self.database_password_file.as_deref();
+        let access = DatabaseAccess::new(address, password, self.database_ca.as_deref());
+        let access = access.advised()?;
+        if let Some(doubt) = access.doubt() {
+            console.warn(&doubt, &doubt);
+        }
+        Ok(access)
+    }
+
+    /// Refuses files for a database that is not named.
+    pub(super) fn refuse_without(&self, option: &str) -> anyhow::Result<()> {
+        if self.database_password_file.is_some() || self.database_ca.is_some() {
+            return Err(advised_error(
+                "--database-password-file and --database-ca are for a database, and none is named",
+                format!("Name it with {option}, or leave them out"),
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// A cell's name on the command line.
+pub(super) fn parse_cell(text: &str) -> Result<CellName, String> {
+    text.parse::<CellName>()
+        .map_err(|error| with_advice(&error))
+}
+
+/// Where the history is sent while it is written.
+#[derive(Clone, Debug, Args)]
+pub(super) struct HistoryToChoice {
+    /// Send the history to this PostgreSQL database as well, under the name --cell; nothing waits for it
+    #[arg(
+        long,
+        value_name = "postgres://USER@HOST[:PORT]/DATABASE",
+        requires = "cell",
+        conflicts_with = "no_history"
+    )]
+    history_to: Option<String>,
+    /// The name of this cell in the database
+    #[arg(long, value_name = "NAME", requires = "history_to", value_parser = parse_cell)]
+    cell: Option<CellName>,
+    #[command(flatten)]
+    files: DatabaseFiles,
+}
+
+/// A database that the history is sent to.
+pub(super) struct ChosenDatabase {
+    pub(super) access: DatabaseAccess,
+    pub(super) cell: CellName,
+}
+
+impl HistoryToChoice {
+    /// What was chosen, with password and certificates read.
+    pub(super) fn chosen(&self, console: &Console) -> anyhow::Result<Option<ChosenDatabase>> {
+        let Some((address, cell)) = self.history_to.as_ref().zip(self.cell.clone()) else {
+            self.files.refuse_without("--history-to")?;
+            return Ok(None);
+        };
+        let access = self.files.access(address, console)?;
+        Ok(Some(ChosenDatabase { access, cell }))
+    }
+}
+
+/// Shows what happened to the sending; what concerns the history itself goes to `tell`.
+pub(super) fn show_news(
+    sender: &HistorySender,
+    console: &Console,
+    tell: impl Fn(HistoryEvent, &Console),
+) {
+    while let Some(news) = sender.news() {
+        match news {
+            SendNews::Connected { num_waiting } => console.note(&format_args!(
+                "Database: connected; inspections waiting: {num_waiting}"
+            )),
+            SendNews::Failed(trouble) => {
+                console.warn(&format_args!("Database: {trouble}"), &trouble);
+            }
+            SendNews::SetAside(aside) => tell(HistoryEvent::SetAside(aside), console),
+        }
+    }
+}
+
+/// Sends what is not sent, for a few seconds at most, and shows what happened until then.
+pub(super) fn end_sender(
+    mut sender: HistorySender,
+    console: &Console,
+    tell: impl Fn(HistoryEvent, &Console),
+) {
+    let ended = sender.end();
+    show_news(&sender, console, tell);
+    if let Err(unsent) = ended {
+        console.warn(&format_args!("Database: {unsent}"), &unsent);
+    }
+}

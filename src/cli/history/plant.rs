@@ -1,0 +1,147 @@
+//! `partsight history send`, and the overview of `list` and `export` over the cells of a plant.
+
+use clap::Args;
+
+use super::{CellRow, ExportArgs, HistoryCommand, ListArgs, here, note_counts, show_rows};
+use crate::{
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, advised_error},
+        database::{DatabaseFiles, parse_cell},
+    },
+    history::{History, write_cells_table},
+    plant::database::{BATCH, CellHistory, CellName, Database, TransferError},
+};
+
+/// Which database is read instead of the history here.
+#[derive(Debug, Args)]
+pub(super) struct FromChoice {
+    /// Of all cells that send their histories to this PostgreSQL database, instead of the history here
+    #[arg(long, value_name = "postgres://USER@HOST[:PORT]/DATABASE")]
+    from: Option<String>,
+    /// With --from: of this cell alone
+    #[arg(long, value_name = "NAME", requires = "from", value_parser = parse_cell)]
+    cell: Option<CellName>,
+    #[command(flatten)]
+    files: DatabaseFiles,
+}
+
+impl FromChoice {
+    /// The database, if one is to be read.
+    fn database(&self, console: &Console) -> anyhow::Result<Option<Database>> {
+        let Some(address) = &self.from else {
+            self.files.refuse_without("--from")?;
+            return Ok(None);
+        };
+        let access = self.files.access(address, console)?;
+        Ok(Some(Database::open_to_read(&access).advised()?))
+    }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SendArgs {
+    /// The PostgreSQL database
+    #[arg(long, value_name = "postgres://USER@HOST[:PORT]/DATABASE")]
+    to: String,
+    /// The name of this cell there
+    #[arg(long, value_name = "NAME", value_parser = parse_cell)]
+    cell: CellName,
+    #[command(flatten)]
+    files: DatabaseFiles,
+    /// Take the cell's name over from another history, whose computer or disk is gone; what that one sent stays
+    #[arg(long)]
+    take_over: bool,
+}
+
+/// Sends what is not sent.
+pub(super) fn send(
+    history: &mut History,
+    asked: &SendArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let access = asked.files.access(&asked.to, console)?;
+    let whose = CellHistory {
+        cell: asked.cell.clone(),
+        history: history.note_changes().advised()?,
+    };
+    let mut database = Database::open(&access).advised()?;
+    if asked.take_over {
+        database.take_over(&whose).advised()?;
+    }
+    let mut num = 0;
+    loop {
+        let sent = database.send(&whose, || Ok(history.unsent(BATCH)?));
+        let rows = sent.advised()?;
+        history.note_sent(&rows).advised()?;
+        num += rows.num();
+        if rows.num() < BATCH {
+            break;
+        }
+    }
+    console.note(&format_args!(
+        "{num} inspections sent to {} as {}",
+        access.address, asked.cell
+    ));
+    Ok(Outcome::Accepted)
+}
+
+/// What `list` and `export` make of a database; nothing where they are asked for the history here.
+pub(super) fn overview(
+    command: &HistoryCommand,
+    console: &mut Console,
+) -> anyhow::Result<Option<Outcome>> {
+    match command {
+        HistoryCommand::List(asked) => match asked.from.database(console)? {
+            Some(database) => list(&database, asked, console).map(Some),
+            None => Ok(None),
+        },
+        HistoryCommand::Export(asked) => match asked.from.database(console)? {
+            Some(database) => export(&database, asked, console).map(Some),
+            None => Ok(None),
+        },
+        _ => Ok(None),
+    }
+}
+
+fn list(database: &Database, asked: &ListArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let filter = asked.filter.filter();
+    let page = database.page(&filter, asked.from.cell.as_ref(), asked.most());
+    let page = page.advised()?;
+    let rows = page.rows.iter();
+    let rows: Vec<CellRow<'_>> = rows.map(|(cell, row)| (Some(cell.as_str()), row)).collect();
+    show_rows(&rows, asked, console);
+    if asked.json {
+        return Ok(Outcome::Accepted);
+    }
+    let num_matching = page.cells.iter().map(|count| count.num_matching).sum();
+    note_counts(&rows, [num_matching, page.num_all], asked, console);
+    for count in &page.cells {
+        console.note(&format_args!(
+            "  {}: {}, {} of them accepted; it sent last at {}",
+            count.cell,
+            count.num_matching,
+            count.num_accepted,
+            here(count.sent)
+        ));
+    }
+    Ok(Outcome::Accepted)
+}
+
+fn export(database: &Database, asked: &ExportArgs, console: &Console) -> anyhow::Result<Outcome> {
+    let Some(path) = asked.csv.as_ref().filter(|_| asked.cases.is_none()) else {
+        return Err(advised_error(
+            "cases need the frames, which stay at their cell",
+            "Export them there, without --from, or give --csv alone",
+        ));
+    };
+    let filter = asked.filter.filter();
+    let num = write_cells_table::<TransferError>(path, |row| {
+        database.each(&filter, asked.from.cell.as_ref(), row)
+    });
+    console.note(&format_args!(
+        "{} inspections written to {}",
+        num.advised()?,
+        path.display()
+    ));
+    Ok(Outcome::Accepted)
+}

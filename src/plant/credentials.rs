@@ -1,0 +1,106 @@
+//! What a client of another system needs: a password from a file, and the certificates that the other side may show.
+
+use std::{path::Path, sync::Arc};
+
+use rustls::{
+    ClientConfig, RootCertStore,
+    crypto::ring,
+    pki_types::{CertificateDer, pem::PemObject as _},
+};
+use thiserror::Error;
+
+use crate::{
+    error::Advice,
+    files::{FileError, read_limited, read_text},
+};
+
+/// A password is one line.
+const MAX_PASSWORD_BYTES: u64 = 4096;
+/// The certificates of a whole system are a quarter of this.
+const MAX_CA_BYTES: u64 = 1 << 20;
+
+/// Why a password or certificates cannot be used.
+#[derive(Debug, Error)]
+pub enum CredentialError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The file holds nothing.
+    #[error("{path}: the file holds no password")]
+    NoPassword {
+        /// Which file.
+        path: String,
+    },
+    /// The file holds none.
+    #[error("{path}: the file holds no certificate in PEM form")]
+    NoCertificate {
+        /// Which file.
+        path: String,
+    },
+    /// The system holds none.
+    #[error("this system has no certificates by which a server could be known")]
+    NoSystemCertificates,
+    /// The library for encryption refuses.
+    #[error("encrypted connections cannot be prepared: {source}")]
+    Tls {
+        /// What it says.
+        source: rustls::Error,
+    },
+}
+
+impl Advice for CredentialError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::NoPassword { .. } => "Write the password into the file's first line".into(),
+            Self::NoCertificate { .. } => {
+                "Give the certificate of the authority that signed the server's, as PEM".into()
+            }
+            Self::NoSystemCertificates => {
+                "Name the certificate of the authority that signed the server's (--mqtt-ca, --database-ca)"
+                    .into()
+            }
+            Self::Tls { .. } => "Report this with the message".into(),
+        }
+    }
+}
+
+/// The first line of a file.
+pub(super) fn read_password(path: &Path) -> Result<String, CredentialError> {
+    let text = match read_text(path, MAX_PASSWORD_BYTES) {
+        Err(FileError::Empty { .. }) => String::new(),
+        text => text?,
+    };
+    match text.lines().next() {
+        Some(line) if !line.is_empty() => Ok(line.to_owned()),
+        _ => Err(CredentialError::NoPassword {
+            path: path.display().to_string(),
+        }),
+    }
+}
+
+/// Encryption towards a server whose certificate one of these authorities has signed, PEM; without a file the system's
+/// own.
+pub(super) fn tls_config(ca_file: Option<&Path>) -> Result<ClientConfig, CredentialError> {
+    let mut roots = RootCertStore::empty();
+    if let Some(path) = ca_file {
+        let bytes = read_limited(path, MAX_CA_BYTES)?;
+        let found = CertificateDer::pem_slice_iter(&bytes);
+        roots.add_parsable_certificates(found.filter_map(Result::ok));
+        if roots.is_empty() {
+            return Err(CredentialError::NoCertificate {
+                path: path.display().to_string(),
+            });
+        }
+    } else {
+        let found = rustls_native_certs::load_native_certs();
+        roots.add_parsable_certificates(found.certs);
+        if roots.is_empty() {
+            return Err(CredentialError::NoSystemCertificates);
+        }
+    }
+    let config = ClientConfig::builder_with_provider(Arc::new(ring::default_provider()))
+        .with_safe_default_protocol_versions()
+        .map_err(|source| CredentialError::Tls { source })?;
+    Ok(config.with_root_certificates(roots).with_no_client_auth())
+}

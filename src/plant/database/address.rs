@@ -1,0 +1,261 @@
+//! Where the database is.
+
+use std::{fmt, str::FromStr};
+
+use thiserror::Error;
+
+use crate::{
+    error::Advice,
+    plant::host::{HostError, host_and_port, is_loopback},
+};
+
+/// A database: `postgres://USER@HOST[:PORT]/NAME[?sslmode=disable|verify-full]`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DatabaseAddress {
+    /// The name at the server.
+    pub user: String,
+    /// A name or an IP address, IPv6 without brackets.
+    pub host: String,
+    /// 5432 where none is given.
+    pub port: u16,
+    /// Of the database.
+    pub name: String,
+    /// True if the connection is encrypted and the server has to show a certificate; by itself only towards this
+    /// computer it is not.
+    pub is_encrypted: bool,
+}
+
+/// Longest name of a user or a database, bytes: the server cuts off longer ones.
+const MAX_NAME_BYTES: usize = 63;
+
+/// Why a text is no address of a database.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum DatabaseAddressError {
+    /// It begins otherwise.
+    #[error("the address of the database does not begin with postgres://")]
+    Scheme,
+    /// It has a password, which other users of this computer could read.
+    #[error(
+        "the address has a password, which everybody who lists the programs of this computer can read"
+    )]
+    Password,
+    /// It names nobody.
+    #[error("the address names no user")]
+    NoUser,
+    /// There is no host, or none that can be one.
+    #[error("{host:?} is no name or IP address of a database's server")]
+    Host {
+        /// What was given.
+        host: String,
+    },
+    /// No number from 1 to 65535.
+    #[error("{port:?} is no port")]
+    Port {
+        /// What was given.
+        port: String,
+    },
+    /// No user or database can be called so here.
+    #[error("{name:?} is no name of a user or a database")]
+    Name {
+        /// What was given.
+        name: String,
+    },
+    /// Only `sslmode` is known.
+    #[error("the address has the option {option:?}, which is not known here")]
+    Option {
+        /// Its name.
+        option: String,
+    },
+    /// Such an encryption would protect from nothing, or nobody knows it.
+    #[error("sslmode={mode} is not offered")]
+    SslMode {
+        /// What was given.
+        mode: String,
+    },
+}
+
+impl Advice for DatabaseAddressError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Password => {
+                "Write the password into a file that only you can read, and name it with --database-password-file".into()
+            }
+            Self::Name { .. } => format!(
+                "Give 1 to {MAX_NAME_BYTES} letters, digits and -_. such as postgres://cell7@database/partsight"
+            ),
+            Self::Option { .. } | Self::SslMode { .. } => {
+                "Leave the options out, or give sslmode=verify-full (encrypted, the server shows a certificate) or sslmode=disable (not encrypted)".into()
+            }
+            Self::Scheme | Self::NoUser | Self::Host { .. } | Self::Port { .. } => {
+                "Give an address such as postgres://cell7@database.plant.example/partsight".into()
+            }
+        }
+    }
+}
+
+impl FromStr for DatabaseAddress {
+    type Err = DatabaseAddressError;
+
+    fn from_str(text: &str) -> Result<Self, DatabaseAddressError> {
+        let rest = text.strip_prefix("postgres://");
+        let rest = rest.or_else(|| text.strip_prefix("postgresql://"));
+        // It is not shown: there may be a password in it.
+        let rest = rest.ok_or(DatabaseAddressError::Scheme)?;
+        let (rest, options) = rest.split_once('?').unwrap_or((rest, ""));
+        let (place, name) = rest.split_once('/').unwrap_or((rest, ""));
+        // An @ behind the user belongs to a password with a / or ? in it.
+        if name.contains('@') || options.contains('@') {
+            return Err(DatabaseAddressError::Password);
+        }
+        let (user, place) = place.rsplit_once('@').unwrap_or(("", place));
+        if user.contains(':') {
+            return Err(DatabaseAddressError::Password);
+        }
+        if user.is_empty() {
+            return Err(DatabaseAddressError::NoUser);
+        }
+        let (host, port) = host_and_port(place, 5432).map_err(|error| match error {
+            HostError::Host { host } => DatabaseAddressError::Host { host },
+            HostError::Port { port } => DatabaseAddressError::Port { port },
+        })?;
+        for name in [user, name] {
+            if !is_name(name) {
+                let name = name.to_owned();
+                return Err(DatabaseAddressError::Name { name });
+            }
+        }
+        Ok(Self {
+            user: user.to_owned(),
+            host: host.trim_matches(['[', ']']).to_owned(),
+            port,
+            name: name.to_owned(),
+            is_encrypted: is_encrypted(options)?.unwrap_or(!is_loopback(host)),
+        })
+    }
+}
+
+/// What the options say of encryption, if they do.
+fn is_encrypted(options: &str) -> Result<Option<bool>, DatabaseAddressError> {
+    let mut found = None;
+    for option in options.split('&').filter(|option| !option.is_empty()) {
+        match option.split_once('=').unwrap_or((option, "")) {
+            ("sslmode", "disable") => found = Some(false),
+            ("sslmode", "require" | "verify-ca" | "verify-full") => found = Some(true),
+            ("sslmode", mode) => {
+                let mode = mode.to_owned();
+                return Err(DatabaseAddressError::SslMode { mode });
+            }
+            ("password", _) => return Err(DatabaseAddressError::Password),
+            (option, _) => {
+                let option = option.to_owned();
+                return Err(DatabaseAddressError::Option { option });
+            }
+        }
+    }
+    Ok(found)
+}
+
+fn is_name(name: &str) -> bool {
+    let is_letter = |c: char| c.is_alphanumeric() || "-_.@".contains(c);
+    (1..=MAX_NAME_BYTES).contains(&name.len()) && name.chars().all(is_letter)
+}
+
+/// Without the user: as it is named in messages.
+impl fmt::Display for DatabaseAddress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            host, port, name, ..
+        } = self;
+        if host.contains(':') {
+            write!(f, "postgres://[{host}]:{port}/{name}")
+        } else {
+            write!(f, "postgres://{host}:{port}/{name}")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_address_has_its_parts_and_is_encrypted_unless_it_is_here() {
+        for (text, user, host, port, name, is_encrypted) in [
+            ("postgres://me@db/parts", "me", "db", 5432, "parts", true),
+            ("postgresql://me@db:11/p", "me", "db", 11, "p", true),
+            (
+                "postgres://me@localhost/p",
+                "me",
+                "localhost",
+                5432,
+                "p",
+                false,
+            ),
+            ("postgres://a@b@[::1]:9/p", "a@b", "::1", 9, "p", false),
+            (
+                "postgres://me@db/p?sslmode=disable",
+                "me",
+                "db",
+                5432,
+                "p",
+                false,
+            ),
+            (
+                "postgres://me@127.0.0.1/p?sslmode=require",
+                "me",
+                "127.0.0.1",
+                5432,
+                "p",
+                true,
+            ),
+            (
+                "postgres://me@db/p?sslmode=verify-full",
+                "me",
+                "db",
+                5432,
+                "p",
+                true,
+            ),
+        ] {
+            let read: DatabaseAddress = text.parse().expect(text);
+            assert_eq!((read.user.as_str(), read.host.as_str()), (user, host));
+            let rest = (read.port, read.name.as_str(), read.is_encrypted);
+            assert_eq!(rest, (port, name, is_encrypted), "{text}");
+        }
+        let shown: DatabaseAddress = "postgres://me@[::1]/p".parse().expect("an address");
+        assert_eq!(shown.to_string(), "postgres://[::1]:5432/p");
+    }
+
+    #[test]
+    fn nonsense_is_refused_with_what_to_do_and_no_password_is_shown() {
+        let long = format!("postgres://me@db/{}", "x".repeat(MAX_NAME_BYTES + 1));
+        for (text, words) in [
+            ("db/parts", "does not begin"),
+            ("mysql://me:secret@db/parts", "does not begin"),
+            ("postgres://me:secret@db/parts", "password"),
+            ("postgres://me:sec/secret@db/parts", "password"),
+            ("postgres://me:sec?secret@db/parts", "password"),
+            ("postgres://me@db/parts?password=secret", "password"),
+            ("postgres://db/parts", "names no user"),
+            ("postgres://@db/parts", "names no user"),
+            ("postgres://me@/parts", "no name or IP"),
+            ("postgres://me@a b/parts", "no name or IP"),
+            ("postgres://me@db:0/parts", "no port"),
+            ("postgres://me@db:70000/parts", "no port"),
+            ("postgres://me@db", "no name of a user"),
+            ("postgres://me@db/", "no name of a user"),
+            ("postgres://me@db/a/b", "no name of a user"),
+            ("postgres://me@db/a\nb", "no name of a user"),
+            ("postgres://m e@db/a", "no name of a user"),
+            ("postgres://me@db/a?sslmode=prefer", "not offered"),
+            ("postgres://me@db/a?sslmode", "not offered"),
+            ("postgres://me@db/a?host=b", "\"host\""),
+            (&long, "no name of a user"),
+        ] {
+            let error = text.parse::<DatabaseAddress>().expect_err(text);
+            assert!(error.to_string().contains(words), "{text}: {error}");
+            assert!(!error.advice().is_empty());
+            assert!(!error.to_string().contains("secret"));
+        }
+    }
+}

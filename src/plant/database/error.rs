@@ -1,0 +1,244 @@
+//! What goes wrong with a database, and what to do about it.
+
+use std::{error::Error as _, io};
+
+use thiserror::Error;
+use tokio_postgres::error::SqlState;
+
+use super::{address::DatabaseAddress, cell::CellName};
+use crate::{
+    error::{Advice, Fault},
+    files::words_of,
+    history::HistoryError,
+};
+
+/// Why the plant's database cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum DatabaseError {
+    /// Nothing answers there, or not any longer.
+    #[error("{database} cannot be reached: {cause}")]
+    Unreachable {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+        /// What the system or the server says.
+        cause: String,
+    },
+    /// The server does not let the program in.
+    #[error("{database} refuses the connection: {cause}")]
+    Refused {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+        /// What it says.
+        cause: String,
+    },
+    /// The server has no such database.
+    #[error("{database}: there is no such database")]
+    NotFound {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+    },
+    /// No encrypted connection comes about.
+    #[error("no encrypted connection to {database}: {cause}")]
+    Tls {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+        /// What the library for encryption says.
+        cause: String,
+    },
+    /// The user may not do it.
+    #[error("{database}: the user may not read or write the history there: {cause}")]
+    Forbidden {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+        /// What the server says.
+        cause: String,
+    },
+    /// Not every text fits in.
+    #[error("{database} keeps text as {encoding}, in which not every name can be written")]
+    Encoding {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+        /// As the server calls it.
+        encoding: String,
+    },
+    /// A newer program made the tables; nothing of them was touched.
+    #[error(
+        "{database}: the history there is kept by a newer version of Partsight (format {found}, this one knows {known})"
+    )]
+    Newer {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+        /// Its version.
+        found: i32,
+        /// The newest known.
+        known: i32,
+    },
+    /// No cell has sent anything.
+    #[error("{database}: there is no history yet")]
+    Empty {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+    },
+    /// No cell of that name.
+    #[error("{database}: there is no cell {:?}", cell.as_str())]
+    NoSuchCell {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+        /// The name.
+        cell: CellName,
+        /// Names that are there.
+        known: Vec<String>,
+    },
+    /// Another history has the name.
+    #[error("{database}: the cell {:?} belongs to another history", cell.as_str())]
+    Taken {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+        /// The name.
+        cell: CellName,
+    },
+    /// The history was copied or restored from a backup, and each went on by itself.
+    #[error(
+        "{database}: the cell {:?} has other inspections under the numbers of this history: one is a copy of the other",
+        cell.as_str()
+    )]
+    Copied {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+        /// The name.
+        cell: CellName,
+    },
+    /// The server does not do what it is asked for.
+    #[error("{database}: {cause}")]
+    Failed {
+        /// Which database.
+        database: Box<DatabaseAddress>,
+        /// What the server says.
+        cause: String,
+    },
+}
+
+impl DatabaseError {
+    pub(super) fn of(error: &tokio_postgres::Error, database: &DatabaseAddress) -> Self {
+        let database = Box::new(database.clone());
+        let Some(told) = error.as_db_error() else {
+            return Self::of_connection(error, database);
+        };
+        let cause = told.message().to_owned();
+        let code = told.code();
+        if [
+            SqlState::INVALID_PASSWORD,
+            SqlState::INVALID_AUTHORIZATION_SPECIFICATION,
+        ]
+        .contains(code)
+        {
+            Self::Refused { database, cause }
+        } else if *code == SqlState::INVALID_CATALOG_NAME {
+            Self::NotFound { database }
+        } else if [
+            SqlState::INSUFFICIENT_PRIVILEGE,
+            SqlState::READ_ONLY_SQL_TRANSACTION,
+        ]
+        .contains(code)
+        {
+            Self::Forbidden { database, cause }
+        } else if [
+            SqlState::ADMIN_SHUTDOWN,
+            SqlState::CRASH_SHUTDOWN,
+            SqlState::CANNOT_CONNECT_NOW,
+            SqlState::TOO_MANY_CONNECTIONS,
+        ]
+        .contains(code)
+        {
+            Self::Unreachable { database, cause }
+        } else {
+            Self::Failed { database, cause }
+        }
+    }
+
+    /// Of an error that the server has not told.
+    fn of_connection(error: &tokio_postgres::Error, database: Box<DatabaseAddress>) -> Self {
+        let what = error.to_string();
+        let cause = match error.source() {
+            Some(source) => source
+                .downcast_ref::<io::Error>()
+                .map_or_else(|| source.to_string(), words_of),
+            None => what.clone(),
+        };
+        if what.contains("TLS") {
+            Self::Tls { database, cause }
+        } else if cause == "password missing" {
+            let cause = "it asks for a password".into();
+            Self::Refused { database, cause }
+        } else if what.contains("authentication") {
+            Self::Refused { database, cause }
+        } else {
+            Self::Unreachable { database, cause }
+        }
+    }
+}
+
+impl Advice for DatabaseError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Unreachable { .. } => {
+                "Check the server and the network; inspections go on, and what is not sent stays in the history here".into()
+            }
+            Self::Refused { .. } => {
+                "Check the user in the address, --database-password-file, and what the server's pg_hba.conf allows".into()
+            }
+            Self::NotFound { database } => format!(
+                "Make it once: CREATE DATABASE \"{}\" ENCODING 'UTF8' TEMPLATE template0",
+                database.name
+            ),
+            Self::Tls { .. } => {
+                "Check that the address names the host that stands in the server's certificate, and --database-ca the authority that signed it".into()
+            }
+            Self::Forbidden { database, .. } => format!(
+                "Let the database's owner send once, or grant this user what it needs: GRANT CREATE ON DATABASE \"{}\", or USAGE on the schema partsight and SELECT, INSERT, UPDATE on its tables",
+                database.name
+            ),
+            Self::Encoding { .. } => {
+                "Use a database that was made with ENCODING 'UTF8'".into()
+            }
+            Self::Newer { .. } => "Update Partsight on this computer".into(),
+            Self::Empty { .. } => {
+                "Send a history there first: partsight history send --to ADDRESS --cell NAME".into()
+            }
+            Self::NoSuchCell { known, .. } => format!("Give one of {}", known.join(", ")),
+            Self::Taken { .. } => {
+                "Give each cell a name of its own with --cell; if this history replaces the other one, whose computer or disk is gone, send it once with --take-over".into()
+            }
+            Self::Copied { .. } => {
+                "Send this history under another name with --cell; each keeps its own inspections".into()
+            }
+            Self::Failed { .. } => {
+                "Check the log of the database's server; what is not sent stays in the history here".into()
+            }
+        }
+    }
+}
+
+/// Why rows could not be sent or read.
+#[derive(Debug, Error)]
+pub enum TransferError {
+    /// The database.
+    #[error(transparent)]
+    Database(#[from] DatabaseError),
+    /// The history from which they are read.
+    #[error(transparent)]
+    History(#[from] HistoryError),
+    /// The program itself failed.
+    #[error(transparent)]
+    Fault(#[from] Fault),
+}
+
+impl Advice for TransferError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Database(error) => error.advice(),
+            Self::History(error) => error.advice(),
+            Self::Fault(fault) => fault.advice(),
+        }
+    }
+}

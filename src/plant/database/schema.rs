@@ -1,0 +1,153 @@
+//! The tables in PostgreSQL, and how those of an earlier version become those of today.
+
+use super::{client::Database, error::DatabaseError};
+
+/// Every step, in order; the version of a database counts those that it has seen. What was released stays as it is.
+const STEPS: [&str; 1] = [FIRST];
+
+/// The version that is written.
+const VERSION: i32 = STEPS.len() as i32;
+
+/// Only one program at a time changes the tables: `PsHi`, as in a history's file.
+const LOCK: i64 = i64::from_be_bytes(*b"PsHi\0\0\0\x01");
+
+/// The columns of a history's file under their own names, behind the cell and the history they are of. Only keys may not
+/// be null: a row that a person has changed by hand is no reason to stop sending.
+const FIRST: &str = "
+    CREATE SCHEMA partsight;
+    CREATE TABLE partsight.schema_version (
+        version integer PRIMARY KEY,
+        made timestamptz NOT NULL DEFAULT now()
+    );
+    CREATE TABLE partsight.cell (
+        cell text PRIMARY KEY,
+        history text NOT NULL,                       -- identity of the history that has the name now
+        since timestamptz NOT NULL DEFAULT now(),
+        sent timestamptz NOT NULL DEFAULT now()      -- when the cell sent something last
+    );
+    CREATE TABLE partsight.recipe (
+        cell text NOT NULL REFERENCES partsight.cell,
+        history text NOT NULL,
+        identity text NOT NULL,
+        json text,
+        changed timestamptz NOT NULL DEFAULT now(),
+        PRIMARY KEY (cell, history, identity)
+    );
+    CREATE TABLE partsight.inspection (
+        cell text NOT NULL REFERENCES partsight.cell,
+        history text NOT NULL,
+        number bigint NOT NULL,
+        at bigint NOT NULL,                          -- microseconds since 1970, UTC
+        scene text,
+        source text,
+        simulated boolean,
+        verdict text,
+        part text,
+        title text,
+        score double precision,
+        margin double precision,
+        total_ms double precision,
+        remark text,
+        label text,
+        frame_bytes bigint,                          -- of the frame that the cell keeps
+        search text,
+        hung text NOT NULL,
+        parent bigint,
+        serial text,
+        job_order text,
+        operator text,
+        reason_kind text,
+        time timestamptz GENERATED ALWAYS AS (to_timestamp(at / 1000000.0::double precision)) STORED,
+        received timestamptz NOT NULL DEFAULT now(),
+        changed timestamptz NOT NULL DEFAULT now(),
+        PRIMARY KEY (cell, history, number)
+    );
+    CREATE TABLE partsight.detail (
+        cell text NOT NULL,
+        history text NOT NULL,
+        number bigint NOT NULL,
+        nearest text,
+        reason text,
+        advice text,
+        camera_from_part text,
+        recipe text,
+        library text,
+        program text,
+        line text,
+        thumbnail bytea,
+        origin text,
+        frame text,
+        recipe_name text,
+        recipe_changed boolean,
+        refusal text,
+        changed timestamptz NOT NULL DEFAULT now(),
+        PRIMARY KEY (cell, history, number),
+        FOREIGN KEY (cell, history, number) REFERENCES partsight.inspection ON DELETE CASCADE
+    );
+    CREATE INDEX listed ON partsight.inspection (at, cell, history, number);
+    CREATE INDEX listed_of_cell ON partsight.inspection (cell, at, history, number);
+    CREATE INDEX below ON partsight.inspection (cell, history, parent) WHERE parent IS NOT NULL;
+    CREATE INDEX heads ON partsight.inspection (cell, verdict) WHERE parent IS NULL;";
+
+const MAKE_VERSION: &str = "INSERT INTO partsight.schema_version (version) VALUES ($1)";
+
+impl Database {
+    /// The version of the tables; 0 where there are none.
+    fn version(&self) -> Result<i32, DatabaseError> {
+        let asked = "SELECT to_regclass('partsight.schema_version') IS NOT NULL";
+        let row = self.link.wait(self.client.query_one(asked, &[]))?;
+        if !self.read::<bool>(&row, 0)? {
+            return Ok(0);
+        }
+        let asked = "SELECT coalesce(max(version), 0) FROM partsight.schema_version";
+        let row = self.link.wait(self.client.query_one(asked, &[]))?;
+        self.read(&row, 0)
+    }
+
+    fn refuse_newer(&self, found: i32) -> Result<(), DatabaseError> {
+        if found <= VERSION {
+            return Ok(());
+        }
+        Err(DatabaseError::Newer {
+            database: self.link.address.clone(),
+            found,
+            known: VERSION,
+        })
+    }
+
+    /// Refuses tables that are newer than this program, or not there.
+    pub(super) fn check_version(&self) -> Result<(), DatabaseError> {
+        let found = self.version()?;
+        if found == 0 {
+            let database = self.link.address.clone();
+            return Err(DatabaseError::Empty { database });
+        }
+        self.refuse_newer(found)
+    }
+
+    /// Brings the tables to the version of today, all the way or not at all.
+    pub(super) fn migrate(&mut self) -> Result<(), DatabaseError> {
+        let found = self.version()?;
+        self.refuse_newer(found)?;
+        if found == VERSION {
+            return Ok(());
+        }
+        // Dropped on the way, the transaction is undone when the connection ends, and that ends with an error.
+        self.run("BEGIN")?;
+        let lock = "SELECT pg_advisory_xact_lock($1)";
+        self.link.wait(self.client.query(lock, &[&LOCK]))?;
+        // Another cell may have been quicker.
+        let found = self.version()?;
+        self.refuse_newer(found)?;
+        for (version, step) in (1..).zip(STEPS).skip(found as usize) {
+            self.run(step)?;
+            self.link
+                .wait(self.client.execute(MAKE_VERSION, &[&version]))?;
+        }
+        self.run("COMMIT")
+    }
+
+    fn run(&self, statements: &str) -> Result<(), DatabaseError> {
+        self.link.wait(self.client.batch_execute(statements))
+    }
+}

@@ -1,0 +1,145 @@
+//! The built program: what it sends, and the overview that it shows.
+
+use std::{fs, path::Path, process::Command};
+
+use partsight::history::StoredVerdict;
+use serde_json::{Value, json};
+
+use crate::{
+    add, add_some, assert_same, cell_of,
+    kit::{history_entry, open_history},
+    send,
+    server::{PASSWORD, Postgres},
+};
+
+pub(crate) fn partsight(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_partsight"));
+    command
+        .args(args)
+        .current_dir(folder)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env("XDG_DATA_HOME", folder.join("data"))
+        .env("HOME", folder);
+    command
+}
+
+/// Both outputs of a call that ends with this code.
+pub(crate) fn run(folder: &Path, args: &[&str], code: i32) -> [String; 2] {
+    let output = partsight(folder, args).output().expect("starts");
+    let said = [output.stdout, output.stderr];
+    let said = said.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    assert_eq!(output.status.code(), Some(code), "{said:?}");
+    said
+}
+
+#[test]
+fn an_overview_over_cells_is_listed_and_exported() {
+    let Some(server) = Postgres::start_new() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("password"), PASSWORD).expect("written");
+    let mut database = server.open().expect("made");
+    let cells = ["cell7", "cell \"8\", b"];
+    for (place, cell) in cells.iter().enumerate() {
+        let mut history = open_history(&folder.path().join(place.to_string()));
+        add_some(&mut history, 0..3 + place as i64);
+        let mut late = history_entry(100 + place as i64, StoredVerdict::Accepted, "grille");
+        late.record.summary.scene = "\u{1b}[31mred, \"quoted\"".into();
+        add(&mut history, &late);
+        let whose = cell_of(&mut history, cell);
+        send(&mut database, &mut history, &whose).expect("sent");
+    }
+    let address = server.address();
+    let from = ["--from", &address, "--database-password-file", "password"];
+    let with =
+        |args: &[&str]| -> [String; 2] { run(folder.path(), &[args, &from[..]].concat(), 0) };
+    let [table, notes] = with(&["history", "list"]);
+    let heading = table.lines().next().expect("a heading");
+    assert!(
+        heading.starts_with("CELL") && heading.contains("VERDICT"),
+        "{table}"
+    );
+    assert_eq!(table.lines().count(), 1 + 9, "{table}");
+    assert!(!table.contains('\u{1b}'), "{table}");
+    assert!(
+        notes.contains("9 of 9 parts shown, 9 parts in all"),
+        "{notes}"
+    );
+    assert!(notes.contains("cell7: 4, 2 of them accepted"), "{notes}");
+    let [lines, _] = with(&["history", "list", "--json", "--part", "grille"]);
+    let lines: Vec<Value> = lines
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("JSON"))
+        .collect();
+    assert_eq!(lines.len(), 2, "the newest of each");
+    assert_eq!(
+        (&lines[0]["cell"], &lines[1]["cell"]),
+        (&json!(cells[1]), &json!(cells[0]))
+    );
+    assert_eq!(lines[0]["schema"], 1);
+    let [table, _] = with(&["history", "list", "--cell", "cell7", "--limit", "2"]);
+    assert_eq!(table.lines().count(), 1 + 2, "{table}");
+
+    with(&["history", "export", "--csv", "all.csv"]);
+    let text = fs::read_to_string(folder.path().join("all.csv")).expect("written");
+    let mut text = text.lines();
+    assert!(
+        text.next()
+            .expect("a heading")
+            .ends_with(",reason_kind,cell")
+    );
+    let ends =
+        text.map(|line| line.ends_with(",cell7") || line.ends_with(",\"cell \"\"8\"\", b\""));
+    assert_eq!(ends.collect::<Vec<_>>(), [true; 9]);
+    let cases = ["history", "export", "--csv", "a.csv", "--cases", "cases"];
+    let [_, said] = run(folder.path(), &[&cases[..], &from].concat(), 2);
+    assert!(said.contains("frames"), "{said}");
+    let unknown = ["history", "list", "--cell", "cell9"];
+    let [_, said] = run(folder.path(), &[&unknown[..], &from].concat(), 2);
+    assert!(
+        said.contains("cell9") && said.contains("to do: Give one of"),
+        "{said}"
+    );
+    // Nothing was made here.
+    assert!(!folder.path().join("data").exists());
+}
+
+#[test]
+fn what_is_inspected_while_a_database_is_named_arrives_there() {
+    let Some(server) = Postgres::start_new() else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("password"), PASSWORD).expect("written");
+    let address = server.address();
+    let to = [
+        "--history-to",
+        &address,
+        "--cell",
+        "cell7",
+        "--history",
+        "here",
+    ];
+    let to = [&to[..], &["--database-password-file", "password"]].concat();
+    let inspect = [
+        "inspect",
+        "--source",
+        "simulated,fps=5:fender",
+        "--frames",
+        "1",
+    ];
+    let [_, said] = run(folder.path(), &[&inspect[..], &to].concat(), 0);
+    assert!(!said.contains(PASSWORD), "{said}");
+    // What did not go out in the seconds at the end goes out now.
+    let send = ["history", "send", "--history", "here", "--to", &address];
+    let rest = ["--cell", "cell7", "--database-password-file", "password"];
+    let [_, said] = run(folder.path(), &[&send[..], &rest].concat(), 0);
+    assert!(
+        said.contains("inspections sent to postgres://127.0.0.1"),
+        "{said}"
+    );
+    let num = assert_same(&server, &folder.path().join("here"), "cell7");
+    assert_eq!(num, 1, "one part hung there");
+}
