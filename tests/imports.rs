@@ -53,6 +53,7 @@ fn only_the_libraries_of_cameras_are_called_by_unsafe_code() {
         "capture/genicam/aravis.rs",
         "capture/kinect/freenect.rs",
         "capture/openni/oni.rs",
+        "capture/realsense/librealsense.rs",
     ];
     assert_eq!(allowing, BTreeSet::from(known.map(PathBuf::from)));
 }

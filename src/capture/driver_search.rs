@@ -1,4 +1,5 @@
-//! Where the library of a camera is looked for: where a setting says, else where the system keeps libraries.
+//! Where the library of a camera is looked for, where a setting says, else where the system keeps libraries; and its
+//! functions once it is found.
 
 use std::{
     env,
@@ -7,11 +8,11 @@ use std::{
 };
 
 /// The library of one kind of camera.
-pub(super) struct DriverNames {
+pub(super) struct DriverNames<'a> {
     /// The variable that names its file or folder; the source's own setting goes before it.
     pub(super) variable: &'static str,
     /// Its file names, the one that is known to fit first.
-    pub(super) names: &'static [&'static str],
+    pub(super) names: &'a [&'a str],
 }
 
 /// Why no library was loaded.
@@ -30,7 +31,7 @@ pub(super) enum NotLoaded {
     },
 }
 
-impl DriverNames {
+impl DriverNames<'_> {
     /// Loads the library with `load`, which gives the system's words where it cannot, and tells the name that it was
     /// found by.
     ///
@@ -93,6 +94,58 @@ fn is_absent(name: &str, reason: &str) -> bool {
     // Windows gives a code for either.
     cfg!(windows) || (reason.contains(name) && reason.to_lowercase().contains("no such file"))
 }
+
+/// Makes `Functions`, the functions of a library by name with their types as its header has them, and `Library`, which loads
+/// it.
+macro_rules! driver_functions {
+    (
+        $(#[$attribute:meta])*
+        $($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)*
+    ) => {
+        #[derive(Clone, Copy)]
+        $(#[$attribute])*
+        struct Functions {
+            $($name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
+        }
+
+        impl Functions {
+            fn look_up(library: &'static libloading::Library) -> Result<Self, &'static str> {
+                Ok(Self {
+                    // SAFETY: the types are those of the header, and the library is never unloaded.
+                    $($name: *unsafe { library.get(stringify!($name).as_bytes()) }
+                        .or(Err(stringify!($name)))?,)*
+                })
+            }
+        }
+
+        /// A loaded library. It stays so until the process ends.
+        pub(super) struct Library {
+            /// Or the first function that is missing.
+            functions: Result<Functions, &'static str>,
+        }
+
+        impl Library {
+            /// Loads the library of that name or path, or says why that cannot be done in the system's own words.
+            pub(super) fn load(name: &std::ffi::OsStr) -> Result<&'static Self, String> {
+                static LOADED: std::sync::Mutex<Vec<(std::ffi::OsString, &'static Library)>> =
+                    std::sync::Mutex::new(Vec::new());
+                let mut loaded = $crate::error::lock(&LOADED);
+                if let Some((_, library)) = loaded.iter().find(|(known, _)| known == name) {
+                    return Ok(library);
+                }
+                // SAFETY: loading runs the library's initialisers, which only set up its own objects; a person who names
+                // another library by a setting runs that one's as if it had been started as a program.
+                let library = unsafe { libloading::Library::new(name) };
+                let library = library.map_err(|error| error.to_string())?;
+                let functions = Functions::look_up(Box::leak(Box::new(library)));
+                let library: &'static Self = Box::leak(Box::new(Self { functions }));
+                loaded.push((name.to_owned(), library));
+                Ok(library)
+            }
+        }
+    };
+}
+pub(super) use driver_functions;
 
 #[cfg(test)]
 mod tests {

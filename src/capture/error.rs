@@ -8,6 +8,7 @@ use super::{
     genicam::{GenicamError, GenicamWarning},
     kinect::{KinectError, KinectWarning},
     openni::OpenNiError,
+    realsense::RealsenseError,
 };
 use crate::{
     error::Advice,
@@ -51,6 +52,9 @@ pub enum CaptureError {
     /// An OpenNI camera, or a file of one.
     #[error(transparent)]
     OpenNi(#[from] OpenNiError),
+    /// A RealSense camera, or a file of one.
+    #[error(transparent)]
+    Realsense(#[from] RealsenseError),
     /// A folder without anything to replay.
     #[error("{}: no recording, and no file of a camera", path.display())]
     NoFrames {
@@ -134,6 +138,7 @@ impl CaptureError {
             Self::Kinect(error) => error.recovery(),
             Self::Genicam(error) => error.recovery(),
             Self::OpenNi(error) => error.recovery(),
+            Self::Realsense(error) => error.recovery(),
             Self::FolderGone { .. }
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }
@@ -175,6 +180,7 @@ impl Advice for CaptureError {
             Self::Kinect(error) => error.advice(),
             Self::Genicam(error) => error.advice(),
             Self::OpenNi(error) => error.advice(),
+            Self::Realsense(error) => error.advice(),
             Self::NoFrames { path } => format!(
                 "Give the folder that holds the frames; partsight capture --out {} makes one",
                 path.display()

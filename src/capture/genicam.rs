@@ -28,6 +28,7 @@ use super::{
     driver_search::DriverNames,
     error::{CaptureError, CaptureWarning},
     open::SourceListing,
+    read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture, SkippedCapture},
     spec::{GenicamFormat, GenicamSpec, SourceSpec},
 };
@@ -62,8 +63,7 @@ pub(super) struct Genicam {
     decoder: Decoder,
     /// Whole frames and others.
     num_frames: u64,
-    /// How long it was waited for since the last frame. Pauses in which nobody waited do not count.
-    silent_for: Duration,
+    silence: ReadTimeout,
     warnings: Vec<CaptureWarning>,
 }
 
@@ -203,7 +203,7 @@ impl Genicam {
             format,
             decoder,
             num_frames: 0,
-            silent_for: Duration::ZERO,
+            silence: ReadTimeout::of(SILENCE),
             warnings,
         })
     }
@@ -269,22 +269,20 @@ impl DepthSource for Genicam {
             return Ok(NextCapture::End);
         };
         if let Some(frame) = device.receive(wait) {
-            self.silent_for = Duration::ZERO;
+            self.silence.restart();
             self.num_frames += 1;
             return Ok(self.next_of(&frame));
         }
-        self.silent_for += start.elapsed();
+        let timeout = self.silence.goes_on(start.elapsed());
         if !device.has_control() {
             return self.end(GenicamError::Lost { said: None });
         }
-        if self.silent_for < SILENCE {
+        let Some(seconds) = timeout else {
             return Ok(NextCapture::NotYet);
-        }
+        };
         // One that is unplugged does not answer either.
         let reason = match device.frame_bytes() {
-            Ok(_) => GenicamError::Silent {
-                seconds: self.silent_for.as_secs(),
-            },
+            Ok(_) => GenicamError::Silent { seconds },
             Err(said) => GenicamError::Lost { said: Some(said) },
         };
         self.end(reason)

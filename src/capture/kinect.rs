@@ -35,6 +35,7 @@ use self::{
 use super::{
     error::{CaptureError, CaptureWarning},
     open::SourceListing,
+    read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
     spec::{KinectSpec, SourceSpec},
 };
@@ -42,10 +43,6 @@ use crate::geometry::{
     depth_frame::{DepthFrame, Intrinsics},
     distortion::Distortion,
 };
-
-/// A camera that sends nothing while it is waited for so long is lost. A Kinect takes about a second from the start to its
-/// first frame.
-const SILENCE: Duration = Duration::from_secs(5);
 
 /// An open Kinect whose depth stream runs. Dropped, it stops the stream and lets the camera go.
 pub(super) struct Kinect {
@@ -175,7 +172,7 @@ impl Kinect {
 
     fn captured(&mut self, depth: Vec<u16>) -> Captured {
         self.num_frames += 1;
-        self.silence = ReadTimeout::default();
+        self.silence.restart();
         Captured {
             number: self.num_frames,
             name: format!("Kinect frame {}", self.num_frames),
@@ -266,18 +263,6 @@ impl Units {
     }
 }
 
-/// How long a camera was waited for and sent nothing. Pauses in which nobody waited do not count.
-#[derive(Default)]
-pub(super) struct ReadTimeout(Duration);
-
-impl ReadTimeout {
-    /// It went on for so long. Its whole seconds, if those are too many for a camera that is well.
-    pub(super) fn goes_on(&mut self, turn: Duration) -> Option<u64> {
-        self.0 += turn;
-        (self.0 >= SILENCE).then_some(self.0.as_secs())
-    }
-}
-
 fn open_device(
     context: Context,
     plays_session: bool,
@@ -352,14 +337,6 @@ fn usual_camera(mode: &FrameMode) -> Intrinsics {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_camera_is_silent_for_too_long_only_after_its_time() {
-        let mut silence = ReadTimeout::default();
-        assert_eq!(silence.goes_on(Duration::ZERO), None);
-        assert_eq!(silence.goes_on(Duration::from_millis(4_999)), None);
-        assert_eq!(silence.goes_on(Duration::from_millis(1)), Some(5));
-    }
 
     #[test]
     fn what_is_beyond_the_range_is_no_reading() {

@@ -1,4 +1,5 @@
-//! Where frames come from: the simulated cell, recordings, a watched folder, a Kinect, cameras of GenICam and OpenNI.
+//! Where frames come from: the simulated cell, recordings, a watched folder, a Kinect, cameras of GenICam, OpenNI and
+//! RealSense.
 //!
 //! ```text
 //! SourceSpec ─► open ─► DepthSource ─► Feed ─► Captured, to be inspected, recorded or shown
@@ -17,6 +18,8 @@ mod open;
 mod openni;
 mod rate;
 mod read;
+mod read_timeout;
+mod realsense;
 mod recording;
 mod simulated;
 mod source;
@@ -33,11 +36,12 @@ pub use self::rate::FrameRate;
 #[cfg(feature = "cli")]
 pub(crate) use self::read::may_be_capture;
 pub use self::read::read_image;
+pub use self::realsense::RealsenseError;
 pub use self::recording::{Recorder, Replay};
 pub use self::simulated::SimulatedCell;
 pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};
 pub use self::spec::{
-    CellScene, GenicamFormat, GenicamSpec, KinectSpec, OpenNiSpec, Pace, RecordingSpec,
-    SimulatedPose, SimulatedSpec, SourceSpec, SpecError, WatchedFrom, WatchedSpec,
+    CellScene, GenicamFormat, GenicamSpec, KinectSpec, OpenNiSpec, Pace, RealsenseSpec,
+    RecordingSpec, SimulatedPose, SimulatedSpec, SourceSpec, SpecError, WatchedFrom, WatchedSpec,
 };
 pub use self::watched::WatchedFolder;

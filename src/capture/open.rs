@@ -2,7 +2,7 @@
 
 use super::{
     error::CaptureError,
-    genicam, kinect, openni,
+    genicam, kinect, openni, realsense,
     recording::Replay,
     simulated::SimulatedCell,
     source::DepthSource,
@@ -19,6 +19,7 @@ pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
         SourceSpec::Kinect(spec) => kinect::open(spec)?,
         SourceSpec::Genicam(spec) => genicam::open(spec)?,
         SourceSpec::OpenNi(spec) => openni::open(spec)?,
+        SourceSpec::Realsense(spec) => realsense::open(spec)?,
     })
 }
 
@@ -46,5 +47,6 @@ pub fn list() -> Vec<SourceListing> {
         .chain(kinect::list())
         .chain(genicam::list())
         .chain(openni::list())
+        .chain(realsense::list())
         .collect()
 }

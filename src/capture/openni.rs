@@ -36,8 +36,8 @@ use self::{
 };
 use super::{
     error::CaptureError,
-    kinect::ReadTimeout,
     open::SourceListing,
+    read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
     spec::{OpenNiSpec, Pace, SourceSpec},
 };
@@ -213,7 +213,7 @@ impl OpenNi {
 
     fn captured(&mut self, received: Received) -> Captured {
         self.num_frames += 1;
-        self.silence = ReadTimeout::default();
+        self.silence.restart();
         let mut depth = received.depth;
         if self.is_mirrored {
             let rows = depth.chunks_exact_mut(self.camera.width);

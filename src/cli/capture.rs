@@ -158,6 +158,10 @@ fn show_list(console: &mut Console) -> Outcome {
             "A folder that another program saves captures into",
         ),
         ("openni:FILE.oni", "A file that OpenNI 2 recorded"),
+        (
+            "realsense:FILE.db3",
+            "A file that librealsense recorded, or FILE.bag",
+        ),
     ] {
         table.row([pattern.to_owned(), what.to_owned()]);
     }

@@ -85,6 +85,8 @@ Sources:
                             format=Coord3D_C16|Coord3D_ABC32f|Mono16
   openni   openni:URI       an Asus Xtion, PrimeSense or Orbbec Astra, through OpenNI 2
   openni:FILE.oni           a file that OpenNI 2 recorded; option: pace, as above
+  realsense                 a RealSense camera; realsense:SERIAL is one of several; option: preset=High Accuracy
+  realsense:FILE.db3        a file that librealsense recorded, or FILE.bag; option: pace, as above
 Options stand before the colon: simulated,side=right,noise=2:fender
 
 Examples:

@@ -31,7 +31,7 @@ use super::{
 #[cfg(feature = "plant")]
 use super::{database::HistoryToChoice, mqtt::MqttChoice};
 use crate::{
-    capture::{OpenNiSpec, Pace, RecordingSpec, SourceSpec},
+    capture::{OpenNiSpec, Pace, RealsenseSpec, RecordingSpec, SourceSpec},
     library::LibraryLoad,
     pipeline::MirrorTally,
     serve::{
@@ -129,6 +129,10 @@ fn parse_running_source(text: &str) -> Result<SourceSpec, String> {
             ..
         })
         | SourceSpec::OpenNi(OpenNiSpec {
+            pace: Some(Pace::Step),
+            ..
+        })
+        | SourceSpec::Realsense(RealsenseSpec {
             pace: Some(Pace::Step),
             ..
         }) => Err(

@@ -68,7 +68,8 @@ impl NewFrame {
             | SourceSpec::Recording(_)
             | SourceSpec::Kinect(_)
             | SourceSpec::Genicam(_)
-            | SourceSpec::OpenNi(_) => Self::SecondArrived,
+            | SourceSpec::OpenNi(_)
+            | SourceSpec::Realsense(_) => Self::SecondArrived,
         }
     }
 }

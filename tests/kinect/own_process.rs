@@ -25,6 +25,7 @@ pub(crate) fn run(test: &str, environment: &[(&str, &OsStr)]) {
         .args([test, "--exact", "--nocapture", "--test-threads=1"])
         .env_remove("PARTSIGHT_FREENECT")
         .env_remove("PARTSIGHT_OPENNI")
+        .env_remove("PARTSIGHT_REALSENSE")
         .env_remove("FAKENECT_PATH")
         .env(BODY, test)
         .envs(

@@ -17,7 +17,7 @@ use crate::{
         language::text,
         ui::theme::{font, space},
     },
-    capture::{GenicamSpec, KinectSpec, OpenNiSpec, SimulatedSpec, SourceSpec},
+    capture::{GenicamSpec, KinectSpec, OpenNiSpec, RealsenseSpec, SimulatedSpec, SourceSpec},
 };
 
 /// Width of a column, logical pixels.
@@ -90,6 +90,7 @@ pub(super) fn now(source: &Source) -> String {
             SourceSpec::Kinect(_) => "Kinect".to_owned(),
             SourceSpec::Genicam(_) => shortened(&spec.title(), 22),
             SourceSpec::OpenNi(_) => "OpenNI".to_owned(),
+            SourceSpec::Realsense(_) => "RealSense".to_owned(),
         },
     }
 }
@@ -212,6 +213,7 @@ fn cameras(ui: &mut Ui, chosen: Option<&SourceSpec>, actions: &mut Vec<Action>) 
             "Xtion, Astra (OpenNI)",
             SourceSpec::OpenNi(OpenNiSpec::default()),
         ),
+        ("RealSense", SourceSpec::Realsense(RealsenseSpec::default())),
     ] {
         let is_chosen = chosen.is_some_and(|chosen| discriminant(chosen) == discriminant(&spec));
         if ui.selectable_label(is_chosen, name).clicked() {

@@ -14,7 +14,7 @@
 )]
 
 use std::{
-    ffi::{CStr, CString, OsStr, OsString, c_char, c_int, c_uint, c_void},
+    ffi::{CStr, CString, c_char, c_int, c_uint, c_void},
     ops::Range,
     ptr::{self, NonNull},
     slice,
@@ -22,7 +22,7 @@ use std::{
     time::Duration,
 };
 
-use crate::error::lock;
+use crate::{capture::driver_search::driver_functions, error::lock};
 
 /// `ARV_BUFFER_STATUS_SUCCESS`.
 const SUCCESS: c_int = 0;
@@ -44,26 +44,7 @@ struct GError {
     message: *mut c_char,
 }
 
-/// The functions by name, and their types as the headers have them.
-macro_rules! functions {
-    ($($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
-        struct Functions {
-            $($name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
-        }
-
-        impl Functions {
-            fn look_up(library: &'static libloading::Library) -> Result<Self, &'static str> {
-                Ok(Self {
-                    // SAFETY: the types are those of the headers, and the library is never unloaded.
-                    $($name: *unsafe { library.get(stringify!($name).as_bytes()) }
-                        .or(Err(stringify!($name)))?,)*
-                })
-            }
-        }
-    };
-}
-
-functions! {
+driver_functions! {
     arv_update_device_list: fn();
     arv_get_n_devices: fn() -> c_uint;
     arv_get_device_id: fn(c_uint) -> *const c_char;
@@ -127,12 +108,6 @@ unsafe fn text(string: *const c_char) -> Option<String> {
     Some(string.to_string_lossy().into_owned())
 }
 
-/// A loaded library. It stays so until the process ends.
-pub(super) struct Library {
-    /// Or the first function that is missing.
-    functions: Result<Functions, &'static str>,
-}
-
 /// A camera that answered the search.
 pub(super) struct FoundDevice {
     /// What it is opened by.
@@ -142,23 +117,6 @@ pub(super) struct FoundDevice {
 }
 
 impl Library {
-    /// Loads the library of that name or path, or says why that cannot be done in the system's own words.
-    pub(super) fn load(name: &OsStr) -> Result<&'static Self, String> {
-        static LOADED: Mutex<Vec<(OsString, &'static Library)>> = Mutex::new(Vec::new());
-        let mut loaded = lock(&LOADED);
-        if let Some((_, library)) = loaded.iter().find(|(known, _)| known == name) {
-            return Ok(library);
-        }
-        // SAFETY: loading runs the library's initialisers: GLib registers its types there and starts nothing. A person
-        // who names another library by a setting runs that one's as if it had been started as a program.
-        let library =
-            unsafe { libloading::Library::new(name) }.map_err(|error| error.to_string())?;
-        let functions = Functions::look_up(Box::leak(Box::new(library)));
-        let library: &'static Self = Box::leak(Box::new(Self { functions }));
-        loaded.push((name.to_owned(), library));
-        Ok(library)
-    }
-
     /// The library if it has every function, else the first that it lacks.
     pub(super) fn complete(&'static self) -> Result<Aravis, &'static str> {
         match &self.functions {

@@ -16,7 +16,7 @@
 )]
 
 use std::{
-    ffi::{CStr, OsStr, OsString, c_char, c_int, c_void},
+    ffi::{CStr, c_char, c_int, c_void},
     ptr::{self, NonNull},
     sync::{
         Mutex,
@@ -33,34 +33,14 @@ use super::{
         STATE_END_OF_FILE, STATE_ERROR, SensorInfo, TIME_OUT, VideoMode,
     },
 };
-use crate::error::lock;
+use crate::{capture::driver_search::driver_functions, error::lock};
 
 /// Between the stop of a stream and its end. The thread that plays a file goes through the streams without a lock, all the
 /// time while one runs and every 10 ms once none does; a stream that ends meanwhile crashes it.
 const SETTLING: Duration = Duration::from_millis(100);
 
-/// The functions by name, and their types as the header has them.
-macro_rules! functions {
-    ($($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
-        #[derive(Clone, Copy)]
-        #[expect(non_snake_case, reason = "the names of the library")]
-        struct Functions {
-            $($name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
-        }
-
-        impl Functions {
-            fn look_up(library: &'static libloading::Library) -> Result<Self, &'static str> {
-                Ok(Self {
-                    // SAFETY: the types are those of OniCAPI.h 2.2, and the library is never unloaded.
-                    $($name: *unsafe { library.get(stringify!($name).as_bytes()) }
-                        .or(Err(stringify!($name)))?,)*
-                })
-            }
-        }
-    };
-}
-
-functions! {
+driver_functions! {
+    #[expect(non_snake_case, reason = "the names of the library")]
     oniInitialize: fn(c_int) -> c_int;
     oniShutdown: fn();
     oniGetExtendedError: fn() -> *const c_char;
@@ -81,31 +61,6 @@ functions! {
     oniWaitForAnyStream: fn(*mut *mut c_void, c_int, *mut c_int, c_int) -> c_int;
     oniStreamReadFrame: fn(*mut c_void, *mut *mut Frame) -> c_int;
     oniFrameRelease: fn(*mut Frame);
-}
-
-/// A loaded library. It stays so until the process ends.
-pub(super) struct Library {
-    /// Or the first function that is missing.
-    functions: Result<Functions, &'static str>,
-}
-
-impl Library {
-    /// Loads the library of that name or path, or says why that cannot be done in the system's own words.
-    pub(super) fn load(name: &OsStr) -> Result<&'static Self, String> {
-        static LOADED: Mutex<Vec<(OsString, &'static Library)>> = Mutex::new(Vec::new());
-        let mut loaded = lock(&LOADED);
-        if let Some((_, library)) = loaded.iter().find(|(known, _)| known == name) {
-            return Ok(library);
-        }
-        // SAFETY: loading runs the library's initialisers, which only set up its own objects; a person who names another
-        // library by a setting runs that one's as if it had been started as a program.
-        let library =
-            unsafe { libloading::Library::new(name) }.map_err(|error| error.to_string())?;
-        let functions = Functions::look_up(Box::leak(Box::new(library)));
-        let library: &'static Self = Box::leak(Box::new(Self { functions }));
-        loaded.push((name.to_owned(), library));
-        Ok(library)
-    }
 }
 
 /// A running library. Dropped, it shuts the library down.

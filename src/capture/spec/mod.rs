@@ -10,10 +10,12 @@
 //! kinect      kinect:A00366813142045A
 //! genicam     genicam:192.168.5.20              genicam,camera=scanner.json:Vendor-3D-1234
 //! openni      openni:1d27/0601@1/5           openni,pace=as-taken:monday.oni
+//! realsense   realsense,preset=High Accuracy:843112072752       realsense,pace=10:monday.db3
 //! ```
 
 mod genicam;
 mod options;
+mod realsense;
 mod simulated;
 
 use std::{
@@ -26,6 +28,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::genicam::{GenicamFormat, GenicamSpec};
 use self::options::{Options, escaped};
+pub use self::realsense::RealsenseSpec;
 pub use self::simulated::{CellScene, SimulatedPose, SimulatedSpec};
 use super::recording::is_sequence;
 use crate::error::Advice;
@@ -46,6 +49,8 @@ pub enum SourceSpec {
     Genicam(GenicamSpec),
     /// A camera of OpenNI, or a file that OpenNI recorded.
     OpenNi(OpenNiSpec),
+    /// A RealSense camera, or a file that librealsense recorded.
+    Realsense(RealsenseSpec),
 }
 
 /// A folder of frames to be replayed.
@@ -113,12 +118,18 @@ pub struct OpenNiSpec {
 impl OpenNiSpec {
     /// The file to be played; `None` for a camera.
     pub fn file(&self) -> Option<&Path> {
-        let path = Path::new(self.device.as_ref()?);
-        let is_file = path
-            .extension()
-            .is_some_and(|end| end.eq_ignore_ascii_case("oni"));
-        is_file.then_some(path)
+        recorded_file(self.device.as_deref(), &["oni"])
     }
+}
+
+/// What is named in place of a camera, if it is a file with one of these endings.
+fn recorded_file<'a>(device: Option<&'a str>, endings: &[&str]) -> Option<&'a Path> {
+    let path = Path::new(device?);
+    let ending = path.extension()?;
+    let mut endings = endings.iter();
+    endings
+        .any(|known| ending.eq_ignore_ascii_case(known))
+        .then_some(path)
 }
 
 /// A text that names no source.
@@ -126,7 +137,7 @@ impl OpenNiSpec {
 pub enum SpecError {
     /// The word before the colon.
     #[error(
-        "{text:?} is no source, expected one that begins with simulated, recording, watch, kinect, genicam or openni"
+        "{text:?} is no source, expected one that begins with simulated, recording, watch, kinect, genicam, openni or realsense"
     )]
     UnknownKind {
         /// The whole text.
@@ -184,6 +195,7 @@ const WATCH: &str = "watch";
 const KINECT: &str = "kinect";
 const GENICAM: &str = "genicam";
 const OPENNI: &str = "openni";
+const REALSENSE: &str = "realsense";
 
 impl SourceSpec {
     /// True for the simulated cell itself; a recording says by itself whether it was simulated.
@@ -198,6 +210,7 @@ impl SourceSpec {
             Self::Simulated(_) | Self::Kinect(_) | Self::Genicam(_) => true,
             Self::Recording(RecordingSpec { pace, .. }) => is_running(*pace),
             Self::OpenNi(spec) => spec.file().is_none() || is_running(spec.pace),
+            Self::Realsense(spec) => spec.file().is_none() || is_running(spec.pace),
             Self::Watched(_) => false,
         }
     }
@@ -206,7 +219,11 @@ impl SourceSpec {
     /// captures that stand for themselves.
     pub fn is_followed(&self) -> bool {
         match self {
-            Self::Simulated(_) | Self::Kinect(_) | Self::Genicam(_) | Self::OpenNi(_) => true,
+            Self::Simulated(_)
+            | Self::Kinect(_)
+            | Self::Genicam(_)
+            | Self::OpenNi(_)
+            | Self::Realsense(_) => true,
             Self::Recording(recording) => is_sequence(&recording.folder),
             Self::Watched(_) => false,
         }
@@ -218,6 +235,9 @@ impl SourceSpec {
         match &mut self {
             Self::Recording(recording) => recording.pace = recording.pace.or(Some(pace)),
             Self::OpenNi(spec) if spec.file().is_some() => spec.pace = spec.pace.or(Some(pace)),
+            Self::Realsense(spec) if spec.file().is_some() => {
+                spec.pace = spec.pace.or(Some(pace));
+            }
             _ => {}
         }
         self
@@ -230,6 +250,7 @@ impl SourceSpec {
             Self::Recording(spec) => format!("Recording {}", spec.folder.display()),
             Self::Watched(spec) => format!("Folder {}", spec.folder.display()),
             Self::Genicam(spec) => spec.title(),
+            Self::Realsense(spec) => spec.title(),
             Self::Kinect(KinectSpec { serial: None, .. }) => "Kinect".into(),
             Self::Kinect(KinectSpec {
                 serial: Some(serial),
@@ -316,6 +337,10 @@ impl FromStr for SourceSpec {
                 }
                 Ok(Self::OpenNi(spec))
             }
+            REALSENSE => {
+                let options = Options::split(REALSENSE, options, RealsenseSpec::OPTIONS)?;
+                RealsenseSpec::read(what, &options).map(Self::Realsense)
+            }
             _ => Err(SpecError::UnknownKind {
                 text: text.to_owned(),
             }),
@@ -365,6 +390,7 @@ impl fmt::Display for SourceSpec {
                 write!(f, ":{}", folder.display())
             }
             Self::Genicam(spec) => spec.write(f),
+            Self::Realsense(spec) => spec.write(f),
             Self::Kinect(KinectSpec { serial, library }) => {
                 f.write_str(KINECT)?;
                 write_camera(f, library.as_deref(), serial.as_deref())
@@ -452,6 +478,11 @@ mod tests {
             "openni:1d27/0601@1/5",
             "openni,library=/opt/ni2:C:\\monday, 1.oni",
             "openni,pace=2.5:monday.ONI",
+            "realsense",
+            "realsense:843112072752",
+            "realsense,preset=High Accuracy,library=/opt/rs:843112072752",
+            "realsense,pace=step:C:\\monday, 1.bag",
+            "realsense,pace=2.5:monday.DB3",
         ] {
             assert_eq!(read(text).to_string(), text);
             let json = serde_json::to_string(&read(text)).unwrap();
@@ -484,6 +515,14 @@ mod tests {
         let file = read("openni:a.oni");
         assert!(!file.is_live() && file.is_followed());
         assert!(file.paced(Pace::AsTaken).is_live());
+        let camera = read("realsense:843112072752");
+        assert!(camera.is_live() && camera.clone().paced(Pace::Step) == camera);
+        for text in ["realsense:a.bag", "realsense:a.db3"] {
+            let file = read(text);
+            assert!(!file.is_live() && file.is_followed());
+            assert_eq!(file.title(), text.replace("realsense:", "Recording "));
+            assert!(file.paced(Pace::AsTaken).is_live());
+        }
     }
 
     #[test]
@@ -508,6 +547,10 @@ mod tests {
             ("openni,pace=step", "ends in .oni"),
             ("openni,pace=step:1d27/0601@1/5", "ends in .oni"),
             ("openni,pace=0:a.oni", "frames a second"),
+            ("realsense,pace=step:843112072752", "ends in .bag or .db3"),
+            ("realsense,preset=Default:a.bag", "a camera and no file"),
+            ("realsense,preset=", "expected a name"),
+            ("realsense,format=Z16", "preset pace library"),
         ] {
             let error = text.parse::<SourceSpec>().expect_err(text);
             assert!(error.to_string().contains(words), "{text}: {error}");

@@ -355,7 +355,8 @@ fn num_frames(spec: &SourceSpec) -> usize {
         | SourceSpec::Recording(_)
         | SourceSpec::Kinect(_)
         | SourceSpec::Genicam(_)
-        | SourceSpec::OpenNi(_) => USUAL_FRAMES,
+        | SourceSpec::OpenNi(_)
+        | SourceSpec::Realsense(_) => USUAL_FRAMES,
     }
 }
 

@@ -1,0 +1,333 @@
+//! Why there is no picture from a RealSense camera, and what to do about it.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::VARIABLE;
+use crate::{
+    capture::{Recovery, driver_search::NotLoaded},
+    error::Advice,
+};
+
+/// Why a RealSense camera or a file of one cannot be used, or gives nothing more.
+#[derive(Debug, Error)]
+pub enum RealsenseError {
+    /// The system has no librealsense.
+    #[error("librealsense2, the library for RealSense cameras, is not installed")]
+    NoLibrary,
+    /// The place that a setting names has none.
+    #[error("{}: no librealsense2 there", path.display())]
+    LibraryNotAt {
+        /// The file or folder, as it was given.
+        path: PathBuf,
+    },
+    /// There is one and the system cannot load it.
+    #[error("{library} cannot be loaded: {reason}")]
+    LibraryUnusable {
+        /// Its name or path.
+        library: String,
+        /// The system's words.
+        reason: String,
+    },
+    /// It is older, or no librealsense at all.
+    #[error("{library} has no function {symbol}: not librealsense 2.30 or a newer 2")]
+    MissingSymbol {
+        /// Its name or path.
+        library: String,
+        /// The function.
+        symbol: &'static str,
+    },
+    /// The library does not start.
+    #[error("librealsense2 does not start: {said}")]
+    LibraryNotStarted {
+        /// What the library says.
+        said: String,
+    },
+    /// Nothing is plugged in.
+    #[error("no RealSense camera is plugged in")]
+    NoDevice,
+    /// Another one than the one asked for is plugged in.
+    #[error("no RealSense camera {serial} is plugged in, only {}", found.join(", "))]
+    NoSuchDevice {
+        /// The serial number asked for.
+        serial: String,
+        /// Those there are.
+        found: Vec<String>,
+    },
+    /// It is plugged in and does not open.
+    #[error("the RealSense camera does not open: {said}")]
+    NotOpened {
+        /// What the library says.
+        said: String,
+    },
+    /// It has no depth of 16 bits: a tracking camera, or one that waits for its firmware.
+    #[error("{title} has no depth")]
+    NoDepth {
+        /// The camera or file.
+        title: String,
+    },
+    /// It has no preset of that name.
+    #[error("{title} has no preset {preset:?}{}", only(offered))]
+    NoSuchPreset {
+        /// The camera.
+        title: String,
+        /// The one asked for.
+        preset: String,
+        /// Those there are.
+        offered: Vec<String>,
+    },
+    /// Its depth image is distorted in a way that is not read here.
+    #[error(
+        "{title} gives the distortion of its depth image by the {model} model, which Partsight does not read"
+    )]
+    UnknownLens {
+        /// The camera or file.
+        title: String,
+        /// The model of its lens.
+        model: &'static str,
+    },
+    /// Its numbers are those of no camera.
+    #[error("{title} tells numbers that no camera has: {what}")]
+    BadNumbers {
+        /// The camera or file.
+        title: String,
+        /// The numbers.
+        what: String,
+    },
+    /// It opens, and its stream does not start.
+    #[error("the RealSense camera does not start: {said}")]
+    NotStarted {
+        /// What the library says.
+        said: String,
+    },
+    /// It was unplugged, or reports an error of its own.
+    #[error("the RealSense camera is gone{}", said.as_ref().map(|said| format!(": {said}")).unwrap_or_default())]
+    Lost {
+        /// What the library says.
+        said: Option<String>,
+    },
+    /// It is there and sends nothing.
+    #[error("the RealSense camera sent nothing for {seconds} s")]
+    Silent {
+        /// How long.
+        seconds: u64,
+    },
+    /// A recorded file is none, or is damaged.
+    #[error("{}: {what}", path.display())]
+    FileUnusable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
+}
+
+impl From<NotLoaded> for RealsenseError {
+    fn from(error: NotLoaded) -> Self {
+        match error {
+            NotLoaded::Absent => Self::NoLibrary,
+            NotLoaded::NotAt(path) => Self::LibraryNotAt { path },
+            NotLoaded::Unusable { library, reason } => Self::LibraryUnusable { library, reason },
+        }
+    }
+}
+
+impl RealsenseError {
+    /// What helps: a camera may be plugged in, let go or permitted at any time; a library or a file does not come by
+    /// itself.
+    pub(crate) fn recovery(&self) -> Recovery {
+        match self {
+            Self::NoDevice
+            | Self::NoSuchDevice { .. }
+            | Self::NotOpened { .. }
+            | Self::NotStarted { .. }
+            | Self::Lost { .. }
+            | Self::Silent { .. } => Recovery::Reopen,
+            Self::NoLibrary
+            | Self::LibraryNotAt { .. }
+            | Self::LibraryUnusable { .. }
+            | Self::MissingSymbol { .. }
+            | Self::LibraryNotStarted { .. }
+            | Self::NoDepth { .. }
+            | Self::NoSuchPreset { .. }
+            | Self::UnknownLens { .. }
+            | Self::BadNumbers { .. }
+            | Self::FileUnusable { .. } => Recovery::None,
+        }
+    }
+
+    /// The same of a file, whose troubles have other causes than a camera's.
+    pub(super) fn of_file(self, path: &Path) -> Self {
+        let what = match self {
+            Self::NotOpened { said } | Self::NotStarted { said } => {
+                format!("librealsense cannot play it: {said}")
+            }
+            Self::Lost { said } => {
+                let said = said.map(|said| format!(": {said}")).unwrap_or_default();
+                format!("librealsense cannot play it on{said}")
+            }
+            Self::Silent { .. } => "it has no depth image that can be read".to_owned(),
+            other => return other,
+        };
+        Self::FileUnusable {
+            path: path.to_path_buf(),
+            what,
+        }
+    }
+}
+
+fn only(offered: &[String]) -> String {
+    if offered.is_empty() {
+        String::new()
+    } else {
+        format!(", only {}", offered.join(", "))
+    }
+}
+
+const INSTALL: &str = if cfg!(target_os = "macos") {
+    "brew install librealsense"
+} else if cfg!(windows) {
+    "put realsense2.dll beside the program"
+} else {
+    "librealsense2 from https://github.com/realsenseai/librealsense/blob/master/doc/distribution_linux.md"
+};
+
+impl Advice for RealsenseError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoLibrary => format!(
+                "Install it ({INSTALL}), or set {VARIABLE} to the folder that holds it"
+            ),
+            Self::LibraryNotAt { .. } => format!(
+                "Correct the source's library option or {VARIABLE}, or leave both out to use the system's librealsense2"
+            ),
+            Self::LibraryUnusable { .. } => {
+                format!("Install the librealsense2 of this system with all that it needs ({INSTALL})")
+            }
+            Self::MissingSymbol { .. } | Self::LibraryNotStarted { .. } => {
+                format!("Install a newer librealsense 2 ({INSTALL})")
+            }
+            Self::NoDevice => {
+                "Plug the camera in, with a cable for USB 3; if it is, install the udev rule that lets your user open it".into()
+            }
+            Self::NoSuchDevice { .. } => {
+                "Plug that one in, or list the cameras and choose another: partsight capture --list".into()
+            }
+            Self::NotOpened { .. } => {
+                "Close other programs that use the camera; if there are none, install the udev rule that lets your user open it, and plug it in again".into()
+            }
+            Self::NoDepth { .. } => {
+                "Use a depth camera, and update its firmware with its maker's RealSense Viewer".into()
+            }
+            Self::NoSuchPreset { offered, .. } if offered.is_empty() => {
+                "Leave the source's preset option out".into()
+            }
+            Self::NoSuchPreset { .. } => {
+                "Leave the source's preset option out, or name one that the camera has".into()
+            }
+            Self::UnknownLens { .. } => {
+                "Use a camera whose depth image is not distorted, such as one of the D400 family".into()
+            }
+            Self::BadNumbers { .. } => {
+                "Restore the camera's factory calibration with its maker's RealSense Viewer".into()
+            }
+            Self::NotStarted { .. } => {
+                "Close other programs that use the camera; if there are none, plug it into another USB 3 socket, with no other camera on the same hub".into()
+            }
+            Self::Lost { .. } => "Check the camera's cable".into(),
+            Self::Silent { .. } => {
+                "Plug the camera into a USB 3 socket of the computer itself, not of a hub".into()
+            }
+            Self::FileUnusable { .. } => {
+                "Check the name, or copy or record the file again".into()
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_trouble_has_a_sentence_and_an_advice_of_its_own() {
+        let (library, title, said) = (String::from("lib"), String::from("It"), String::from("no"));
+        let errors = [
+            RealsenseError::NoLibrary,
+            RealsenseError::LibraryNotAt {
+                path: "/opt".into(),
+            },
+            RealsenseError::LibraryUnusable {
+                library: library.clone(),
+                reason: "no ELF".into(),
+            },
+            RealsenseError::MissingSymbol {
+                library,
+                symbol: "rs2_open",
+            },
+            RealsenseError::NoDevice,
+            RealsenseError::NoSuchDevice {
+                serial: "1".into(),
+                found: vec!["2".into()],
+            },
+            RealsenseError::NotOpened { said: said.clone() },
+            RealsenseError::NoDepth {
+                title: title.clone(),
+            },
+            RealsenseError::NoSuchPreset {
+                title: title.clone(),
+                preset: "High".into(),
+                offered: vec!["Default".into()],
+            },
+            RealsenseError::NoSuchPreset {
+                title: title.clone(),
+                preset: "High".into(),
+                offered: Vec::new(),
+            },
+            RealsenseError::UnknownLens {
+                title: title.clone(),
+                model: "F-Theta",
+            },
+            RealsenseError::BadNumbers {
+                title,
+                what: "a focal length of 0".into(),
+            },
+            RealsenseError::NotStarted { said: said.clone() },
+            RealsenseError::Lost { said: Some(said) },
+            RealsenseError::Silent { seconds: 5 },
+            RealsenseError::FileUnusable {
+                path: "a.bag".into(),
+                what: "cut off".into(),
+            },
+        ];
+        let advice: std::collections::BTreeSet<String> =
+            errors.iter().map(Advice::advice).collect();
+        assert_eq!(advice.len(), errors.len());
+        for error in &errors {
+            let text = format!("{error}. {}", error.advice());
+            assert!(
+                !text.contains('\n') && !error.advice().ends_with('.'),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_keeps_a_file_from_playing_names_the_file() {
+        let path = Path::new("a.bag");
+        let said = || "bad header".to_owned();
+        for error in [
+            RealsenseError::NotOpened { said: said() },
+            RealsenseError::NotStarted { said: said() },
+            RealsenseError::Lost { said: Some(said()) },
+        ] {
+            let error = error.of_file(path);
+            assert!(error.to_string().starts_with("a.bag: "), "{error}");
+            assert!(error.to_string().ends_with(": bad header"), "{error}");
+            assert_eq!(error.recovery(), Recovery::None);
+        }
+        let other = RealsenseError::NoLibrary.of_file(path);
+        assert!(matches!(other, RealsenseError::NoLibrary), "{other}");
+    }
+}
