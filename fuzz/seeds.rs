@@ -162,7 +162,7 @@ fn texts(folder: &Path) -> Outcome {
         ("frame-poses", format!(r#"{{"frames":{{"a.png":{{"world_from_camera":{numbers}}},"b.png":{{"robot_from_flange":{numbers}}}}}}}"#)),
         ("coat", built_in_coat("primer").ok_or("no primer")?.text()),
         ("stripe", "offset_mm,thickness_um\n-50,3\n0,40\n50,3\n".to_owned()),
-        ("arm-model", "name = \"Cell 3\"\nlengths_mm = [150, -200, 0, 505, 760, 795, 100]\noffsets_deg = [0, 0, -90, 0, 0, 180]\nsigns = [1, 1, -1, -1, -1, -1]\nlimits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]\nspeeds_deg_s = [210, 210, 265, 420, 420, 885]\n[rail]\ndirection = [0, 1, 0]\nfrom_mm = -2000\nto_mm = 2000\nspeed_mm_s = 1000\n".to_owned()),
+        ("arm-model", "name = \"Cell 3\"\nlengths_mm = [150, -200, 0, 505, 760, 795, 100]\noffsets_deg = [0, 0, -90, 0, 0, 180]\nsigns = [1, 1, -1, -1, -1, -1]\nlimits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]\nspeeds_deg_s = [210, 210, 265, 420, 420, 885]\naccelerations_deg_s2 = [600, 600, 700, 1500, 1500, 2500]\n[rail]\ndirection = [0, 1, 0]\nfrom_mm = -2000\nto_mm = 2000\nspeed_mm_s = 1000\nacceleration_mm_s2 = 2000\n".to_owned()),
         ("obstacles", "floor_mm = -600\n[[box]]\nname = \"hanger\"\ncentre_mm = [1200, 0, 1900]\nsize_mm = [1500, 100, 100]\nangles_deg = [0, 0, 30]\n".to_owned()),
         ("sequence", "# timestamp filename\n1305031102.160400 depth/0.png\n".to_owned()),
     ] {

@@ -63,11 +63,11 @@ pub(super) struct ProgramOptions {
 #[derive(Debug, Args)]
 pub(super) struct CellChoice {
     /// The rail that the arm stands on: its axis in the frame of the calibration (x, y, z, -x, -y or -z), where it begins and
-    /// ends in mm from where the cell was calibrated, and its top speed in mm/s if it moves along the path, as in
-    /// y,-2000,2000,1000. It takes the place of the rail in the arm's file
+    /// ends in mm from where the cell was calibrated, and, if it moves along the path, its top speed in mm/s and its greatest
+    /// acceleration in mm/s², as in y,-2000,2000,1000,2000. It takes the place of the rail in the arm's file
     #[arg(
         long,
-        value_name = "AXIS,FROM,TO[,SPEED]",
+        value_name = "AXIS,FROM,TO[,SPEED[,ACCELERATION]]",
         allow_hyphen_values = true,
         requires = "arm"
     )]

@@ -23,6 +23,36 @@ impl Segment {
         (self.to - self.from).norm()
     }
 
+    /// The same segment from its end to its beginning.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Self {
+            from: self.to,
+            to: self.from,
+        }
+    }
+
+    /// What of it lies behind the last place that is within `radius` metres of a point; none if its end is.
+    pub fn beyond(&self, point: &Point3<f64>, radius: f64) -> Option<Self> {
+        if (self.to - point).norm() < radius {
+            return None;
+        }
+        let (apart, way) = (self.from - point, self.to - self.from);
+        // The shares at which it passes the sphere: the roots of a·s² + 2·b·s + c.
+        let (a, b) = (way.norm_squared(), apart.dot(&way));
+        let c = apart.norm_squared() - radius * radius;
+        let root = b * b - a * c;
+        let last = if a > 0.0 && root > 0.0 {
+            ((root.sqrt() - b) / a).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        Some(Self {
+            from: self.from + way * last,
+            to: self.to,
+        })
+    }
+
     /// The same segment in another frame.
     #[must_use]
     pub fn moved(&self, transform: &RigidTransform) -> Self {
@@ -189,6 +219,31 @@ mod tests {
                 "{a:?} {b:?}"
             );
         }
+    }
+
+    #[test]
+    fn what_is_beyond_a_sphere_begins_where_it_leaves_it() {
+        let centre = Point3::new(1.0, 0.0, 0.0);
+        for (from, to, wanted) in [
+            // From within, through it, before it, aside, and not at all.
+            ([1.0, 0.0, 0.0], [4.0, 0.0, 0.0], Some([1.5, 0.0, 0.0])),
+            ([-4.0, 0.0, 0.0], [4.0, 0.0, 0.0], Some([1.5, 0.0, 0.0])),
+            ([3.0, 0.0, 0.0], [4.0, 0.0, 0.0], Some([3.0, 0.0, 0.0])),
+            ([-4.0, 0.6, 0.0], [4.0, 0.6, 0.0], Some([-4.0, 0.6, 0.0])),
+            ([2.0, 0.0, 0.0], [2.0, 0.0, 0.0], Some([2.0, 0.0, 0.0])),
+            ([4.0, 0.0, 0.0], [1.4, 0.0, 0.0], None),
+        ] {
+            let any = segment(from, to);
+            let found = any.beyond(&centre, 0.5);
+            assert_eq!(found.map(|found| found.to), wanted.map(|_| any.to));
+            let off = found.zip(wanted).map(|(found, wanted)| {
+                let wanted = Point3::from(wanted);
+                (found.from - wanted).norm()
+            });
+            assert!(off.unwrap_or(0.0) < 1e-12, "{any:?}: {found:?}");
+        }
+        let back = segment([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]).reversed();
+        assert_eq!(back, segment([4.0, 5.0, 6.0], [1.0, 2.0, 3.0]));
     }
 
     #[test]

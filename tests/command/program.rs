@@ -148,6 +148,53 @@ fn a_path_is_checked_against_an_arm() {
 }
 
 #[test]
+fn accelerations_are_checked_where_their_limits_are_known() {
+    let shop = Workplace::new();
+    let cell = "kuka 470 0 1350 -90 0 -90";
+    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+    hang(&shop, "front_door");
+    store_path(&shop);
+    let check = |code: i32, arm: &str, more: &[&str]| {
+        let check = ["path", "check", "front_door", "--arm", arm];
+        let nozzle = ["--nozzle", "kuka 0 0 250 0 -45 0"];
+        shop.coded(code, &[&check[..], &nozzle, more].concat())
+    };
+    let ran = check(0, "irb4600", &[]);
+    let unchecked = "not checked: the acceleration of its joints";
+    assert!(ran.out.contains(unchecked), "{}", ran.out);
+    let line = check(0, "irb4600", &["--json"]).json();
+    assert_eq!(line["unchecked_accelerations"], "joints");
+    // The same arm with limits.
+    let arm = |limit: u32| {
+        shop.write(
+            "arm.toml",
+            &format!(
+                "name = \"Cell 3\"\nlengths_mm = [175, -175, 0, 495, 1095, 1270, 135]\n\
+                 offsets_deg = [0, 0, -90, 0, 0, 0]\nsigns = [1, 1, 1, 1, 1, 1]\n\
+                 limits_deg = [[-180, 180], [-90, 150], [-180, 75], [-400, 400], [-125, 120], [-400, 400]]\n\
+                 speeds_deg_s = [175, 175, 175, 250, 250, 360]\nradii_mm = [200, 170, 110]\n\
+                 accelerations_deg_s2 = [{limit}, {limit}, {limit}, {limit}, {limit}, {limit}]\n"
+            ),
+        );
+    };
+    arm(50_000);
+    let ran = check(0, "arm.toml", &[]);
+    assert!(!ran.out.contains("not checked"), "{}", ran.out);
+    let line = check(0, "arm.toml", &["--json"]).json();
+    assert!(line["unchecked_accelerations"].is_null(), "{line}");
+    // From the approach into the row and out of it the nozzle turns off by a right angle.
+    arm(10);
+    let ran = check(1, "arm.toml", &[]);
+    assert!(ran.out.contains("degrees/s² and has 10"), "{}", ran.out);
+    assert!(ran.out.contains("to do: lower the speed"), "{}", ran.out);
+    let line = check(1, "arm.toml", &["--json"]).json();
+    assert_eq!(line["points"][0]["problem_kind"], "joint_acceleration");
+    let rail = ["--rail", "-y,-1500,2500,1000", "--json"];
+    let line = check(1, "arm.toml", &rail).json();
+    assert_eq!(line["unchecked_accelerations"], "rail");
+}
+
+#[test]
 fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
     let shop = Workplace::new();
     // The camera looks along x of the robot's base, which sees the door 1.7 m ahead.

@@ -239,6 +239,7 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     assert_eq!(session(&harness).nozzle, "kuka 0 0 250 0 45 0");
     // From where the calibration has it, it does not reach all.
     harness.get_by_label_contains("ABB IRB 4600-40/2.55 misses");
+    harness.get_by_label_contains("Accelerations of the joints are not checked");
     press(&mut harness, "Show next");
     // A box around everything that the arm could reach.
     let boxes = folder.path().join("boxes.toml");

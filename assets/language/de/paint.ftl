@@ -118,7 +118,7 @@ paint-arm-title = Einen Arm öffnen
 paint-nozzle = Düse am Flansch
 paint-nozzle-hint = Wo die Düsenöffnung am Flansch sitzt, z in Strahlrichtung: eine Konvention und sechs Zahlen oder die 16 Zahlen einer Matrix
 paint-rail = Schiene
-paint-rail-hint = Die Schiene, auf der der Arm steht: Achse der Kalibrierung, Anfang und Ende in mm und, wenn sie entlang der Bahn fährt, Höchstgeschwindigkeit in mm/s. Leer: die aus der Datei des Arms
+paint-rail-hint = Die Schiene, auf der der Arm steht: Achse der Kalibrierung, Anfang und Ende in mm und, wenn sie entlang der Bahn fährt, Höchstgeschwindigkeit in mm/s und, falls bekannt, Beschleunigung in mm/s². Leer: die aus der Datei des Arms
 paint-no-obstacles = Nur das Teil
 paint-obstacles = Hindernisse: { $file }
 paint-obstacles-hint = Woran Pistole und Arm außer dem Teil nicht stoßen dürfen: Quader der Zelle und ihr Boden, aus einer TOML-Datei
@@ -141,6 +141,15 @@ paint-joint-limit = Achse { $joint } über ihrer Grenze
 paint-near-singularity = nahe einer Singularität
 paint-joint-too-fast = Achse { $joint } zu langsam
 paint-rail-too-fast = Schiene zu langsam
+paint-joint-acceleration = Achse { $joint } beschleunigt zu langsam
+paint-rail-acceleration = Schiene beschleunigt zu langsam
+paint-acceleration-advice = Langsamer fahren, wo zu langsam beschleunigt wird, oder Ecken mit größerem Radius fahren
+paint-unchecked-accelerations =
+    { $what ->
+        [joints] Beschleunigungen der Achsen sind ungeprüft: keine Grenzen bekannt
+        [rail] Beschleunigung der Schiene ist ungeprüft: keine Grenze bekannt
+       *[both] Beschleunigungen von Achsen und Schiene sind ungeprüft: keine Grenzen bekannt
+    }
 paint-arm-folds-over = der Arm müsste umschlagen
 paint-collisions = Kollisionen
 paint-num-collisions =
@@ -175,9 +184,15 @@ paint-near-upper-arm =
         [gun] Pistole zu nah am Oberarm
        *[wrist] Handgelenk zu nah am Oberarm
     }
+paint-near-forearm =
+    { $body ->
+        [wrist] Handgelenk zu nah am Unterarm
+       *[gun] Pistole zu nah am Unterarm
+    }
 paint-near-base-column =
     { $body ->
         [gun] Pistole zu nah am Sockel
+        [forearm] Unterarm zu nah am Sockel
        *[wrist] Handgelenk zu nah am Sockel
     }
 paint-show-unreached = Nächsten zeigen

@@ -118,7 +118,7 @@ paint-arm-title = Open an arm
 paint-nozzle = Nozzle on the flange
 paint-nozzle-hint = Where the nozzle's mouth is on the flange, z the way it points: a convention and six numbers, or the 16 numbers of a matrix
 paint-rail = Rail
-paint-rail-hint = The rail that the arm stands on: axis of the calibration, from and to in mm and, if it moves along the path, top speed in mm/s. Empty: that of the arm's file
+paint-rail-hint = The rail that the arm stands on: axis of the calibration, from and to in mm and, if it moves along the path, top speed in mm/s and, if known, acceleration in mm/s². Empty: that of the arm's file
 paint-no-obstacles = Only the part
 paint-obstacles = Obstacles: { $file }
 paint-obstacles-hint = What gun and arm must not run into beside the part: boxes of the cell and its floor, from a TOML file
@@ -141,6 +141,15 @@ paint-joint-limit = joint { $joint } beyond its limit
 paint-near-singularity = near a singularity
 paint-joint-too-fast = joint { $joint } too slow
 paint-rail-too-fast = rail too slow
+paint-joint-acceleration = joint { $joint } accelerates too slowly
+paint-rail-acceleration = rail accelerates too slowly
+paint-acceleration-advice = Run slower where it accelerates too slowly, or round the corners in a larger radius
+paint-unchecked-accelerations =
+    { $what ->
+        [joints] Accelerations of the joints are not checked: no limits are known
+        [rail] The acceleration of the rail is not checked: no limit is known
+       *[both] Accelerations of joints and rail are not checked: no limits are known
+    }
 paint-arm-folds-over = the arm would fold over
 paint-collisions = Collisions
 paint-num-collisions =
@@ -175,9 +184,15 @@ paint-near-upper-arm =
         [gun] gun too near to the upper arm
        *[wrist] wrist too near to the upper arm
     }
+paint-near-forearm =
+    { $body ->
+        [wrist] wrist too near to the forearm
+       *[gun] gun too near to the forearm
+    }
 paint-near-base-column =
     { $body ->
         [gun] gun too near to the base column
+        [forearm] forearm too near to the base column
        *[wrist] wrist too near to the base column
     }
 paint-show-unreached = Show next

@@ -118,7 +118,7 @@ paint-arm-title = Abrir un brazo
 paint-nozzle = Boquilla en la brida
 paint-nozzle-hint = Dónde está la boquilla en la brida, z hacia donde apunta: una convención y seis números, o los 16 números de una matriz
 paint-rail = Carril
-paint-rail-hint = El carril sobre el que está el brazo: eje de la calibración, inicio y fin en mm y, si se mueve a lo largo de la trayectoria, velocidad máxima en mm/s. Vacío: el del archivo del brazo
+paint-rail-hint = El carril sobre el que está el brazo: eje de la calibración, inicio y fin en mm y, si se mueve a lo largo de la trayectoria, velocidad máxima en mm/s y, si se conoce, aceleración en mm/s². Vacío: el del archivo del brazo
 paint-no-obstacles = Solo la pieza
 paint-obstacles = Obstáculos: { $file }
 paint-obstacles-hint = Con qué no deben chocar la pistola y el brazo además de la pieza: cajas de la celda y su suelo, de un archivo TOML
@@ -141,6 +141,15 @@ paint-joint-limit = eje { $joint } más allá de su límite
 paint-near-singularity = cerca de una singularidad
 paint-joint-too-fast = eje { $joint } demasiado lento
 paint-rail-too-fast = carril demasiado lento
+paint-joint-acceleration = eje { $joint } acelera demasiado despacio
+paint-rail-acceleration = el carril acelera demasiado despacio
+paint-acceleration-advice = Reduzca la velocidad donde acelera demasiado despacio, o redondee las esquinas con un radio mayor
+paint-unchecked-accelerations =
+    { $what ->
+        [joints] No se comprueban las aceleraciones de los ejes: no se conocen sus límites
+        [rail] No se comprueba la aceleración del carril: no se conoce su límite
+       *[both] No se comprueban las aceleraciones de los ejes y del carril: no se conocen sus límites
+    }
 paint-arm-folds-over = el brazo tendría que voltearse
 paint-collisions = Colisiones
 paint-num-collisions =
@@ -175,9 +184,15 @@ paint-near-upper-arm =
         [gun] pistola demasiado cerca del brazo superior
        *[wrist] muñeca demasiado cerca del brazo superior
     }
+paint-near-forearm =
+    { $body ->
+        [wrist] muñeca demasiado cerca del antebrazo
+       *[gun] pistola demasiado cerca del antebrazo
+    }
 paint-near-base-column =
     { $body ->
         [gun] pistola demasiado cerca de la columna de la base
+        [forearm] antebrazo demasiado cerca de la columna de la base
        *[wrist] muñeca demasiado cerca de la columna de la base
     }
 paint-show-unreached = Mostrar el siguiente

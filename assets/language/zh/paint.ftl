@@ -118,7 +118,7 @@ paint-arm-title = 打开机械臂
 paint-nozzle = 喷嘴在法兰上的位置
 paint-nozzle-hint = 喷嘴口在法兰上的位置，z 为喷射方向：约定名加六个数，或矩阵的 16 个数
 paint-rail = 导轨
-paint-rail-hint = 机械臂所在的导轨：标定坐标系的轴、起点和终点（mm）；若沿轨迹移动，再写最高速度（mm/s）。留空：用机械臂文件中的导轨
+paint-rail-hint = 机械臂所在的导轨：标定坐标系的轴、起点和终点（mm）；若沿轨迹移动，再写最高速度（mm/s），已知时再写加速度（mm/s²）。留空：用机械臂文件中的导轨
 paint-no-obstacles = 仅零件
 paint-obstacles = 障碍物：{ $file }
 paint-obstacles-hint = 除零件外喷枪和机械臂不能碰到的东西：工位中的长方体和地面，来自 TOML 文件
@@ -141,6 +141,15 @@ paint-joint-limit = 关节 { $joint } 超出限位
 paint-near-singularity = 接近奇异点
 paint-joint-too-fast = 关节 { $joint } 太慢
 paint-rail-too-fast = 导轨太慢
+paint-joint-acceleration = 关节 { $joint } 加速太慢
+paint-rail-acceleration = 导轨加速太慢
+paint-acceleration-advice = 在加速太慢处降低速度，或加大拐角半径
+paint-unchecked-accelerations =
+    { $what ->
+        [joints] 未检查关节加速度：限值未知
+        [rail] 未检查导轨加速度：限值未知
+       *[both] 未检查关节和导轨加速度：限值未知
+    }
 paint-arm-folds-over = 机械臂需要翻转
 paint-collisions = 碰撞
 paint-num-collisions =
@@ -174,9 +183,15 @@ paint-near-upper-arm =
         [gun] 喷枪离上臂太近
        *[wrist] 手腕离上臂太近
     }
+paint-near-forearm =
+    { $body ->
+        [wrist] 手腕离前臂太近
+       *[gun] 喷枪离前臂太近
+    }
 paint-near-base-column =
     { $body ->
         [gun] 喷枪离底座太近
+        [forearm] 前臂离底座太近
        *[wrist] 手腕离底座太近
     }
 paint-show-unreached = 显示下一个

@@ -26,8 +26,8 @@ pub struct ProgramSetup {
     pub arm: Option<String>,
     /// Where the nozzle is on the flange, as a person wrote it: `kuka X Y Z A B C`, or the 16 numbers of a matrix.
     pub nozzle: String,
-    /// The rail that the arm stands on, as a person wrote it: axis, from, to and, if it moves along the path, top speed, such as
-    /// `y,-2000,2000,1000`; empty: that of the arm's file.
+    /// The rail that the arm stands on, as a person wrote it: axis, from, to and, if it moves along the path, top speed and
+    /// acceleration, such as `y,-2000,2000,1000,2000`; empty: that of the arm's file.
     pub rail: String,
     /// The boxes of the cell and its floor, as a TOML file; none: only the part is an obstacle.
     pub obstacles: Option<String>,
@@ -239,6 +239,8 @@ mod tests {
         assert_eq!(on(" ").expect("no rail"), None);
         let rail = on("y,-2000,1500,800").expect("a rail").expect("a rail");
         assert_eq!((rail.range, rail.speed), ([-2.0, 1.5], Some(0.8)));
+        let rail = on("y,-2000,1500,800,2500").expect("a rail");
+        assert_eq!(rail.expect("a rail").acceleration, Some(2.5));
         let error = on("sideways").expect_err("no rail");
         assert!(error.what.contains("sideways"), "{}", error.what);
     }

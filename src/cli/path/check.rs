@@ -95,8 +95,10 @@ pub(super) fn run(
     let (num, all) = (found.num_reached(), points.len());
     let (mut base, mut rail) = (None, None);
     if num < all {
-        rail = suggest_rail(&placed, &points, &params, num).advised()?;
-        base = suggest_base(&placed, &points, &params, num).advised()?;
+        // The console says that the command is at work, and Ctrl C ends it.
+        let (progress, is_cancelled) = (|_, _| {}, || false);
+        rail = suggest_rail(&placed, &points, &params, num, &progress, &is_cancelled).advised()?;
+        base = suggest_base(&placed, &points, &params, num, &progress, &is_cancelled).advised()?;
     }
     if args.json {
         let moving = placed.arm.moving_rail();
@@ -118,6 +120,7 @@ pub(super) fn run(
             "num_points": all,
             "num_reached": num,
             "num_collisions": found.num_collisions(),
+            "unchecked_accelerations": placed.arm.unchecked_accelerations(),
             "base_shift_mm": base.map(|place| place.shift.map(|x| 1000.0 * x)),
             "rail_mm": rail.map(|place| 1000.0 * place.shift[0]),
             "rail_range_mm": range,
@@ -152,10 +155,24 @@ fn show(
             "  its rail is between {low:.0} and {high:.0} mm"
         ));
     }
+    if let Some(what) = placed.arm.unchecked_accelerations() {
+        console.line(&format_args!(
+            "  not checked: the acceleration of its {what}, whose limits are not known"
+        ));
+    }
     for (i, point) in found.points.iter().enumerate() {
         if let Some(problem) = &point.problem {
             console.line(&format_args!("  point {}: {}", i + 1, problem.describe()));
         }
+    }
+    let mut problems = found
+        .points
+        .iter()
+        .filter_map(|point| point.problem.as_ref());
+    if problems.any(PointProblem::is_acceleration) {
+        console.line(
+            &"  to do: lower the speed where it accelerates too slowly, or round the corners in a larger radius",
+        );
     }
     if let Some(place) = base {
         let [x, y, z] = place.shift.map(|x| 1000.0 * x);

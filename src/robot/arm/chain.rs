@@ -131,18 +131,19 @@ pub(super) fn move_time(from: &RigidTransform, to: &RigidTransform, speed: f64) 
 /// 2000: an untested candidate costs as little as a free one, so a chain stays the cheapest if all that it holds prove free.
 /// Where one is not, every candidate of its point is tested and another chain chosen. A path without collisions takes one
 /// test per point; one that collides nearly everywhere takes [`LAZY_ROUNDS`] chains more and a test of each candidate.
-/// There is a solver for each point, where the rail is there.
+/// There is a solver for each point, where the rail is there. None soon after `is_cancelled`.
 pub(super) fn free_chain(
     solvers: &[Solver<'_>],
     points: &[ArmPoint],
     candidates: &mut [Vec<Candidate>],
     num_turns: usize,
-) -> Vec<Option<usize>> {
+    is_cancelled: &dyn Fn() -> bool,
+) -> Option<Vec<Option<usize>>> {
     let Some(arm) = solvers.first().map(|solver| solver.arm) else {
-        return Vec::new();
+        return Some(Vec::new());
     };
     for _ in 0..LAZY_ROUNDS {
-        let chosen = best_chain(arm, points, candidates, num_turns);
+        let chosen = best_chain(arm, points, candidates, num_turns, is_cancelled)?;
         let mut is_final = true;
         for ((here, chosen), solver) in candidates.iter_mut().zip(&chosen).zip(solvers) {
             let chosen = chosen.and_then(|index| here.get_mut(index));
@@ -155,15 +156,18 @@ pub(super) fn free_chain(
             }
         }
         if is_final {
-            return chosen;
+            return Some(chosen);
         }
     }
     for (here, solver) in candidates.iter_mut().zip(solvers) {
+        if is_cancelled() {
+            return None;
+        }
         for candidate in here {
             candidate.collides(solver);
         }
     }
-    best_chain(arm, points, candidates, num_turns)
+    best_chain(arm, points, candidates, num_turns, is_cancelled)
 }
 
 /// The cheapest chain of candidates; none where there is no candidate, behind which a new chain begins.
@@ -172,10 +176,14 @@ fn best_chain(
     points: &[ArmPoint],
     candidates: &[Vec<Candidate>],
     num_turns: usize,
-) -> Vec<Option<usize>> {
+    is_cancelled: &dyn Fn() -> bool,
+) -> Option<Vec<Option<usize>>> {
     // Of every candidate the cost so far and the candidate of the point before.
     let mut chains: Vec<Vec<(f64, Option<usize>)>> = Vec::with_capacity(points.len());
     for (i, here) in candidates.iter().enumerate() {
+        if is_cancelled() {
+            return None;
+        }
         let before = i
             .checked_sub(1)
             .map(|before| (&candidates[before], &chains[before]));
@@ -233,5 +241,5 @@ fn best_chain(
         chosen[i] = next.or_else(cheapest);
         next = chosen[i].and_then(|k| row[k].1);
     }
-    chosen
+    Some(chosen)
 }

@@ -1,11 +1,13 @@
 //! A path held against an arm.
 
 use super::{
-    Arm, ArmError, PlacedArm,
-    chain::{Candidate, angle_of, candidates_of, free_chain, move_time, turned, turns_of},
+    ArmError, PlacedArm,
+    acceleration::check_accelerations,
+    chain::{Candidate, angle_of, candidates_of, free_chain, turned, turns_of},
     kinematics::{Joints, Solver},
     problem::PointProblem,
     rail_plan::rail_positions,
+    way::{WayEnd, way_problem},
 };
 use crate::geometry::rigid::{RigidTransform, is_finite};
 
@@ -100,11 +102,6 @@ impl PathCheck {
     }
 }
 
-/// Straight moves are followed in steps of at most this, metres and radians.
-const STEP: [f64; 2] = [0.05, 0.175];
-/// Two solutions are the same within this, radians.
-const SAME: f64 = 1e-4;
-
 /// Every point of the path with the joints that reach it, or why none do. The points of a path without a problem are
 /// reached one after the other by straight moves at their speed.
 pub fn check_path(
@@ -112,20 +109,40 @@ pub fn check_path(
     points: &[ArmPoint],
     params: &CheckParams,
 ) -> Result<PathCheck, ArmError> {
+    check_unless(&|| false, placed, points, params)
+}
+
+/// The same; [`ArmError::Cancelled`] soon after `is_cancelled`.
+pub(super) fn check_unless(
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+    placed: &PlacedArm,
+    points: &[ArmPoint],
+    params: &CheckParams,
+) -> Result<PathCheck, ArmError> {
     refuse_bad(placed, points, params)?;
-    let rails = rail_positions(placed, points, params);
+    let go_on = || {
+        if is_cancelled() {
+            Err(ArmError::Cancelled)
+        } else {
+            Ok(())
+        }
+    };
+    let rails = rail_positions(placed, points, params, is_cancelled)?;
     let solvers: Vec<Solver<'_>> = rails
         .iter()
         .map(|rail| Solver::new(placed, *rail))
         .collect();
-    let mut candidates: Vec<Vec<Candidate>> = solvers
-        .iter()
-        .zip(points)
-        .map(|(solver, point)| candidates_of(solver, point, params.num_turns))
-        .collect();
-    let chosen = free_chain(&solvers, points, &mut candidates, params.num_turns);
+    let mut candidates: Vec<Vec<Candidate>> = Vec::with_capacity(points.len());
+    for (solver, point) in solvers.iter().zip(points) {
+        go_on()?;
+        candidates.push(candidates_of(solver, point, params.num_turns));
+    }
+    let num_turns = params.num_turns;
+    let chosen = free_chain(&solvers, points, &mut candidates, num_turns, is_cancelled);
+    let chosen = chosen.ok_or(ArmError::Cancelled)?;
     let mut checked: Vec<PointCheck> = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
+        go_on()?;
         let (solver, rail) = (&solvers[i], rails[i]);
         let Some(candidate) = chosen[i].map(|index| candidates[i][index]) else {
             checked.push(PointCheck {
@@ -139,12 +156,7 @@ pub fn check_path(
         let turn = angle_of(candidate.turn, params.num_turns);
         let singular = solver.singularity(&candidate.joints);
         let before = i.checked_sub(1).and_then(|before| {
-            let from: &PointCheck = &checked[before];
-            let end = WayEnd {
-                nozzle: turned(&points[before], from.turn),
-                joints: from.joints?,
-                rail: from.rail,
-            };
+            let end = WayEnd::of(&points[before], &checked[before])?;
             Some((end, points[before].speed))
         });
         let to = WayEnd {
@@ -167,6 +179,7 @@ pub fn check_path(
             problem: problem.or(singular.map(PointProblem::NearSingularity)),
         });
     }
+    check_accelerations(placed, points, &mut checked);
     Ok(PathCheck {
         points: checked,
         ends: None,
@@ -213,147 +226,6 @@ pub(in crate::robot) fn refuse_bad(
         }
     }
     Ok(())
-}
-
-/// Where a straight move begins or ends.
-struct WayEnd {
-    nozzle: RigidTransform,
-    joints: Joints,
-    rail: f64,
-}
-
-/// Follows a straight move from one chosen solution towards the next, and says what is wrong with it.
-fn way_problem(
-    placed: &PlacedArm,
-    start: &WayEnd,
-    end: &WayEnd,
-    speed: f64,
-) -> Option<PointProblem> {
-    let (from, to) = (&start.nozzle, &end.nozzle);
-    let distance = (to.translation.vector - from.translation.vector).norm();
-    let angle = from.rotation.angle_to(&to.rotation);
-    let ride = (end.rail - start.rail).abs();
-    let num = (distance.max(ride) / STEP[0]).max(angle / STEP[1]);
-    let num = num.ceil().max(1.0);
-    let allowed = move_time(from, to, speed);
-    let mut trouble = rail_problem(&placed.arm, ride, allowed);
-    let allowed = allowed.map(|time| time / num);
-    let mut at = start.joints;
-    for k in 1..=num as usize {
-        let share = k as f64 / num;
-        let solver = Solver::new(placed, start.rail + (end.rail - start.rail) * share);
-        let near = if k == num as usize {
-            end.joints
-        } else {
-            let pose = nalgebra::Isometry3::from_parts(
-                (from.translation.vector.lerp(&to.translation.vector, share)).into(),
-                from.rotation.slerp(&to.rotation, share),
-            );
-            let Some(nearest) = nearest(&solver, &pose, &at) else {
-                return trouble.or(Some(PointProblem::OutOfReach));
-            };
-            // It comes before whatever else is wrong. The ends of the way are points, which are tested.
-            if let Some(collision) = solver.collision(&nearest) {
-                return Some(collision);
-            }
-            nearest
-        };
-        trouble = trouble.or_else(|| step_problem(&solver, &at, &near, allowed));
-        if k == num as usize {
-            trouble = trouble.or_else(|| arrival_problem(&solver, start, end, &at));
-        }
-        at = near;
-    }
-    trouble
-}
-
-/// The largest difference between two joints, radians.
-fn apart(a: &Joints, b: &Joints) -> f64 {
-    let all = a.iter().zip(b);
-    all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
-/// The joints nearest to `at` that reach a pose.
-fn nearest(solver: &Solver<'_>, pose: &RigidTransform, at: &Joints) -> Option<Joints> {
-    let solutions = solver.solutions(pose, Some(at)).into_iter();
-    solutions.min_by(|a, b| apart(a, at).total_cmp(&apart(b, at)))
-}
-
-/// What is wrong if a straight move from `at`, shortly before its end, does not arrive with the joints chosen there. However
-/// slow the move is, the controller neither folds the arm over on it nor turns a joint once around.
-fn arrival_problem(
-    solver: &Solver<'_>,
-    start: &WayEnd,
-    end: &WayEnd,
-    at: &Joints,
-) -> Option<PointProblem> {
-    /// Two solutions that are not singular are farther apart, radians.
-    const OTHER: f64 = 0.01;
-    // At a singularity, which is a problem of its own, several solutions meet.
-    let ends = [&start.joints, &end.joints];
-    if ends
-        .iter()
-        .any(|joints| solver.singularity(joints).is_some())
-    {
-        return None;
-    }
-    let arrives = nearest(solver, &end.nozzle, at)?;
-    if apart(&arrives, &end.joints) < OTHER {
-        return None;
-    }
-    let beyond = outside(solver, &arrives).map(|(joint, angle)| PointProblem::JointLimit {
-        joint: joint + 1,
-        angle,
-    });
-    Some(beyond.unwrap_or(PointProblem::ConfigurationChange))
-}
-
-/// Whether the rail gets as far in so many seconds, or in as many as it wants.
-fn rail_problem(arm: &Arm, ride: f64, allowed: Option<f64>) -> Option<PointProblem> {
-    /// The times of a run are sums, which are not exact.
-    const EXACT: f64 = 1e-6;
-    let (_, fastest) = arm.moving_rail()?;
-    let speed = ride / allowed?;
-    (speed > fastest * (1.0 + EXACT)).then_some(PointProblem::RailTooFast { speed })
-}
-
-/// What is wrong with a short step from one solution to the next, which may take so many seconds, or as many as it wants.
-fn step_problem(
-    solver: &Solver<'_>,
-    at: &Joints,
-    near: &Joints,
-    allowed: Option<f64>,
-) -> Option<PointProblem> {
-    if let Some((joint, angle)) = outside(solver, near) {
-        return Some(PointProblem::JointLimit {
-            joint: joint + 1,
-            angle,
-        });
-    }
-    let time = allowed.unwrap_or(f64::INFINITY);
-    let is_too_fast = |i: &usize| {
-        let moved = (near[*i] - at[*i]).abs();
-        moved / time > solver.arm.speeds[*i] && moved >= SAME
-    };
-    let i = (0..6).find(is_too_fast)?;
-    Some(
-        if solver.arm.configuration(near) == solver.arm.configuration(at) {
-            PointProblem::TooFast {
-                joint: i + 1,
-                speed: (near[i] - at[i]).abs() / time,
-            }
-        } else {
-            PointProblem::ConfigurationChange
-        },
-    )
-}
-
-/// The first joint outside its limits, as it stands.
-fn outside(solver: &Solver<'_>, joints: &Joints) -> Option<(usize, f64)> {
-    let limits = solver.arm.limits.iter().zip(joints).enumerate();
-    let mut beyond =
-        limits.filter(|(_, ([low, high], angle))| !(low - SAME..=high + SAME).contains(*angle));
-    beyond.next().map(|(i, (_, angle))| (i, *angle))
 }
 
 /// Why no solution is left at a point.

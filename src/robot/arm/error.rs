@@ -73,6 +73,9 @@ pub enum ArmError {
         /// Its value.
         value: f64,
     },
+    /// The caller cancelled.
+    #[error("the check of the arm was cancelled")]
+    Cancelled,
     /// A path without points.
     #[error("the path has no points")]
     NoPoints,
@@ -96,7 +99,7 @@ impl Advice for ArmError {
                 "Check the path in the maker's simulator before the arm runs it".into()
             }
             Self::Text { .. } => {
-                "Give name, lengths_mm, offsets_deg, signs, limits_deg, speeds_deg_s and, if needed, base_height_mm, radii_mm and rail".into()
+                "Give name, lengths_mm, offsets_deg, signs, limits_deg, speeds_deg_s and, if needed, accelerations_deg_s2, base_height_mm, radii_mm and rail".into()
             }
             Self::Obstacles { .. } => {
                 "Give each [[box]] a name, centre_mm, size_mm above 0 and, if it is turned, angles_deg; and floor_mm if there is a floor".into()
@@ -106,11 +109,12 @@ impl Advice for ArmError {
                 "Let it begin below where it ends, both within 100 m (100000 mm) of where the cell was calibrated".into()
             }
             Self::NoRail { .. } => {
-                "Give x, y or z, where it begins and ends in mm and, if it moves along the path, its top speed in mm/s: y,-2000,2000,1000".into()
+                "Give x, y or z, where it begins and ends in mm and, if it moves along the path, its top speed in mm/s and its acceleration in mm/s²: y,-2000,2000,1000,2000".into()
             }
             Self::Value { .. } => {
-                "Correct it: lengths in millimetres, angles in degrees, speeds above 0, a rail's from 1 to 10000 mm/s, signs 1 or -1".into()
+                "Correct it: lengths in millimetres, angles in degrees, speeds and accelerations above 0, a rail's from 1 to 10000 mm/s and from 1 to 100000 mm/s², signs 1 or -1".into()
             }
+            Self::Cancelled => "Check it again".into(),
             Self::NoPoints => "Give a path with at least one point".into(),
             Self::NotFinite { .. } => "Check the numbers of base, tool and path".into(),
         }

@@ -7,6 +7,7 @@
 //! signs = [1, 1, -1, -1, -1, -1]
 //! limits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]
 //! speeds_deg_s = [210, 210, 265, 420, 420, 885]
+//! accelerations_deg_s2 = [600, 600, 700, 1500, 1500, 2500]   # without them accelerations are not checked
 //! base_height_mm = 505                              # the controller's base frame above the foot; 0 without it
 //! radii_mm = [140, 125, 80]                         # upper arm, forearm, wrist: what they fill around their axes
 //! [rail]                                            # if it stands on one
@@ -14,6 +15,7 @@
 //! from_mm = -2000
 //! to_mm = 2000
 //! speed_mm_s = 1000                                 # top speed; without it the rail stands still along a path
+//! acceleration_mm_s2 = 2000                         # without it the rail's acceleration is neither kept to nor checked
 //! ```
 //!
 //! Without `radii_mm` they are 10, 9 and 6 % of the reach, more than most arms have.
@@ -41,6 +43,7 @@ struct Text {
     signs: [i8; 6],
     limits_deg: [[f64; 2]; 6],
     speeds_deg_s: [f64; 6],
+    accelerations_deg_s2: Option<[f64; 6]>,
     #[serde(default)]
     base_height_mm: f64,
     radii_mm: Option<[f64; 3]>,
@@ -54,6 +57,7 @@ struct RailText {
     from_mm: f64,
     to_mm: f64,
     speed_mm_s: Option<f64>,
+    acceleration_mm_s2: Option<f64>,
 }
 
 impl Arm {
@@ -70,10 +74,16 @@ impl Arm {
                 // Not so of one that is not finite, or whose length is not.
                 .filter(|direction| (direction.norm() - 1.0).abs() < 1e-6);
             let direction = direction.ok_or_else(|| wrong("the rail has no direction".into()))?;
+            if rail.acceleration_mm_s2.is_some() && rail.speed_mm_s.is_none() {
+                return Err(wrong(
+                    "the rail has acceleration_mm_s2 but no speed_mm_s".into(),
+                ));
+            }
             Ok(Rail {
                 direction,
                 range: [rail.from_mm / 1000.0, rail.to_mm / 1000.0],
                 speed: rail.speed_mm_s.map(|speed| speed / 1000.0),
+                acceleration: rail.acceleration_mm_s2.map(|limit| limit / 1000.0),
             })
         });
         let mut arm = Self {
@@ -83,6 +93,9 @@ impl Arm {
             signs: text.signs,
             limits: text.limits_deg.map(|limits| limits.map(f64::to_radians)),
             speeds: text.speeds_deg_s.map(f64::to_radians),
+            accelerations: text
+                .accelerations_deg_s2
+                .map(|limits| limits.map(f64::to_radians)),
             base_height: text.base_height_mm / 1000.0,
             radii: [0.0; 3],
             maker: None,

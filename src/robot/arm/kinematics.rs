@@ -138,7 +138,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Every body of these that is too near to something.
-    fn pairs(&self, bodies: &[Capsule]) -> impl Iterator<Item = Nearness> {
+    fn pairs(&self, bodies: &[Capsule; 5]) -> impl Iterator<Item = Nearness> {
         let of_arm = self.obstacles.pairs_of_arm(bodies, self.column());
         of_arm.chain(self.obstacles.pairs(bodies))
     }

@@ -12,9 +12,12 @@
 //! An arm may stand on a [`Rail`]. One with a top speed moves along the path: `rail_plan` chooses where it is at every point.
 //! Any other stands still, and a better position of it is suggested.
 //!
-//! Known limits: no accelerations, neither of joints nor of the rail. Joint 3 of FANUC arms is coupled to joint 2 on
-//! the controller; here it is the angle against the upper arm, and so is its limit.
+//! Where their limits are known, accelerations of joints and rail are checked too (`acceleration`).
+//!
+//! Known limits: the choice of configurations and turns does not weigh accelerations. Joint 3 of FANUC arms is coupled to
+//! joint 2 on the controller; here it is the angle against the upper arm, and so is its limit.
 
+mod acceleration;
 mod chain;
 mod check;
 mod error;
@@ -28,6 +31,7 @@ mod rail;
 mod rail_plan;
 #[cfg(test)]
 mod tests;
+mod way;
 
 use nalgebra::{Point3, Vector3};
 
@@ -60,6 +64,8 @@ pub struct Arm {
     limits: [[f64; 2]; 6],
     /// Fastest speed of each joint, rad/s.
     speeds: [f64; 6],
+    /// Greatest acceleration of each joint, rad/s²; none if not known.
+    accelerations: Option<[f64; 6]>,
     /// How far the controller's base frame is above the foot, metres.
     base_height: f64,
     /// What upper arm, forearm and wrist fill around their axes, metres.
@@ -119,6 +125,19 @@ impl Arm {
         Some((rail, rail.speed?))
     }
 
+    /// What has no known limit of its acceleration, which is then not checked: "joints", "rail" (one that moves along the
+    /// path) or "joints and rail".
+    pub fn unchecked_accelerations(&self) -> Option<&'static str> {
+        let moving = self.moving_rail();
+        let is_rail = moving.is_some_and(|(rail, _)| rail.acceleration.is_none());
+        match (self.accelerations.is_none(), is_rail) {
+            (true, true) => Some("joints and rail"),
+            (true, false) => Some("joints"),
+            (false, true) => Some("rail"),
+            (false, false) => None,
+        }
+    }
+
     /// How far the nozzle's end of the arm reaches from joint 2, metres.
     pub fn reach(&self) -> f64 {
         let [_, a2, _, _, c2, c3, _] = self.lengths;
@@ -138,6 +157,14 @@ impl Arm {
                 return Err(ArmError::Value {
                     what: format!("the speed of joint {}", i + 1),
                     value: self.speeds[i].to_degrees(),
+                });
+            }
+            if let Some(limits) = self.accelerations
+                && !(limits[i] > 0.0 && limits[i] < 10_000.0)
+            {
+                return Err(ArmError::Value {
+                    what: format!("the acceleration of joint {}", i + 1),
+                    value: limits[i].to_degrees(),
                 });
             }
             if self.signs[i].abs() != 1 {

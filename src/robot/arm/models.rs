@@ -140,6 +140,8 @@ impl Arm {
             signs: numbers.signs,
             limits: numbers.limits_deg.map(|limits| limits.map(f64::to_radians)),
             speeds: numbers.speeds_deg.map(f64::to_radians),
+            // Their makers publish none.
+            accelerations: None,
             base_height,
             radii: numbers.radii_mm.map(|radius| radius / 1000.0),
             maker: Some(maker),

@@ -13,12 +13,15 @@
 //! angles_deg = [0, 0, 30]          # about x, y and z of the base, R = Rz·Ry·Rx; 0 without them
 //! ```
 //!
-//! Of the arm itself gun and wrist must not run into the upper arm and the base column. The column reaches from the foot up to
-//! the height of joint 2; its radius is that of the upper arm, or the distance of joint 2 from joint 1 if that is more. Bodies
-//! that share a joint are not held against each other.
+//! Of the arm itself gun and wrist must not run into the upper arm, gun, wrist and forearm not into the base column, and the
+//! gun not into the forearm. The column reaches from the foot up to the height of joint 2; its radius is that of the upper arm,
+//! or the distance of joint 2 from joint 1 if that is more. Bodies that share a joint are not held against each other: wrist and
+//! forearm, forearm and upper arm, upper arm and column. The gun begins at the end of a short wrist, so near the middle of the
+//! wrist it is always near to the forearm. What of either lies there within the radii and the clearance does not count: a gun
+//! ahead of the wrist is clear, one that is folded back along the forearm is not.
 //!
-//! Known limits: the gun is not held against the forearm: the limits of joint 5 have to keep them apart. Hoses, cables and
-//! what the arm carries besides the gun are no bodies, nor are its counterweights. Part, boxes and floor are not held
+//! Known limits: the limits of joint 5 have to keep wrist and forearm apart. Hoses, cables and what the arm carries besides the
+//! gun are no bodies, nor are its counterweights. Part, boxes and floor are not held
 //! against the base column, which stands still or runs along its rail. The side of the part that was not enrolled is not
 //! there, and neither is a stand or a wall unless a box stands for it.
 
@@ -83,6 +86,8 @@ pub enum Obstacle {
     Box(String),
     /// The upper arm, from joint 2 to joint 3.
     UpperArm,
+    /// The forearm, from joint 3 to the middle of the wrist.
+    Forearm,
     /// The base column, from the foot up around joint 1.
     BaseColumn,
 }
@@ -230,28 +235,43 @@ impl Obstacles {
         })
     }
 
-    /// Gun or wrist where they are too near to the upper arm or to the base column, which is given by its axis and radius.
+    /// Bodies of the arm that are too near to another one or to the base column, which is given by its axis and radius.
+    /// `bodies` are gun, wrist, forearm, its step behind the elbow, and upper arm.
     pub(super) fn pairs_of_arm(
         &self,
-        bodies: &[Capsule],
+        bodies: &[Capsule; 5],
         column: (Segment, f64),
     ) -> impl Iterator<Item = Nearness> {
-        let (axis, radius) = column;
-        let column = std::iter::once((Obstacle::BaseColumn, axis, radius));
-        let upper_arm = bodies.iter().filter(|one| one.body == Body::UpperArm);
-        let upper_arm = upper_arm.map(|one| (Obstacle::UpperArm, one.axis, one.radius));
-        let own = column.chain(upper_arm);
-        own.flat_map(move |(obstacle, axis, radius)| {
-            let moving = bodies
-                .iter()
-                .filter(|one| matches!(one.body, Body::Gun | Body::Wrist));
-            moving.filter_map(move |one| {
-                let within = one.radius + radius + self.clearance;
-                let room = one.axis.distance_to_segment(&axis) - within;
-                (room < 0.0).then(|| (room, one.body, obstacle.clone()))
-            })
-        })
+        let [gun, wrist, forearm, step, upper_arm] = *bodies;
+        let arm = (upper_arm.axis, upper_arm.radius);
+        let clearance = self.clearance;
+        let pairs = [
+            (gun, Obstacle::BaseColumn, column),
+            (wrist, Obstacle::BaseColumn, column),
+            (forearm, Obstacle::BaseColumn, column),
+            (step, Obstacle::BaseColumn, column),
+            (gun, Obstacle::UpperArm, arm),
+            (wrist, Obstacle::UpperArm, arm),
+        ];
+        let pairs = pairs.into_iter().filter_map(move |(one, obstacle, other)| {
+            let room = room(&one.axis, &other.0, one.radius + other.1 + clearance)?;
+            Some((room, one.body, obstacle))
+        });
+        let at_forearm = [forearm, step].into_iter().filter_map(move |one| {
+            let within = gun.radius + one.radius + clearance;
+            let middle = wrist.axis.from;
+            let gun_axis = gun.axis.beyond(&middle, within)?;
+            let axis = one.axis.reversed().beyond(&middle, within)?;
+            Some((room(&gun_axis, &axis, within)?, gun.body, Obstacle::Forearm))
+        });
+        pairs.chain(at_forearm)
     }
+}
+
+/// How much nearer than `within` two axes are, metres, below 0; none if they are not.
+fn room(axis: &Segment, other: &Segment, within: f64) -> Option<f64> {
+    let room = axis.distance_to_segment(other) - within;
+    (room < 0.0).then_some(room)
 }
 
 /// The body that is too near to something, and to what: of several the pair with the least room, whatever their order.

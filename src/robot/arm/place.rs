@@ -4,7 +4,7 @@ use nalgebra::Translation3;
 
 use super::{
     ArmError, ArmPoint, CheckParams, PlacedArm,
-    check::{check_path, is_reached, refuse_bad},
+    check::{check_unless, is_reached, refuse_bad},
     kinematics::Solver,
 };
 
@@ -25,12 +25,15 @@ const NUM_TURNS: usize = 8;
 const NUM_CHECKED: usize = 3;
 
 /// Moves the base by up to a metre sideways and half a metre up or down, in steps of 200 and 250 mm, and returns the place
-/// that reaches most points, if it reaches more than `num_reached`.
+/// that reaches most points, if it reaches more than `num_reached`. `progress` takes the places looked at, and how many there
+/// are in all; [`ArmError::Cancelled`] soon after `is_cancelled`.
 pub fn suggest_base(
     placed: &PlacedArm,
     points: &[ArmPoint],
     params: &CheckParams,
     num_reached: usize,
+    progress: &dyn Fn(usize, usize),
+    is_cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<PlaceSuggestion>, ArmError> {
     let mut shifts = Vec::new();
     for z in -2..=2 {
@@ -43,13 +46,21 @@ pub fn suggest_base(
     let shifts = shifts
         .into_iter()
         .map(|[x, y, z]| [0.2 * x, 0.2 * y, 0.25 * z]);
-    let at = |[x, y, z]: [f64; 3]| PlacedArm {
-        robot_from_base: Translation3::new(x, y, z) * placed.robot_from_base,
-        ..placed.clone()
+    let at = |[x, y, z]: [f64; 3]| {
+        let placed = PlacedArm {
+            robot_from_base: Translation3::new(x, y, z) * placed.robot_from_base,
+            ..placed.clone()
+        };
+        (placed, params.rail)
     };
-    best(shifts.collect(), points, num_reached, params, |shift| {
-        (at(shift), params.rail)
-    })
+    let search = Search {
+        points,
+        params,
+        num_reached,
+        progress,
+        is_cancelled,
+    };
+    search.best(shifts.collect(), at)
 }
 
 /// The same of a position of the rail, every 100 mm; none without a rail, or with one that moves along the path.
@@ -58,59 +69,86 @@ pub fn suggest_rail(
     points: &[ArmPoint],
     params: &CheckParams,
     num_reached: usize,
+    progress: &dyn Fn(usize, usize),
+    is_cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<PlaceSuggestion>, ArmError> {
     let Some(rail) = placed.arm.rail.filter(|rail| rail.speed.is_none()) else {
         return Ok(None);
     };
     let shifts = rail.positions(0.1).into_iter().map(|at| [at, 0.0, 0.0]);
-    best(
-        shifts.collect(),
+    let search = Search {
         points,
-        num_reached,
         params,
-        |[rail, ..]| (placed.clone(), rail),
-    )
+        num_reached,
+        progress,
+        is_cancelled,
+    };
+    search.best(shifts.collect(), |[rail, ..]| (placed.clone(), rail))
 }
 
-fn best(
-    shifts: Vec<[f64; 3]>,
-    points: &[ArmPoint],
+/// What places are compared by.
+struct Search<'a> {
+    points: &'a [ArmPoint],
+    params: &'a CheckParams,
     num_reached: usize,
-    params: &CheckParams,
-    at: impl Fn([f64; 3]) -> (PlacedArm, f64),
-) -> Result<Option<PlaceSuggestion>, ArmError> {
-    let every = points.len().div_ceil(NUM_SAMPLES).max(1);
-    let mut ranked = Vec::with_capacity(shifts.len());
-    for shift in shifts {
-        let (placed, rail) = at(shift);
-        refuse_bad(&placed, points, params)?;
-        let solvers: Vec<Solver<'_>> = rails(&placed, rail)
-            .into_iter()
-            .map(|rail| Solver::new(&placed, rail))
-            .collect();
-        let reaches = |point: &ArmPoint| {
-            let mut at = solvers.iter();
-            at.any(|solver| is_reached(solver, point, NUM_TURNS))
-        };
-        let samples = points.iter().step_by(every);
-        let num = samples.filter(|point| reaches(point)).count();
-        let distance: f64 = shift.iter().map(|x| x * x).sum();
-        ranked.push((num, distance, shift));
-    }
-    // Most points first, then the shortest way.
-    ranked.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.total_cmp(&b.1)));
-    let mut found: Option<PlaceSuggestion> = None;
-    for (_, _, shift) in ranked.into_iter().take(NUM_CHECKED) {
-        let (placed, rail) = at(shift);
-        let num = check_path(&placed, points, &CheckParams { rail, ..*params })?.num_reached();
-        if num > found.map_or(num_reached, |found| found.num_reached) {
-            found = Some(PlaceSuggestion {
-                shift,
-                num_reached: num,
-            });
+    progress: &'a dyn Fn(usize, usize),
+    is_cancelled: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Search<'_> {
+    /// The best of these places; `at` is the arm there, and where its rail stands.
+    fn best(
+        &self,
+        shifts: Vec<[f64; 3]>,
+        at: impl Fn([f64; 3]) -> (PlacedArm, f64),
+    ) -> Result<Option<PlaceSuggestion>, ArmError> {
+        let total = shifts.len() + NUM_CHECKED;
+        let mut ranked = Vec::with_capacity(shifts.len());
+        for shift in shifts {
+            (self.progress)(ranked.len(), total);
+            let (placed, rail) = at(shift);
+            let num = self.num_sampled(&placed, rail)?;
+            let distance: f64 = shift.iter().map(|x| x * x).sum();
+            ranked.push((num, distance, shift));
         }
+        // Most points first, then the shortest way.
+        ranked.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.total_cmp(&b.1)));
+        let mut found: Option<PlaceSuggestion> = None;
+        let num_places = ranked.len();
+        for (k, (_, _, shift)) in ranked.into_iter().take(NUM_CHECKED).enumerate() {
+            (self.progress)(num_places + k, total);
+            let (placed, rail) = at(shift);
+            let params = CheckParams {
+                rail,
+                ..*self.params
+            };
+            let check = check_unless(self.is_cancelled, &placed, self.points, &params)?;
+            let num_reached = check.num_reached();
+            if num_reached > found.map_or(self.num_reached, |found| found.num_reached) {
+                found = Some(PlaceSuggestion { shift, num_reached });
+            }
+        }
+        Ok(found)
     }
-    Ok(found)
+
+    /// How many of the sampled points are reached from there.
+    fn num_sampled(&self, placed: &PlacedArm, rail: f64) -> Result<usize, ArmError> {
+        refuse_bad(placed, self.points, self.params)?;
+        let solvers: Vec<Solver<'_>> = rails(placed, rail)
+            .into_iter()
+            .map(|rail| Solver::new(placed, rail))
+            .collect();
+        let every = self.points.len().div_ceil(NUM_SAMPLES).max(1);
+        let mut num = 0;
+        for point in self.points.iter().step_by(every) {
+            if (self.is_cancelled)() {
+                return Err(ArmError::Cancelled);
+            }
+            let mut at = solvers.iter();
+            num += usize::from(at.any(|solver| is_reached(solver, point, NUM_TURNS)));
+        }
+        Ok(num)
+    }
 }
 
 /// Where the rail may be while a place is compared: at this position, or, if it moves along the path, every half of the reach.

@@ -31,6 +31,22 @@ pub enum PointProblem {
         /// The speed that it would need, m/s.
         speed: f64,
     },
+    /// Within the window of time around the point, a joint would have to accelerate more than it can.
+    JointAcceleration {
+        /// The joint, from 1.
+        joint: usize,
+        /// The acceleration that it would need, rad/s².
+        acceleration: f64,
+        /// The greatest that it can, rad/s².
+        limit: f64,
+    },
+    /// The same of the rail.
+    RailAcceleration {
+        /// The acceleration that it would need, m/s².
+        acceleration: f64,
+        /// The greatest that it can, m/s².
+        limit: f64,
+    },
     /// On the way from the point before, the arm would have to fold over, or to turn a joint once around.
     ConfigurationChange,
     /// Gun or arm come nearer to something than the clearance, at the point or on the way from the point before.
@@ -60,6 +76,23 @@ impl PointProblem {
             Self::RailTooFast { speed } => {
                 format!("the rail would need {:.0} mm/s", 1000.0 * speed)
             }
+            Self::JointAcceleration {
+                joint,
+                acceleration,
+                limit,
+            } => format!(
+                "joint {joint} would need {:.0} degrees/s² and has {:.0}",
+                acceleration.to_degrees(),
+                limit.to_degrees()
+            ),
+            Self::RailAcceleration {
+                acceleration,
+                limit,
+            } => format!(
+                "the rail would need {:.0} mm/s² and has {:.0}",
+                1000.0 * acceleration,
+                1000.0 * limit
+            ),
             Self::ConfigurationChange => "the arm would have to fold over".into(),
             Self::Collision { body, obstacle } => {
                 let body = body.name();
@@ -68,10 +101,19 @@ impl PointProblem {
                     Obstacle::Floor => format!("the {body} is too near to the floor"),
                     Obstacle::Box(name) => format!("the {body} is too near to the box {name}"),
                     Obstacle::UpperArm => format!("the {body} is too near to the upper arm"),
+                    Obstacle::Forearm => format!("the {body} is too near to the forearm"),
                     Obstacle::BaseColumn => format!("the {body} is too near to the base column"),
                 }
             }
         }
+    }
+
+    /// True if joints or rail cannot accelerate as much: run slower there, or round the corner in a larger radius.
+    pub fn is_acceleration(&self) -> bool {
+        matches!(
+            self,
+            Self::JointAcceleration { .. } | Self::RailAcceleration { .. }
+        )
     }
 
     /// Which kind it is, for programs.
@@ -82,6 +124,8 @@ impl PointProblem {
             Self::NearSingularity(_) => "near_singularity",
             Self::TooFast { .. } => "too_fast",
             Self::RailTooFast { .. } => "rail_too_fast",
+            Self::JointAcceleration { .. } => "joint_acceleration",
+            Self::RailAcceleration { .. } => "rail_acceleration",
             Self::ConfigurationChange => "configuration_change",
             Self::Collision { .. } => "collision",
         }

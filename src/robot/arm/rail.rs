@@ -15,6 +15,8 @@ pub struct Rail {
     pub range: [f64; 2],
     /// Top speed, 0.001..10 m/s, of a rail that moves along the path; none of one that stands still meanwhile.
     pub speed: Option<f64>,
+    /// Greatest acceleration, 0.001..100 m/s²; none if not known.
+    pub acceleration: Option<f64>,
 }
 
 impl Rail {
@@ -34,6 +36,14 @@ impl Rail {
                 value: speed * 1000.0,
             });
         }
+        if let Some(acceleration) = self.acceleration
+            && !(0.001..=100.0).contains(&acceleration)
+        {
+            return Err(ArmError::Value {
+                what: "the rail's acceleration in mm/s²".into(),
+                value: acceleration * 1000.0,
+            });
+        }
         Ok(self)
     }
 
@@ -49,8 +59,8 @@ impl Rail {
 impl FromStr for Rail {
     type Err = ArmError;
 
-    /// Axis of the path's frame, from, to and, if it moves along the path, top speed, in millimetres and seconds:
-    /// `y,-2000,2000,1000`. `-y` runs the other way.
+    /// Axis of the path's frame, from, to and, if it moves along the path, top speed and, if known, greatest acceleration, in
+    /// millimetres and seconds: `y,-2000,2000,1000,2000`. `-y` runs the other way.
     fn from_str(text: &str) -> Result<Self, ArmError> {
         let wrong = || ArmError::NoRail { text: text.into() };
         let mut words = text.split(',').map(str::trim);
@@ -65,15 +75,17 @@ impl FromStr for Rail {
         };
         let numbers: Result<Vec<f64>, _> = words.map(str::parse::<f64>).collect();
         let numbers = numbers.map_err(|_no_number| wrong())?;
-        let (low, high, speed) = match numbers[..] {
-            [low, high] => (low, high, None),
-            [low, high, speed] => (low, high, Some(speed)),
+        let (low, high, speed, acceleration) = match numbers[..] {
+            [low, high] => (low, high, None, None),
+            [low, high, speed] => (low, high, Some(speed), None),
+            [low, high, speed, acceleration] => (low, high, Some(speed), Some(acceleration)),
             _ => return Err(wrong()),
         };
         let rail = Self {
             direction: Unit::new_normalize(direction),
             range: [low / 1000.0, high / 1000.0],
             speed: speed.map(|speed| speed / 1000.0),
+            acceleration: acceleration.map(|acceleration| acceleration / 1000.0),
         };
         rail.checked()
     }

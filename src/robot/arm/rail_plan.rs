@@ -3,7 +3,8 @@
 //! Positions every 100 mm (farther apart on rails of more than 10 m) are tried at every point: which of the arm's eight
 //! configurations reach it from there, within the joints' limits, not singular and clear of all obstacles. Dynamic programming
 //! over point, position and configuration then finds the cheapest run of the rail. It stands, or moves from one position to
-//! another at an even speed, over as many points as that takes. What a move costs, in positions moved:
+//! another, over as many points as that takes: at an even speed, or, where the limit of its acceleration is known, speeding up
+//! evenly from standstill and slowing down again. What a move costs, in positions moved:
 //!
 //! - its length, a little more at half the top speed and more at the full one, and [`START`] for each move: few, slow ones win;
 //! - [`GUN`] times as much while the gun is on, so that it rather stands along a stroke;
@@ -18,7 +19,7 @@
 //! then says.
 
 use super::{
-    Arm, ArmPoint, CheckParams, PlacedArm,
+    Arm, ArmError, ArmPoint, CheckParams, PlacedArm,
     chain::{angle_of, move_time, turned, turns_of},
     kinematics::Solver,
 };
@@ -44,14 +45,15 @@ const MAX_LOOKED_AT: usize = 100;
 /// The configurations of an arm.
 const NUM_CONFIGURATIONS: usize = 8;
 
-/// Where the rail is at every point, metres: 0 without one.
+/// Where the rail is at every point, metres: 0 without one. [`ArmError::Cancelled`] soon after `is_cancelled`.
 pub(super) fn rail_positions(
     placed: &PlacedArm,
     points: &[ArmPoint],
     params: &CheckParams,
-) -> Vec<f64> {
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<f64>, ArmError> {
     let Some((rail, speed)) = placed.arm.moving_rail() else {
-        return vec![params.rail; points.len()];
+        return Ok(vec![params.rail; points.len()]);
     };
     let [low, high] = rail.range;
     let positions = rail.positions(STEP.max((high - low) / MAX_POSITIONS));
@@ -64,11 +66,15 @@ pub(super) fn rail_positions(
         num_cores(),
         || (),
         |(), i| {
+            if is_cancelled() {
+                return None;
+            }
             let at = solvers.iter();
-            at.map(|solver| configurations(&placed.arm, solver, &points[i]))
-                .collect::<Vec<u8>>()
+            let reached = at.map(|solver| configurations(&placed.arm, solver, &points[i]));
+            Some(reached.collect::<Vec<u8>>())
         },
     );
+    let reached: Option<Vec<Vec<u8>>> = reached.into_iter().collect();
     let mut now = 0.0;
     let times = points.iter().enumerate().map(|(i, point)| {
         if let Some(before) = i.checked_sub(1).map(|before| &points[before]) {
@@ -81,11 +87,13 @@ pub(super) fn rail_positions(
     Plan {
         times: times.collect(),
         is_gun_on: points.iter().map(|point| point.is_gun_on).collect(),
-        reached,
+        reached: reached.ok_or(ArmError::Cancelled)?,
         positions,
         speed,
+        acceleration: rail.acceleration,
     }
-    .run()
+    .run(is_cancelled)
+    .ok_or(ArmError::Cancelled)
 }
 
 /// The configurations that reach a point at any turn of the nozzle, a bit for each.
@@ -118,6 +126,8 @@ struct Plan {
     positions: Vec<f64>,
     /// Top speed, m/s.
     speed: f64,
+    /// Greatest acceleration, m/s²; none if not known.
+    acceleration: Option<f64>,
 }
 
 /// Point, position and configuration.
@@ -130,7 +140,8 @@ type Before = (u32, u8, u8);
 type Costs = Vec<[(f64, Option<Before>); NUM_CONFIGURATIONS]>;
 
 impl Plan {
-    fn run(mut self) -> Vec<f64> {
+    /// The position of the rail at every point; none soon after `is_cancelled`.
+    fn run(mut self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<f64>> {
         let num = self.times.len();
         // What no position reaches is missed wherever the rail is: it may as well pass.
         for here in &mut self.reached {
@@ -155,6 +166,9 @@ impl Plan {
             }
         }
         for point in 0..num - 1 {
+            if is_cancelled() {
+                return None;
+            }
             let (least, cheapest) = least_of(&costs[point]);
             for position in 0..self.positions.len() {
                 for configuration in 0..NUM_CONFIGURATIONS {
@@ -183,7 +197,7 @@ impl Plan {
                 }
             }
         }
-        self.back(&costs)
+        Some(self.back(&costs))
     }
 
     /// Every move from a position at a point: the point at which it ends, where, the configurations that reach all between,
@@ -197,7 +211,7 @@ impl Plan {
         let all = others.flat_map(|to| PACES.map(|pace| (to, pace)));
         all.filter_map(move |(to, (pace, price))| {
             let way = (self.positions[to] - self.positions[position]).abs();
-            let arrives = self.times[point] + way / (pace * self.speed);
+            let arrives = self.times[point] + self.seconds_for(way, pace * self.speed);
             // Sums of times are not exact.
             let end = self.times.partition_point(|time| *time < arrives - 1e-9);
             if end <= point || end >= self.times.len() {
@@ -211,7 +225,7 @@ impl Plan {
                 if passing == 0 {
                     return None;
                 }
-                let share = self.share(point, end, between);
+                let share = self.share(way, point, end, between);
                 let at = position as f64 + (to as f64 - position as f64) * share;
                 let here = &self.reached[between];
                 passing &= here[at.floor() as usize] & here[at.ceil() as usize];
@@ -223,13 +237,28 @@ impl Plan {
         })
     }
 
-    /// How much of the time from one point to another has passed at a point between them, 0..1.
-    fn share(&self, from: usize, to: usize, between: usize) -> f64 {
+    /// How long a move of so many metres takes at this speed.
+    fn seconds_for(&self, way: f64, speed: f64) -> f64 {
+        match self.acceleration {
+            None => way / speed,
+            // It slows down before it is that fast.
+            Some(acceleration) if way * acceleration < speed * speed => {
+                2.0 * (way / acceleration).sqrt()
+            }
+            Some(acceleration) => way / speed + speed / acceleration,
+        }
+    }
+
+    /// The share of a move of so many metres that is behind at a point between its ends, 0..1.
+    fn share(&self, way: f64, from: usize, to: usize, between: usize) -> f64 {
         let all = self.times[to] - self.times[from];
-        if all > 0.0 {
-            (self.times[between] - self.times[from]) / all
-        } else {
-            0.0
+        let passed = self.times[between] - self.times[from];
+        match self.acceleration {
+            _ if all <= 0.0 => 0.0,
+            Some(acceleration) if way > 0.0 => {
+                (ridden(way, all, passed, acceleration) / way).clamp(0.0, 1.0)
+            }
+            _ => passed / all,
         }
     }
 
@@ -246,12 +275,29 @@ impl Plan {
                 usize::from(configuration),
             );
             let (start, end) = (self.positions[from.1], self.positions[at.1]);
+            let way = (end - start).abs();
             for (i, place) in run[from.0..at.0].iter_mut().enumerate() {
-                *place = start + (end - start) * self.share(from.0, at.0, from.0 + i);
+                *place = start + (end - start) * self.share(way, from.0, at.0, from.0 + i);
             }
             at = from;
         }
         run
+    }
+}
+
+/// Metres of a way ridden after `passed` of `all` seconds, from standstill to standstill, no faster than it takes.
+fn ridden(way: f64, all: f64, passed: f64, acceleration: f64) -> f64 {
+    // all = way / top + top / acceleration
+    let root = (all * all - 4.0 * way / acceleration).max(0.0).sqrt();
+    let top = 2.0 * way / (all + root);
+    let ramp = top / acceleration;
+    let left = all - passed;
+    if passed < ramp {
+        acceleration * passed * passed / 2.0
+    } else if left < ramp {
+        way - acceleration * left * left / 2.0
+    } else {
+        top * (passed - ramp / 2.0)
     }
 }
 

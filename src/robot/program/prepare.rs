@@ -184,10 +184,8 @@ mod tests {
         let far = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
         let problems: Vec<bool> = far.points.iter().map(|p| p.problem.is_some()).collect();
         assert_eq!(problems, [true, false, false, false, true]);
-        assert_eq!(
-            far.doubt("arm").as_deref(),
-            Some("arm reaches 3 of 5 points")
-        );
+        let doubt = far.doubt("arm").expect("not reached");
+        assert!(doubt.starts_with("arm reaches 3 of 5 points"), "{doubt}");
         let none = CarriedPath { points: Vec::new() };
         assert!(check_reach(&arm, &none, &frame, &settings).is_err());
         // Counted as the path counts them, without the approach point.

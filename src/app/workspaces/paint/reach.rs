@@ -33,8 +33,8 @@ use crate::{
     robot::{
         RobotFrame,
         arm::{
-            Body, CheckParams, Obstacle, Obstacles, PathCheck, PlaceSuggestion, PointProblem,
-            suggest_base, suggest_rail,
+            ArmError, Body, CheckParams, Obstacle, Obstacles, PathCheck, PlaceSuggestion,
+            PointProblem, suggest_base, suggest_rail,
         },
         program::{arm_points, check_reach},
         spray::{CarriedPath, carry},
@@ -68,6 +68,8 @@ pub struct Reach {
     pub base: Option<PlaceSuggestion>,
     /// Where on its rail it would.
     pub rail: Option<PlaceSuggestion>,
+    /// Of what accelerations are not checked: `joints`, `rail` or `joints and rail`.
+    pub unchecked_accelerations: Option<&'static str>,
     /// Between which positions, metres, its rail moves along the path; none of a rail that stands still.
     pub rail_range: Option<[f64; 2]>,
     /// The path where it is not reached, and the boxes of the cell.
@@ -98,6 +100,10 @@ fn reason(problem: &PointProblem) -> String {
         PointProblem::NearSingularity(_) => text!("paint-near-singularity"),
         PointProblem::TooFast { joint, .. } => text!("paint-joint-too-fast", joint = *joint),
         PointProblem::RailTooFast { .. } => text!("paint-rail-too-fast"),
+        PointProblem::JointAcceleration { joint, .. } => {
+            text!("paint-joint-acceleration", joint = *joint)
+        }
+        PointProblem::RailAcceleration { .. } => text!("paint-rail-acceleration"),
         PointProblem::ConfigurationChange => text!("paint-arm-folds-over"),
         PointProblem::Collision { body, obstacle } => {
             let body = match body {
@@ -111,6 +117,7 @@ fn reason(problem: &PointProblem) -> String {
                 Obstacle::Floor => text!("paint-near-floor", body = body),
                 Obstacle::Box(name) => text!("paint-near-box", body = body, name = name),
                 Obstacle::UpperArm => text!("paint-near-upper-arm", body = body),
+                Obstacle::Forearm => text!("paint-near-forearm", body = body),
                 Obstacle::BaseColumn => text!("paint-near-base-column", body = body),
             }
         }
@@ -237,7 +244,10 @@ fn found(
     let arm = arm.with_part(&path.part_points, &robot_from_part);
     let points = arm_points(&path.carried, &request.robot, settings.speed);
     let params = CheckParams::default();
-    let failed = |error| UserError::of(&error);
+    let failed = |error: ArmError| match error {
+        ArmError::Cancelled => TaskError::Cancelled,
+        error => TaskError::Failed(UserError::of(&error)),
+    };
     let check = check_reach(&arm, &path.carried, &request.robot, &settings).map_err(failed)?;
     let num = check.num_reached();
     let mut lines = unreached(planned, &check);
@@ -245,6 +255,7 @@ fn found(
     let moving = arm.arm.moving_rail();
     let mut reach = Reach {
         arm: arm.arm.name.clone(),
+        unchecked_accelerations: arm.arm.unchecked_accelerations(),
         rail_range: moving.map(|_| check.rail_range()),
         lines: LineSet::new(lines),
         check,
@@ -254,10 +265,12 @@ fn found(
     if num < points.len() {
         // Places take longer than the check.
         context.partial(Arc::new(reach.clone()));
-        context.check()?;
-        reach.rail = suggest_rail(&arm, &points, &params, num).map_err(failed)?;
-        context.check()?;
-        reach.base = suggest_base(&arm, &points, &params, num).map_err(failed)?;
+        let progress = |done, total| context.progress(done, total);
+        let is_cancelled = || context.check().is_err();
+        reach.rail =
+            suggest_rail(&arm, &points, &params, num, &progress, &is_cancelled).map_err(failed)?;
+        reach.base =
+            suggest_base(&arm, &points, &params, num, &progress, &is_cancelled).map_err(failed)?;
     }
     Ok(Arc::new(reach))
 }

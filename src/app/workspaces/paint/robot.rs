@@ -19,7 +19,7 @@ use crate::{
             widgets::{grouped, heading, labelled, row, shortened},
         },
     },
-    robot::arm::{ARM_NAMES, Arm},
+    robot::arm::{ARM_NAMES, Arm, PointProblem},
 };
 
 /// Reasons that are listed.
@@ -201,11 +201,20 @@ fn reasons(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAct
         let words = text!("paint-rail-moves", from = from, to = to);
         note(ui, &words, theme.weak_text);
     }
+    if let Some(what) = reach.unchecked_accelerations {
+        let words = text!("paint-unchecked-accelerations", what = what);
+        note(ui, &words, theme.weak_text);
+    }
     if reach.check.num_reached() == reach.check.points.len() {
         return;
     }
     for (reason, count) in reach.reasons().into_iter().take(MAX_REASONS) {
         note(ui, &format!("{} · {reason}", grouped(count)), theme.text);
+    }
+    let points = reach.check.points.iter();
+    let mut problems = points.filter_map(|point| point.problem.as_ref());
+    if problems.any(PointProblem::is_acceleration) {
+        note(ui, &text!("paint-acceleration-advice"), theme.text);
     }
     let next = text!("paint-show-unreached");
     if labelled(ui, Button::new(&next), &next).clicked() {

@@ -19,6 +19,7 @@ fn plan(reached: Vec<RangeInclusive<usize>>, speed: f64) -> Plan {
         reached,
         positions,
         speed,
+        acceleration: None,
     }
 }
 
@@ -36,11 +37,11 @@ fn num_moves(run: &[f64]) -> usize {
 
 #[test]
 fn it_stands_still_in_the_middle_of_what_reaches_every_point() {
-    let run = plan(vec![2..=6; 30], 1.0).run();
+    let run = plan(vec![2..=6; 30], 1.0).run(&|| false).expect("goes on");
     assert_eq!(run, vec![0.4; 30]);
     let mut all = vec![0..=6; 15];
     all.extend(vec![3..=10; 15]);
-    let run = plan(all, 1.0).run();
+    let run = plan(all, 1.0).run(&|| false).expect("goes on");
     assert_eq!(num_moves(&run), 0, "{run:?}");
     assert!((0.3..=0.6 + 1e-9).contains(&run[0]), "{run:?}");
 }
@@ -50,7 +51,7 @@ fn it_moves_in_time_within_its_speed_and_while_the_gun_is_off() {
     let mut all = vec![0..=2; 20];
     all.extend(vec![0..=10; 20]);
     all.extend(vec![8..=10; 20]);
-    let run = plan(all, 1.0).run();
+    let run = plan(all, 1.0).run(&|| false).expect("goes on");
     assert!(run[..20].iter().all(|at| *at <= 0.2 + 1e-9), "{run:?}");
     assert!(run[40..].iter().all(|at| *at >= 0.8 - 1e-9), "{run:?}");
     assert!(fastest(&run) <= 1.0 + 1e-6, "{run:?}");
@@ -64,24 +65,56 @@ fn it_moves_in_time_within_its_speed_and_while_the_gun_is_off() {
     }
     let mut plan = plan(all, 1.0);
     plan.is_gun_on[27..32].fill(false);
-    let run = plan.run();
+    let run = plan.run(&|| false).expect("goes on");
     assert_eq!(num_moves(&run[..28]), 0, "{run:?}");
     assert_eq!(num_moves(&run[32..]), 0, "{run:?}");
     assert!(num_moves(&run[27..33]) > 0, "{run:?}");
 }
 
 #[test]
+fn it_speeds_up_and_slows_down_within_its_acceleration() {
+    let mut all = vec![0..=2; 20];
+    all.extend(vec![0..=10; 20]);
+    all.extend(vec![8..=10; 20]);
+    let run = |acceleration: Option<f64>| {
+        let plan = Plan {
+            acceleration,
+            ..plan(all.clone(), 1.0)
+        };
+        plan.run(&|| false).expect("goes on")
+    };
+    let hardest = |run: &[f64]| {
+        let changes = run.windows(3).map(|at| at[2] - 2.0 * at[1] + at[0]);
+        changes
+            .map(|change| change.abs() / 0.01)
+            .fold(0.0, f64::max)
+    };
+    let ramped = run(Some(1.0));
+    assert!(hardest(&ramped) <= 1.0 + 1e-6, "{ramped:?}");
+    assert!(ramped[..20].iter().all(|at| *at <= 0.2 + 1e-9));
+    assert!(ramped[40..].iter().all(|at| *at >= 0.8 - 1e-9));
+    // One that knows of no limit is at its speed at once.
+    assert!(hardest(&run(None)) > 1.0);
+    // From one end to the other, speeding up on all of the first half, it is between 0.2 and 0.8 m for 2.1 s at 0.12 m/s².
+    let is_too_hard = |limit: f64| hardest(&run(Some(limit))) > limit + 1e-6;
+    assert!(is_too_hard(0.1) && !is_too_hard(0.2));
+}
+
+#[test]
 fn what_cannot_be_reached_in_time_is_one_jump_and_not_a_row_of_missed_points() {
     let mut all = vec![0..=2; 20];
     all.extend(vec![8..=10; 20]);
-    let run = plan(all.clone(), 0.5).run();
+    let run = plan(all.clone(), 0.5).run(&|| false).expect("goes on");
     assert!(run[..20].iter().all(|at| *at <= 0.2 + 1e-9), "{run:?}");
     assert!(run[20..].iter().all(|at| *at >= 0.8 - 1e-9), "{run:?}");
-    assert_eq!(run, plan(all, 0.5).run());
+    assert_eq!(run, plan(all, 0.5).run(&|| false).expect("goes on"));
     // A point that no position reaches does not matter.
     let mut all = vec![2..=6; 30];
     all[12] = 12..=12;
-    assert_eq!(plan(all, 1.0).run(), vec![0.4; 30]);
+    assert_eq!(
+        plan(all, 1.0).run(&|| false).expect("goes on"),
+        vec![0.4; 30]
+    );
 }
 
 #[test]
@@ -90,7 +123,7 @@ fn a_slow_rail_passes_more_points_than_are_looked_at() {
     let mut all = vec![0..=2; 500];
     all.extend(vec![0..=10; 1600]);
     all.extend(vec![8..=10; 500]);
-    let run = plan(all, 0.004).run();
+    let run = plan(all, 0.004).run(&|| false).expect("goes on");
     assert!(run[..500].iter().all(|at| *at <= 0.2 + 1e-9), "{run:?}");
     assert!(run[2100..].iter().all(|at| *at >= 0.8 - 1e-9), "{run:?}");
     assert!(fastest(&run) <= 0.004 + 1e-9, "{run:?}");
@@ -120,7 +153,7 @@ fn wherever_a_run_reaches_every_point_one_is_found() {
             range.start().saturating_sub(more)..=range.end() + more
         });
         let wider: Vec<RangeInclusive<usize>> = wider.collect();
-        let run = plan(wider.clone(), 1.0).run();
+        let run = plan(wider.clone(), 1.0).run(&|| false).expect("goes on");
         assert!(fastest(&run) <= 1.0 + 1e-6, "{run:?}");
         for (at, within) in run.iter().zip(&wider) {
             let (low, high) = (*within.start() as f64, *within.end() as f64);
@@ -144,5 +177,5 @@ fn one_configuration_along_the_path_is_better_than_less_way() {
             *found = u8::from(first) | (u8::from(second) << 1);
         }
     }
-    assert_eq!(plan.run(), vec![0.5; 40]);
+    assert_eq!(plan.run(&|| false).expect("goes on"), vec![0.5; 40]);
 }

@@ -1,6 +1,9 @@
 //! An arm that a rail moves along the path.
 
-use super::*;
+use super::{
+    places::{better_base, better_rail},
+    *,
+};
 
 /// Farther apart than the arm reaches to both sides of any place, with its gun, metres.
 const LENGTH: f64 = 4.5;
@@ -13,6 +16,7 @@ fn cell(speed: Option<f64>) -> (PlacedArm, Vec<ArmPoint>) {
         direction: Vector3::y_axis(),
         range: [-2.5, 2.5],
         speed,
+        acceleration: None,
     });
     let points = row(&placed, NUM, LENGTH);
     (placed, points)
@@ -66,10 +70,7 @@ fn a_rail_that_moves_reaches_a_path_longer_than_the_arm() {
     };
     let again = check_path(&moving, &points, &params).expect("checked");
     assert_eq!(again, found);
-    assert_eq!(
-        suggest_rail(&moving, &points, &params, 0).expect("searched"),
-        None
-    );
+    assert_eq!(better_rail(&moving, &points, &params, 0), None);
 }
 
 #[test]
@@ -106,6 +107,27 @@ fn a_rail_that_is_too_slow_says_so_and_never_moves_faster_than_it_can() {
 }
 
 #[test]
+fn a_rail_speeds_up_and_slows_down_within_its_acceleration() {
+    let (mut moving, points) = cell(Some(1.0));
+    let hardest = |found: &PathCheck| {
+        let rails = found.points.windows(3);
+        let changes = rails.map(|at| (at[2].rail - 2.0 * at[1].rail + at[0].rail).abs());
+        changes.fold(0.0, f64::max) / (STEP_TIME * STEP_TIME)
+    };
+    let at_once = hardest(&check(&moving, &points));
+    let limited = moving.arm.rail.map(|rail| Rail {
+        acceleration: Some(0.4),
+        ..rail
+    });
+    moving.arm.rail = limited;
+    let found = check(&moving, &points);
+    let problems: Vec<_> = found.points.iter().map(|point| &point.problem).collect();
+    assert_eq!(found.num_reached(), NUM, "{problems:?}");
+    assert!(hardest(&found) <= 0.4 + 1e-6, "{}", hardest(&found));
+    assert!(at_once > 0.4, "{at_once}");
+}
+
+#[test]
 fn a_rail_that_stands_still_changes_nothing() {
     let plain = with_gun("irb2600");
     let mut on_rail = plain.clone();
@@ -116,6 +138,7 @@ fn a_rail_that_stands_still_changes_nothing() {
         direction: Vector3::y_axis(),
         range: [-2.5, 2.5],
         speed: None,
+        acceleration: None,
     });
     assert_eq!(check(&on_rail, &points), found);
 }
@@ -127,8 +150,7 @@ fn a_better_base_counts_every_position_of_a_rail_that_moves() {
     let params = CheckParams::default();
     let num = check(&moving, &points).num_reached();
     assert!(num < NUM);
-    let base = suggest_base(&moving, &points, &params, num).expect("searched");
-    let base = base.expect("a better one");
+    let base = better_base(&moving, &points, &params, num).expect("a better one");
     assert_eq!(base.num_reached, NUM, "{base:?}");
     assert!(base.shift[0] > 0.1, "{base:?}");
 }

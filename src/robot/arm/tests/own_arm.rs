@@ -1,4 +1,4 @@
-//! Gun and wrist against the arm that carries them.
+//! Gun, wrist and forearm against the arm that carries them.
 
 use super::*;
 
@@ -65,6 +65,7 @@ fn a_gun_that_is_swung_into_the_base_column_is_named() {
         direction: Vector3::y_axis(),
         range: [-2.5, 2.5],
         speed: None,
+        acceleration: None,
     });
     let moved = Solver::new(&on_rail, 2.0).collision(&in_radians(inwards));
     assert_eq!(moved, Some(wanted));
@@ -73,6 +74,96 @@ fn a_gun_that_is_swung_into_the_base_column_is_named() {
         solver.collision(&in_radians([0.0, 0.0, 0.0, 0.0, 30.0, 0.0])),
         None
     );
+}
+
+#[test]
+fn a_forearm_that_lies_across_the_base_column_is_named() {
+    let mut placed = placed("m-20ia");
+    // Leaned back until the upper arm is level behind joint 2, the forearm level ahead above it: it passes over the end of the
+    // column, 250 mm higher, and its wrist is beyond.
+    let across = in_radians([0.0, -90.0, -90.0, 0.0, 0.0, 0.0]);
+    let [_, wrist, forearm, ..] = Solver::new(&placed, 0.0).bodies(&across);
+    assert!((forearm.axis.from.z - 0.25).abs() < 1e-9 && (wrist.axis.from.z - 0.25).abs() < 1e-9);
+    assert!(forearm.axis.from.x < -0.5 && wrist.axis.from.x > 0.1);
+    let wanted = PointProblem::Collision {
+        body: Body::Forearm,
+        obstacle: Obstacle::BaseColumn,
+    };
+    assert_eq!(
+        wanted.describe(),
+        "the forearm is too near to the base column"
+    );
+    // 150 mm of the column and 130 mm of the forearm, in whatever direction.
+    for turn in [-170.0, 0.0, 90.0] {
+        let mut joints = across;
+        joints[0] = f64::to_radians(turn);
+        let found = Solver::new(&placed, 0.0).collision(&joints);
+        assert_eq!(found, Some(wanted.clone()), "{turn}");
+    }
+    // A thinner one leaves 20 mm.
+    placed.arm.radii[1] = 0.08;
+    for (clearance, is_hit) in [(0.019, false), (0.021, true)] {
+        placed.obstacles.clearance = clearance;
+        let found = Solver::new(&placed, 0.0).collision(&across);
+        assert_eq!(found, is_hit.then(|| wanted.clone()), "{clearance}");
+    }
+}
+
+#[test]
+fn a_gun_that_is_folded_back_along_the_forearm_is_named() {
+    let mut placed = PlacedArm {
+        flange_from_nozzle: Translation3::new(0.4, 0.0, 0.0).into(),
+        ..placed("irb2600")
+    };
+    // The forearm level, the wrist bent down by a right angle: the gun runs back below the forearm or, with joint 6 turned
+    // around, away from it, 85 mm lower either way.
+    let back = in_radians([0.0, 0.0, 0.0, 0.0, 90.0, 0.0]);
+    let away = in_radians([0.0, 0.0, 0.0, 0.0, 90.0, 180.0]);
+    let [gun, _, forearm, ..] = Solver::new(&placed, 0.0).bodies(&back);
+    for end in [gun.axis.from, gun.axis.to] {
+        assert!((forearm.axis.to.z - end.z - 0.085).abs() < 1e-9, "{end}");
+    }
+    assert!(gun.axis.to.x < forearm.axis.to.x - 0.3);
+    let wanted = PointProblem::Collision {
+        body: Body::Gun,
+        obstacle: Obstacle::Forearm,
+    };
+    assert_eq!(wanted.describe(), "the gun is too near to the forearm");
+    let found = Solver::new(&placed, 0.0).collision(&back);
+    assert_eq!(found, Some(wanted.clone()));
+    assert_eq!(Solver::new(&placed, 0.0).collision(&away), None);
+    // A thin forearm leaves 15 mm to the gun's 50 mm.
+    placed.arm.radii[1] = 0.02;
+    for (clearance, is_hit) in [(0.014, false), (0.016, true)] {
+        placed.obstacles.clearance = clearance;
+        let solver = Solver::new(&placed, 0.0);
+        let found = solver.collision(&back);
+        assert_eq!(found, is_hit.then(|| wanted.clone()), "{clearance}");
+        assert_eq!(solver.collision(&away), None);
+    }
+}
+
+#[test]
+fn a_straight_gun_ahead_of_the_wrist_is_clear_of_the_forearm() {
+    for name in ARM_NAMES {
+        let placed = PlacedArm {
+            flange_from_nozzle: Translation3::new(0.0, 0.0, 0.3).into(),
+            ..placed(name)
+        };
+        let solver = Solver::new(&placed, 0.0);
+        // The upper arm upright, the forearm level.
+        let mut joints = match name {
+            "kr6-r900" => in_radians([0.0, -90.0, 90.0, 0.0, 0.0, 0.0]),
+            _ => [0.0; 6],
+        };
+        for turn in [-150.0, 0.0, 60.0] {
+            joints[3] = f64::to_radians(turn);
+            for bend in [-89.0, -45.0, 0.0, 45.0, 89.0] {
+                joints[4] = f64::to_radians(bend);
+                assert_eq!(solver.collision(&joints), None, "{name} {turn} {bend}");
+            }
+        }
+    }
 }
 
 #[test]

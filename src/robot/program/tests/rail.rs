@@ -11,6 +11,7 @@ fn on_rail(name: &str, rails: &[f64], speed: Option<f64>) -> (PlacedArm, PathChe
         direction: Vector3::y_axis(),
         range: [-20.0, 20.0],
         speed,
+        acceleration: None,
     });
     for (point, rail) in check.points.iter_mut().zip(rails) {
         point.rail = *rail;

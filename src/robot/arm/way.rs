@@ -1,0 +1,190 @@
+//! The straight move from one checked point to the next.
+
+use super::{
+    Arm, ArmPoint, PlacedArm, PointCheck,
+    chain::{move_time, turned},
+    kinematics::{Joints, Solver},
+    problem::PointProblem,
+};
+use crate::geometry::rigid::RigidTransform;
+
+/// Straight moves are followed in steps of at most this, metres and radians.
+const STEP: [f64; 2] = [0.05, 0.175];
+/// Two solutions are the same within this, radians.
+const SAME: f64 = 1e-4;
+
+/// Where a straight move begins or ends.
+pub(super) struct WayEnd {
+    pub(super) nozzle: RigidTransform,
+    pub(super) joints: Joints,
+    pub(super) rail: f64,
+}
+
+impl WayEnd {
+    /// A point as it was checked; none if it is not reached.
+    pub(super) fn of(point: &ArmPoint, checked: &PointCheck) -> Option<Self> {
+        Some(Self {
+            nozzle: turned(point, checked.turn),
+            joints: checked.joints?,
+            rail: checked.rail,
+        })
+    }
+
+    /// The joints nearest to `near` at this share of the straight move to another end; none if it is not reached there.
+    pub(super) fn joints_towards(
+        &self,
+        end: &Self,
+        share: f64,
+        placed: &PlacedArm,
+        near: &Joints,
+    ) -> Option<Joints> {
+        let solver = Solver::new(placed, self.rail_towards(end, share));
+        nearest(&solver, &self.nozzle_towards(end, share), near)
+    }
+
+    fn rail_towards(&self, end: &Self, share: f64) -> f64 {
+        self.rail + (end.rail - self.rail) * share
+    }
+
+    fn nozzle_towards(&self, end: &Self, share: f64) -> RigidTransform {
+        let (from, to) = (&self.nozzle, &end.nozzle);
+        nalgebra::Isometry3::from_parts(
+            (from.translation.vector.lerp(&to.translation.vector, share)).into(),
+            from.rotation.slerp(&to.rotation, share),
+        )
+    }
+}
+
+/// Follows a straight move from one chosen solution towards the next, and says what is wrong with it.
+pub(super) fn way_problem(
+    placed: &PlacedArm,
+    start: &WayEnd,
+    end: &WayEnd,
+    speed: f64,
+) -> Option<PointProblem> {
+    let (from, to) = (&start.nozzle, &end.nozzle);
+    let distance = (to.translation.vector - from.translation.vector).norm();
+    let angle = from.rotation.angle_to(&to.rotation);
+    let ride = (end.rail - start.rail).abs();
+    let num = (distance.max(ride) / STEP[0]).max(angle / STEP[1]);
+    let num = num.ceil().max(1.0);
+    let allowed = move_time(from, to, speed);
+    let mut trouble = rail_problem(&placed.arm, ride, allowed);
+    let allowed = allowed.map(|time| time / num);
+    let mut at = start.joints;
+    for k in 1..=num as usize {
+        let share = k as f64 / num;
+        let solver = Solver::new(placed, start.rail_towards(end, share));
+        let near = if k == num as usize {
+            end.joints
+        } else {
+            let pose = start.nozzle_towards(end, share);
+            let Some(nearest) = nearest(&solver, &pose, &at) else {
+                return trouble.or(Some(PointProblem::OutOfReach));
+            };
+            // It comes before whatever else is wrong, but a limit stops the arm before it. The ends of the way are points, which
+            // are tested.
+            if outside(&solver, &nearest).is_none()
+                && let Some(collision) = solver.collision(&nearest)
+            {
+                return Some(collision);
+            }
+            nearest
+        };
+        trouble = trouble.or_else(|| step_problem(&solver, &at, &near, allowed));
+        if k == num as usize {
+            trouble = trouble.or_else(|| arrival_problem(&solver, start, end, &at));
+        }
+        at = near;
+    }
+    trouble
+}
+
+/// The largest difference between two joints, radians.
+pub(super) fn apart(a: &Joints, b: &Joints) -> f64 {
+    let all = a.iter().zip(b);
+    all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// The joints nearest to `at` that reach a pose.
+fn nearest(solver: &Solver<'_>, pose: &RigidTransform, at: &Joints) -> Option<Joints> {
+    let solutions = solver.solutions(pose, Some(at)).into_iter();
+    solutions.min_by(|a, b| apart(a, at).total_cmp(&apart(b, at)))
+}
+
+/// What is wrong if a straight move from `at`, shortly before its end, does not arrive with the joints chosen there. However
+/// slow the move is, the controller neither folds the arm over on it nor turns a joint once around.
+fn arrival_problem(
+    solver: &Solver<'_>,
+    start: &WayEnd,
+    end: &WayEnd,
+    at: &Joints,
+) -> Option<PointProblem> {
+    /// Two solutions that are not singular are farther apart, radians.
+    const OTHER: f64 = 0.01;
+    // At a singularity, which is a problem of its own, several solutions meet.
+    let ends = [&start.joints, &end.joints];
+    if ends
+        .iter()
+        .any(|joints| solver.singularity(joints).is_some())
+    {
+        return None;
+    }
+    let arrives = nearest(solver, &end.nozzle, at)?;
+    if apart(&arrives, &end.joints) < OTHER {
+        return None;
+    }
+    let beyond = outside(solver, &arrives).map(|(joint, angle)| PointProblem::JointLimit {
+        joint: joint + 1,
+        angle,
+    });
+    Some(beyond.unwrap_or(PointProblem::ConfigurationChange))
+}
+
+/// Whether the rail gets as far in so many seconds, or in as many as it wants.
+fn rail_problem(arm: &Arm, ride: f64, allowed: Option<f64>) -> Option<PointProblem> {
+    /// The times of a run are sums, which are not exact.
+    const EXACT: f64 = 1e-6;
+    let (_, fastest) = arm.moving_rail()?;
+    let speed = ride / allowed?;
+    (speed > fastest * (1.0 + EXACT)).then_some(PointProblem::RailTooFast { speed })
+}
+
+/// What is wrong with a short step from one solution to the next, which may take so many seconds, or as many as it wants.
+fn step_problem(
+    solver: &Solver<'_>,
+    at: &Joints,
+    near: &Joints,
+    allowed: Option<f64>,
+) -> Option<PointProblem> {
+    if let Some((joint, angle)) = outside(solver, near) {
+        return Some(PointProblem::JointLimit {
+            joint: joint + 1,
+            angle,
+        });
+    }
+    let time = allowed.unwrap_or(f64::INFINITY);
+    let is_too_fast = |i: &usize| {
+        let moved = (near[*i] - at[*i]).abs();
+        moved / time > solver.arm.speeds[*i] && moved >= SAME
+    };
+    let i = (0..6).find(is_too_fast)?;
+    Some(
+        if solver.arm.configuration(near) == solver.arm.configuration(at) {
+            PointProblem::TooFast {
+                joint: i + 1,
+                speed: (near[i] - at[i]).abs() / time,
+            }
+        } else {
+            PointProblem::ConfigurationChange
+        },
+    )
+}
+
+/// The first joint outside its limits, as it stands.
+fn outside(solver: &Solver<'_>, joints: &Joints) -> Option<(usize, f64)> {
+    let limits = solver.arm.limits.iter().zip(joints).enumerate();
+    let mut beyond =
+        limits.filter(|(_, ([low, high], angle))| !(low - SAME..=high + SAME).contains(*angle));
+    beyond.next().map(|(i, (_, angle))| (i, *angle))
+}
