@@ -1,8 +1,8 @@
-//! A point cloud: positions with, where the source has them, a grid, normals, colours and labels.
+//! A point cloud: positions with optional grid, normals, colours and labels.
 
 use nalgebra::{Point3, Vector3};
 
-/// The rows and columns of an organised cloud, as the camera read them: row by row from the top left.
+/// The rows and columns of an organised cloud, in the camera's order: row by row from the top left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grid {
     /// Points in one row, at least 1.
@@ -18,32 +18,32 @@ impl Grid {
     }
 }
 
-/// Points in metres. The space (camera or part) is named by whatever holds the cloud.
+/// Points in metres. The owner of the cloud states their space (camera or part).
 ///
 /// Storage is `f32`: 24 bits resolve 0.1 µm at 1 m, far below any depth camera, at half the memory traffic.
 /// Sums and fits over the points are done in `f64`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointCloud {
-    /// Positions, metres. In an organised cloud a cell without a reading holds three NaN; an unorganised cloud
+    /// Positions, metres. In an organised cloud, a cell without a reading holds three NaN; an unorganised cloud
     /// holds finite points only.
     pub points: Vec<Point3<f32>>,
-    /// Unit surface normals, one per point, if known. NaN where the point is.
+    /// Unit surface normals, one per point, if known. NaN where the point is NaN.
     pub normals: Option<Vec<Vector3<f32>>>,
     /// Red, green, blue, one per point, if known.
     pub colours: Option<Vec<[u8; 3]>>,
-    /// A label per point as the file gave it, if any.
+    /// Labels from the file, one per point, if any.
     pub labels: Option<Vec<u32>>,
     /// Rows and columns if the cloud is organised; `points.len()` is then their product.
     pub grid: Option<Grid>,
-    /// True if no camera read these points: they are simulated, and the file or the source says so.
+    /// True if the points are simulated, according to the file or the source, and not measured by a camera.
     pub is_simulated: bool,
-    /// Bytes that follow the last point in the file, if it was read from one: with any, its header does not describe what
-    /// is in it, and the points may be wrong.
+    /// Bytes after the last point in the file, 0 if none or not from a file. If above 0, the header does not match the
+    /// content and the points may be wrong.
     pub surplus_bytes: u64,
 }
 
 impl PointCloud {
-    /// An unorganised cloud of bare positions; points that are not finite are dropped.
+    /// Creates an unorganised cloud of bare positions; drops points that are not finite.
     pub fn from_points(points: impl IntoIterator<Item = Point3<f32>>) -> Self {
         Self {
             points: points.into_iter().filter(is_finite).collect(),
@@ -51,7 +51,7 @@ impl PointCloud {
         }
     }
 
-    /// The finite points with their index.
+    /// Iterates over the finite points with their indices.
     pub fn finite(&self) -> impl Iterator<Item = (usize, &Point3<f32>)> + Clone {
         self.points.iter().enumerate().filter(|(_, p)| is_finite(p))
     }
@@ -61,8 +61,8 @@ impl PointCloud {
         self.finite().count()
     }
 
-    /// The share of the finite points that lie behind a camera at the origin that looks along z, 0..1. The origin itself
-    /// is not counted: it often stands for "no reading".
+    /// Returns the share of the finite points that lie behind a camera at the origin looking along z, 0..1. Points at
+    /// the origin do not count as behind: they often stand for "no reading".
     pub fn share_behind(&self) -> f64 {
         let is_behind = |p: &&Point3<f32>| p.z < 0.0 || (p.z == 0.0 && **p != Point3::origin());
         let num_behind = self.points.iter().filter(is_behind).count();
@@ -72,7 +72,7 @@ impl PointCloud {
         num_behind as f64 / self.num_finite().max(1) as f64
     }
 
-    /// Smallest and largest coordinate of the finite points; `None` without any.
+    /// Returns the smallest and largest coordinates of the finite points; `None` if there are none.
     pub fn bounds(&self) -> Option<(Point3<f32>, Point3<f32>)> {
         let mut finite = self.finite().map(|(_, p)| *p);
         let first = finite.next()?;

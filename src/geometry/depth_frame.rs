@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::distortion::Distortion;
 
-/// A pinhole camera, in pixels, with the distortion of its lens. Camera space is x right, y down, z forward.
+/// A pinhole camera with lens distortion, in pixels. Camera space is x right, y down, z forward.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Intrinsics {
     /// Columns, at least 1.
@@ -20,13 +20,13 @@ pub struct Intrinsics {
     pub cx: f64,
     /// Row of the optical axis.
     pub cy: f64,
-    /// Distortion of the lens; in JSON and TOML its coefficients stand beside the other numbers, those of 0 left out.
+    /// Lens distortion. In JSON and TOML its coefficients are fields of the intrinsics; zeros are omitted.
     #[serde(flatten)]
     pub distortion: Distortion,
 }
 
 impl Intrinsics {
-    /// The 640×480 camera of the simulated cell: a Kinect's field of view.
+    /// The 640×480 camera of the simulated cell, with a Kinect's field of view.
     pub const KINECT: Self = Self {
         width: 640,
         height: 480,
@@ -37,8 +37,8 @@ impl Intrinsics {
         distortion: Distortion::NONE,
     };
 
-    /// The camera point seen at column `u`, row `v` with depth `z` (metres along the optical axis); NaN where the lens
-    /// shows nothing, which is never inside the picture of a camera that [`is_invertible`](Self::is_invertible).
+    /// Returns the camera point seen at column `u`, row `v` with depth `z` (metres along the optical axis). NaN where no
+    /// ray maps to the pixel, which never happens inside the image of a camera that [`is_invertible`](Self::is_invertible).
     pub fn point_at(&self, u: f64, v: f64, z: f64) -> Point3<f64> {
         let seen = self.seen_at(u, v);
         let [x, y] = if self.distortion.is_none() {
@@ -49,8 +49,8 @@ impl Intrinsics {
         Point3::new(x * z, y * z, z)
     }
 
-    /// Column and row at which a camera point is seen, inside the picture or not; `None` behind the camera and where
-    /// the lens shows it nowhere.
+    /// Returns the column and row at which a camera point is seen, inside the image or not; `None` if the point is
+    /// behind the camera or the lens shows it nowhere.
     pub fn pixel_of(&self, point: &Point3<f64>) -> Option<(f64, f64)> {
         if point.z <= 0.0 {
             return None;
@@ -62,18 +62,18 @@ impl Intrinsics {
         }
         match self.distortion.distort(ray) {
             Some(seen) => Some(pixel(seen)),
-            // So far out that the model folds. A pinhole would show it outside too.
+            // Beyond the range in which the model is one-to-one. Keep the pinhole pixel if it is outside the image.
             None => Some(pixel(ray)).filter(|(u, v)| !self.is_inside(*u, *v)),
         }
     }
 
-    /// True if every pixel sees a ray of its own: the distortion does not fold inside the picture.
+    /// Returns true if every pixel sees its own ray, so the distortion does not fold inside the image.
     pub fn is_invertible(&self) -> bool {
-        /// Places looked at along each side of the picture.
+        /// Sample points along each side of the image.
         const NUM_PLACES: usize = 16;
         let (right, bottom) = (self.width as f64 - 0.5, self.height as f64 - 0.5);
         let shows = |u: f64, v: f64| self.distortion.undistort(self.seen_at(u, v)).is_some();
-        // The way to a place leads past everything between it and the axis.
+        // `undistort` follows the ray from the axis outwards, so testing the border covers the inside.
         self.distortion.is_none()
             || (0..=NUM_PLACES).all(|k| {
                 let share = k as f64 / NUM_PLACES as f64;
@@ -82,7 +82,7 @@ impl Intrinsics {
             })
     }
 
-    /// The same camera's picture in a mirror: left and right exchanged.
+    /// Returns the camera of the mirrored image: left and right exchanged.
     #[must_use]
     pub fn mirrored(self) -> Self {
         Self {
@@ -92,7 +92,7 @@ impl Intrinsics {
         }
     }
 
-    /// The same camera's picture turned a quarter clockwise.
+    /// Returns the camera of the image turned by 90° clockwise.
     #[must_use]
     pub fn turned_clockwise(self) -> Self {
         Self {
@@ -106,7 +106,7 @@ impl Intrinsics {
         }
     }
 
-    /// The same camera with `side` × `side` of its pixels as one; rows and columns that fill no block are left out.
+    /// Returns the camera that combines blocks of `side` × `side` pixels into one; incomplete blocks are dropped.
     #[must_use]
     pub fn in_blocks(self, side: usize) -> Self {
         let k = side as f64;
@@ -123,7 +123,7 @@ impl Intrinsics {
         }
     }
 
-    /// Where the lens shows something at a pixel: as a ray, but before the distortion is undone.
+    /// Converts a pixel to ray coordinates, with the distortion still applied.
     pub(super) fn seen_at(&self, u: f64, v: f64) -> [f64; 2] {
         [(u - self.cx) / self.fx, (v - self.cy) / self.fy]
     }
@@ -138,11 +138,11 @@ impl Intrinsics {
 pub struct DepthFrame {
     /// The camera; its width × height is the length of `depth`.
     pub intrinsics: Intrinsics,
-    /// Metres that one unit of `depth` stands for, above 0.
+    /// Metres per unit of `depth`, above 0.
     pub metres_per_unit: f64,
-    /// Depth along the optical axis, row by row from the top left. 0 is the sensors' own sign for "no reading".
+    /// Depth along the optical axis, row by row from the top left. 0 means "no reading", as the sensor delivers it.
     pub depth: Vec<u16>,
-    /// True if no camera read these depths: they are simulated.
+    /// True if the depths are simulated.
     pub is_simulated: bool,
 }
 
@@ -173,7 +173,7 @@ mod tests {
         let there = BENT.mirrored().pixel_of(&Point3::new(-0.5, -0.35, 1.3));
         let (across, down) = there.expect("in front");
         assert!((across - (639.0 - u)).hypot(down - v) < 1e-9);
-        // A quarter clockwise takes right to down and down to left.
+        // A quarter turn clockwise maps right to down and down to left.
         let there = BENT
             .turned_clockwise()
             .pixel_of(&Point3::new(0.35, 0.5, 1.3));

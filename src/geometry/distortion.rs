@@ -1,4 +1,4 @@
-//! Lens distortion: where a ray is really seen, and which ray a pixel really sees.
+//! Lens distortion: maps a ray to where the lens shows it, and back.
 //!
 //! The model is the one that `OpenCV` documents for `calibrateCamera` (Brown, "Close-Range Camera Calibration",
 //! Photogrammetric Engineering 37(8), 1971, with the rational radial part of Claus and Fitzgibbon, CVPR 2005). With
@@ -10,19 +10,19 @@
 //! y' = y f + p1 (r² + 2 y²) + 2 p2 x y        row    = fy y' + cy
 //! ```
 //!
-//! k4 = k5 = k6 = 0 is the Brown-Conrady model. The way back has no formula: Newton's method follows the ray outwards
-//! from the axis, and every step must stay where the model is one-to-one.
+//! With k4 = k5 = k6 = 0 it is the Brown-Conrady model. The inverse has no closed form: Newton's method follows the ray
+//! outwards from the axis, and every step must stay where the model is one-to-one.
 
 use serde::{Deserialize, Serialize};
 
-/// Coefficients of the lens distortion, as `OpenCV` names them; all 0 for a pinhole camera.
+/// Coefficients of the lens distortion, with `OpenCV`'s names; all 0 for a pinhole camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Distortion {
-    /// Radial, of r².
+    /// Radial, coefficient of r².
     #[serde(skip_serializing_if = "is_zero")]
     pub k1: f64,
-    /// Radial, of r⁴.
+    /// Radial, coefficient of r⁴.
     #[serde(skip_serializing_if = "is_zero")]
     pub k2: f64,
     /// Tangential, mostly along the columns.
@@ -31,16 +31,16 @@ pub struct Distortion {
     /// Tangential, mostly along the rows.
     #[serde(skip_serializing_if = "is_zero")]
     pub p2: f64,
-    /// Radial, of r⁶.
+    /// Radial, coefficient of r⁶.
     #[serde(skip_serializing_if = "is_zero")]
     pub k3: f64,
-    /// Radial, of r² in the denominator.
+    /// Radial, coefficient of r² in the denominator.
     #[serde(skip_serializing_if = "is_zero")]
     pub k4: f64,
-    /// Radial, of r⁴ in the denominator.
+    /// Radial, coefficient of r⁴ in the denominator.
     #[serde(skip_serializing_if = "is_zero")]
     pub k5: f64,
-    /// Radial, of r⁶ in the denominator.
+    /// Radial, coefficient of r⁶ in the denominator.
     #[serde(skip_serializing_if = "is_zero")]
     pub k6: f64,
 }
@@ -53,18 +53,18 @@ fn is_zero(coefficient: &f64) -> bool {
     *coefficient == 0.0
 }
 
-/// A ray with z = 1: its x and y.
+/// x and y of a ray with z = 1.
 type Ray = [f64; 2];
 
-/// Largest error of an undistorted ray, relative to z: a millionth of a pixel for any camera.
+/// Largest error of an undistorted ray, relative to z: less than a millionth of a pixel for any camera.
 const EXACT: f64 = 1e-10;
-/// Newton's method doubles the digits at each step; what needs more than this does not converge.
+/// Newton's method doubles the number of correct digits per step; beyond this many steps it does not converge.
 const MAX_STEPS: usize = 24;
-/// Stages in which a ray is followed outwards from the axis.
+/// Steps in which `undistort` follows a ray outwards from the axis.
 const STAGES: usize = 8;
 
 impl Distortion {
-    /// A pinhole camera's.
+    /// No distortion: a pinhole camera.
     pub const NONE: Self = Self {
         k1: 0.0,
         k2: 0.0,
@@ -76,13 +76,13 @@ impl Distortion {
         k6: 0.0,
     };
 
-    /// True if the lens is a pinhole.
+    /// Returns true if there is no distortion.
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }
 
-    /// From a list in `OpenCV`'s order, k1 k2 p1 p2 k3 k4 k5 k6, as far as it goes; `None` if more than these differ
-    /// from 0.
+    /// Creates the distortion from a list in `OpenCV`'s order, k1 k2 p1 p2 k3 k4 k5 k6; missing entries are 0. `None`
+    /// if entries beyond these differ from 0.
     pub fn from_list(list: &[f64]) -> Option<Self> {
         let mut all = [0.0; 8];
         for (place, coefficient) in list.iter().enumerate() {
@@ -124,12 +124,12 @@ impl Distortion {
         self.to_list().iter().all(|k| k.is_finite())
     }
 
-    /// Where the lens shows a ray; `None` beyond the field in which the model is one-to-one.
+    /// Returns where the lens shows a ray; `None` outside the range in which the model is one-to-one.
     pub(super) fn distort(&self, ray: Ray) -> Option<Ray> {
         self.at(ray).map(|(seen, _)| seen)
     }
 
-    /// The ray that the lens shows at a place; `None` if the model shows none there.
+    /// Returns the ray that the lens shows at `seen`; `None` if there is none.
     pub(super) fn undistort(&self, seen: Ray) -> Option<Ray> {
         let mut ray = [0.0; 2];
         for stage in 1..=STAGES {
@@ -139,7 +139,7 @@ impl Distortion {
         Some(ray)
     }
 
-    /// The same, from a ray nearby.
+    /// Like [`Self::undistort`], but starts from a ray nearby.
     pub(super) fn undistort_from(&self, seen: Ray, near: Ray) -> Option<Ray> {
         let mut ray = near;
         let off = |at: &Ray| [at[0] - seen[0], at[1] - seen[1]];
@@ -156,7 +156,7 @@ impl Distortion {
                 (yy * dx - xy * dy) / determinant,
                 (xx * dy - xy * dx) / determinant,
             ];
-            // A step that leads out of the field or farther away is cut in half.
+            // Halve a step that leaves the one-to-one range or increases the error.
             let mut share = 1.0;
             loop {
                 let next = [ray[0] - share * step[0], ray[1] - share * step[1]];
@@ -176,15 +176,15 @@ impl Distortion {
         None
     }
 
-    /// Where a ray is seen, and the derivatives xx, xy = yx and yy of that; `None` beyond the field in which the model
-    /// is one-to-one.
+    /// Returns where a ray is seen and the derivatives xx, xy = yx and yy; `None` outside the range in which the
+    /// model is one-to-one.
     fn at(&self, [x, y]: Ray) -> Option<(Ray, [f64; 3])> {
         let [k1, k2, p1, p2, k3, k4, k5, k6] = self.to_list();
         let r2 = x * x + y * y;
         let over = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
         let under = 1.0 + r2 * (k4 + r2 * (k5 + r2 * k6));
         let factor = over / under;
-        // The derivative by r².
+        // The derivative with respect to r².
         let over_slope = k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3);
         let under_slope = k4 + r2 * (2.0 * k5 + r2 * 3.0 * k6);
         let slope = (over_slope - factor * under_slope) / under;
@@ -199,7 +199,7 @@ impl Distortion {
         is_one_to_one.then_some((seen, [xx, xy, yy]))
     }
 
-    /// That of the same camera in a mirror: x turned round.
+    /// Returns the distortion of the mirrored image, with x reversed.
     #[must_use]
     pub(super) fn mirrored(self) -> Self {
         Self {
@@ -208,7 +208,7 @@ impl Distortion {
         }
     }
 
-    /// That of the picture turned a quarter clockwise.
+    /// Returns the distortion of the image turned by 90° clockwise.
     #[must_use]
     pub(super) fn turned_clockwise(self) -> Self {
         Self {
@@ -223,7 +223,7 @@ impl Distortion {
 mod tests {
     use super::*;
 
-    // Of a wide lens, and of a time-of-flight camera.
+    // A wide-angle lens and a time-of-flight camera.
     const BROWN: Distortion = Distortion {
         k1: -0.28,
         k2: 0.07,
@@ -294,7 +294,7 @@ mod tests {
         assert_eq!(folds.undistort([farthest + 1e-4, 0.0]), None);
         assert!(folds.distort([fold - 1e-4, 0.0]).is_some());
         assert_eq!(folds.distort([fold + 1e-4, 0.0]), None);
-        // Beyond the second turning point the model's slope has its sign again.
+        // Beyond the second turning point, the slope of the model has its original sign again.
         assert_eq!(folds.distort([2.0, 0.0]), None);
     }
 
@@ -305,7 +305,7 @@ mod tests {
         assert_eq!(Distortion::from_list(&[]), Some(Distortion::NONE));
         let mut twelve = [0.0; 12];
         assert_eq!(Distortion::from_list(&twelve), Some(Distortion::NONE));
-        // A thin prism's.
+        // A coefficient of the thin prism model.
         twelve[9] = 0.1;
         assert_eq!(Distortion::from_list(&twelve), None);
     }

@@ -1,12 +1,12 @@
 //! A triangle mesh in metres, and points spread evenly over its surface.
 //!
 //! # Sampling
-//! The triangles are laid end to end on a line, each as long as its area, and the line is cut at equal steps: every
-//! triangle gets its share of the points, to within one. Inside a triangle the points follow the R2 sequence
-//! (M. Roberts, *The Unreasonable Effectiveness of Quasirandom Sequences*, 2018), any run of which fills a square
-//! evenly, through the square-to-triangle map of E. Heitz (*A Low-Distortion Map Between Triangle and Square*, 2019).
+//! The triangles are laid end to end on a line, each as long as its area, and the line is sampled at equal steps, so the
+//! number of points on each triangle is proportional to its area to within one. Inside a triangle the points follow the
+//! R2 sequence (M. Roberts, *The Unreasonable Effectiveness of Quasirandom Sequences*, 2018), any run of which fills a
+//! square evenly, mapped to the triangle as by E. Heitz (*A Low-Distortion Map Between Triangle and Square*, 2019).
 //!
-//! Limit: across the edges of many small triangles the points are as even as the share of each, not as a Poisson disk.
+//! Limit: across many small triangles the points are evenly dense but not spaced like Poisson-disk samples.
 
 use nalgebra::{Point3, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -25,23 +25,23 @@ pub struct TriangleMesh {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Why vertices and triangles make no mesh.
+/// Reason why vertices and triangles do not form a mesh.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum MeshError {
-    /// A triangle names a vertex that is not there.
+    /// A triangle refers to a vertex that does not exist.
     #[error("triangle {triangle} has vertex {index}, of {num_vertices}")]
     NoSuchVertex {
-        /// The triangle, from 0.
+        /// Index of the triangle.
         triangle: usize,
-        /// The index it has.
+        /// The invalid vertex index.
         index: u32,
         /// The number of vertices.
         num_vertices: usize,
     },
-    /// A vertex has a coordinate that is NaN or infinite.
+    /// A coordinate of a vertex is NaN or infinite.
     #[error("vertex {vertex} is not finite")]
     NotFinite {
-        /// The vertex, from 0.
+        /// Index of the vertex.
         vertex: usize,
     },
 }
@@ -53,7 +53,7 @@ impl Advice for MeshError {
 }
 
 impl TriangleMesh {
-    /// A mesh whose indices are all in range and whose vertices are all finite.
+    /// Creates a mesh; fails if an index is out of range or a vertex is not finite.
     pub fn new(vertices: Vec<Point3<f32>>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         let num_vertices = vertices.len();
         if let Some(vertex) = vertices.iter().position(|vertex| !is_finite(vertex)) {
@@ -77,7 +77,7 @@ impl TriangleMesh {
         })
     }
 
-    /// Smallest and largest coordinate of the vertices; `None` without any.
+    /// Returns the smallest and largest coordinates of the vertices; `None` if there are none.
     pub fn bounds(&self) -> Option<(Point3<f32>, Point3<f32>)> {
         let first = *self.vertices.first()?;
         let widened =
@@ -85,15 +85,15 @@ impl TriangleMesh {
         Some(self.vertices.iter().fold((first, first), widened))
     }
 
-    /// The area of all triangles, square metres.
+    /// Returns the total area of the triangles, square metres.
     pub fn area(&self) -> f64 {
         self.faces().map(|face| face.area).sum()
     }
 
-    /// Adds the triangles of another mesh, with vertices of their own.
+    /// Appends another mesh; vertices are not merged.
     ///
     /// # Panics
-    /// If there are more vertices together than an index can name.
+    /// If both meshes together have more vertices than a `u32` index can address.
     pub fn append(&mut self, other: &Self) {
         let Self {
             vertices,
@@ -113,8 +113,8 @@ impl TriangleMesh {
         );
     }
 
-    /// `num_points` points spread evenly over the surface, with the unit normals of their triangles (outwards, where
-    /// the corners run counter-clockwise seen from outside); `None` if the mesh has no area.
+    /// Samples `num_points` points evenly over the surface, with the unit normals of their triangles (outwards if the
+    /// corners run counter-clockwise seen from outside); `None` if the mesh has no area.
     ///
     /// The same mesh, number and seed give the same points on every machine.
     pub fn sample_evenly(&self, num_points: usize, seed: u64) -> Option<PointCloud> {
@@ -135,7 +135,7 @@ impl TriangleMesh {
         for i in 0..num_points {
             let area_at_point = (i as f64 + start[0]) / num_points as f64 * total_area;
             while area_before + face.area < area_at_point {
-                // Rounding may leave the last point beyond the last triangle.
+                // Rounding may put the last point beyond the last triangle.
                 let Some(next) = faces.next() else {
                     break;
                 };
@@ -151,7 +151,7 @@ impl TriangleMesh {
         Some(cloud)
     }
 
-    /// The triangles that have an area.
+    /// Iterates over the triangles with an area above 0.
     fn faces(&self) -> impl Iterator<Item = Face> {
         self.triangles.iter().filter_map(|corners| {
             let corner = |i: usize| {
@@ -167,7 +167,7 @@ impl TriangleMesh {
 /// The steps of the R2 sequence: the inverse and the inverse square of the plastic number, the root of g³ = g + 1.
 const R2: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
-/// A triangle with an area, in double precision: areas of small triangles are differences of products.
+/// A triangle with an area above 0. Double precision, because the area of a small triangle is a difference of products.
 struct Face {
     corner: Point3<f64>,
     edges: [Vector3<f64>; 2],
@@ -188,7 +188,7 @@ impl Face {
         })
     }
 
-    /// The point at a place in the unit square, each half of which is mapped onto half of the triangle (Heitz 2019).
+    /// Maps a point of the unit square to the triangle; each half of the square fills half of the triangle (Heitz 2019).
     fn point_at(&self, u: f64, v: f64) -> Point3<f64> {
         let (s, t) = if v > u {
             (u / 2.0, v - u / 2.0)
@@ -252,7 +252,7 @@ mod tests {
             unit_square().bounds(),
             Some((Point3::origin(), Point3::new(1.0, 1.0, 0.0)))
         );
-        // The inscribed polyhedron falls short by about the square of the angle between rings.
+        // The inscribed polyhedron's area is too small by about the square of the angle between rings.
         assert!((unit_sphere(100).area() / (4.0 * PI) - 1.0).abs() < 1e-3);
         assert_eq!(TriangleMesh::default().bounds(), None);
     }
@@ -267,7 +267,7 @@ mod tests {
                     .iter()
                     .all(|normal| (normal - Vector3::z()).norm() < 1e-6)
             );
-            // 100 cells of 25 points each. Plain random points would leave 5 of deviation, and 10 to 40 in a cell.
+            // 100 cells of 25 points each. Random points would give a standard deviation of 5, and 10 to 40 points per cell.
             let mut cells = [0_i32; 100];
             for p in &cloud.points {
                 assert!(

@@ -1,4 +1,4 @@
-//! Points, depth frames, transforms and the searches over them, free of any file, device or stage.
+//! Points, depth frames, transforms and spatial searches; independent of files, devices and stages.
 
 pub mod cloud;
 pub mod depth_frame;

@@ -1,19 +1,19 @@
 //! Nearest-neighbour search: a k-d tree over a fixed set of points.
 //!
-//! The tree is an implicit, balanced binary tree (Bentley, "Multidimensional binary search trees used for
-//! associative searching", Communications of the ACM 18(9), 1975): points are re-ordered once so that each leaf is
-//! a run of consecutive points, and inner nodes store one split each. Registration asks it millions of times, so a
-//! query allocates nothing and leaf points lie next to each other in memory.
+//! The tree is an implicit, balanced binary tree (Bentley, "Multidimensional binary search trees used for associative
+//! searching", Communications of the ACM 18(9), 1975). Points are re-ordered once so that each leaf is a run of
+//! consecutive points; inner nodes store one split each. Registration runs millions of queries, so a query allocates
+//! nothing and the points of a leaf are adjacent in memory.
 
 use std::ops::Range;
 
 use nalgebra::Point3;
 
-/// Points per leaf: a leaf is scanned whole, which is quicker than descending further. Measured on clouds of
-/// 5 000 to 50 000 points, 8 to 16 were equally fast.
+/// Points per leaf. Scanning a whole leaf is faster than descending further. On clouds of 5 000 to 50 000 points, 8
+/// to 16 were equally fast.
 const LEAF_SIZE: usize = 12;
 
-/// A found neighbour.
+/// A neighbour found by a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neighbour {
     /// Index of the point in the slice the tree was built from.
@@ -29,9 +29,9 @@ pub struct KdTree {
     points: Vec<[f32; 3]>,
     /// For each point in leaf order, its index in the input.
     indices: Vec<u32>,
-    /// Inner nodes, root at 0, children of node i at 2i + 1 and 2i + 2. The leaves' numbers follow theirs.
+    /// Inner nodes, root at 0, children of node i at 2i + 1 and 2i + 2. The leaves are numbered after them.
     splits: Vec<Split>,
-    /// Where each leaf begins in leaf order, and where the last one ends.
+    /// Start of each leaf in leaf order, and the end of the last one.
     leaves: Vec<u32>,
 }
 
@@ -42,7 +42,7 @@ struct Split {
 }
 
 impl KdTree {
-    /// Builds the tree in O(n log n). Points that are not finite are left out; an empty tree finds nothing.
+    /// Builds the tree in O(n log n). Points that are not finite are left out. Searches in an empty tree find nothing.
     pub fn new(points: &[Point3<f32>]) -> Self {
         let mut entries: Vec<([f32; 3], u32)> = points
             .iter()
@@ -61,27 +61,27 @@ impl KdTree {
         }
     }
 
-    /// The number of points in the tree.
+    /// Returns the number of points in the tree.
     pub fn len(&self) -> usize {
         self.points.len()
     }
 
-    /// True when the tree holds no point.
+    /// Returns true if the tree holds no points.
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
 
-    /// The point nearest to `query` among those closer than `radius_sq` (square metres; infinity for no limit).
+    /// Returns the point nearest to `query` among those closer than `radius_sq` (square metres; infinity for no limit).
     pub fn nearest(&self, query: &Point3<f32>, radius_sq: f32) -> Option<Neighbour> {
         self.nearest_but(query, radius_sq, u32::MAX)
     }
 
-    /// The point nearest to `query` that is not the point of this index.
+    /// Returns the point nearest to `query`, excluding the point with the given index.
     pub fn nearest_other(&self, query: &Point3<f32>, index: usize) -> Option<Neighbour> {
         self.nearest_but(query, f32::INFINITY, index as u32)
     }
 
-    /// The nearest point as by [`Self::nearest`], and the squared distance that every other point has at least.
+    /// Returns the nearest point as [`Self::nearest`] does, and a lower bound on the squared distance of every other point.
     pub fn nearest_and_next(
         &self,
         query: &Point3<f32>,
@@ -102,7 +102,7 @@ impl KdTree {
         })
     }
 
-    /// `NEXT`: whether the second nearest is looked for too.
+    /// `NEXT`: whether to track the second nearest point too.
     fn best<const NEXT: bool>(&self, query: &Point3<f32>, radius_sq: f32, skipped: u32) -> Best {
         let mut best = Best {
             position: usize::MAX,
@@ -115,8 +115,8 @@ impl KdTree {
         best
     }
 
-    /// Descends the nearer child first and the farther one only if its cell can hold something closer. `offsets` are the
-    /// distances from the query to the node's cell along each axis; it leaves them as they are.
+    /// Descends into the nearer child first, and into the farther one only if its cell can hold a closer point.
+    /// `offsets` are the distances from the query to the node's cell along each axis; they are restored on return.
     fn search<const NEXT: bool>(
         &self,
         query: &[f32; 3],
@@ -192,17 +192,17 @@ impl KdTree {
     }
 }
 
-/// The nearest so far, as a position in leaf order.
+/// The nearest point so far, as a position in leaf order.
 struct Best {
     position: usize,
     distance_sq: f32,
-    /// Of the second nearest, if that is looked for.
+    /// Squared distance of the second nearest point, valid only if tracked.
     next_sq: f32,
-    /// Index of a point that does not count.
+    /// Index of a point to ignore.
     skipped: u32,
 }
 
-/// Where the leaves begin among so many points, and where the last one ends: every inner node halves what is below it.
+/// Returns the start of each leaf, and the end of the last one: every inner node halves its points.
 fn leaf_ends(num_points: usize, num_leaves: usize) -> Vec<u32> {
     let last = num_points as u32;
     let mut ends = vec![0, last];
@@ -215,7 +215,7 @@ fn leaf_ends(num_points: usize, num_leaves: usize) -> Vec<u32> {
     ends
 }
 
-/// Orders `entries` so that every inner node's lower half lies below its split along its longest axis.
+/// Orders `entries` so that every inner node splits its points at the median of their longest axis.
 fn split_at_medians(entries: &mut [([f32; 3], u32)], splits: &mut [Split], node: usize) {
     if node >= splits.len() {
         return;
@@ -249,8 +249,8 @@ fn longest_axis(entries: &[([f32; 3], u32)]) -> usize {
         .unwrap_or(0)
 }
 
-/// The median distance of a point to its nearest neighbour, metres, measured on about 500 of them; a micrometre where all
-/// lie in one place. `tree` is over the points.
+/// Returns the median distance between nearest neighbours, metres, sampled on about 500 points; 1 µm if all points
+/// coincide. `tree` holds the same points.
 pub fn median_spacing(points: &[Point3<f32>], tree: &KdTree) -> f64 {
     const NUM_ASKED: usize = 500;
     let step = (points.len() / NUM_ASKED).max(1);
@@ -259,7 +259,7 @@ pub fn median_spacing(points: &[Point3<f32>], tree: &KdTree) -> f64 {
         .enumerate()
         .step_by(step)
         .filter_map(|(i, p)| tree.nearest_other(p, i).map(|n| n.distance_sq.sqrt()))
-        // Twins say nothing about spacing.
+        // Ignore duplicate points.
         .filter(|d| *d > 0.0)
         .collect();
     if distances.is_empty() {
@@ -283,7 +283,7 @@ mod tests {
     }
 
     fn point() -> impl Strategy<Value = Point3<f32>> {
-        // Few distinct values on purpose: equal coordinates are what breaks median splits.
+        // Deliberately few distinct values: equal coordinates are the hard case for median splits.
         (-8_i32..8, -8_i32..8, -8_i32..8)
             .prop_map(|(x, y, z)| Point3::new(x as f32, y as f32, z as f32) / 4.0)
     }

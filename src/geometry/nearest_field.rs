@@ -1,22 +1,22 @@
-//! A field of nearest points: for every cell of space around a cloud, the point nearest to the cell's centre.
+//! A nearest-point field: for every grid cell around a cloud, the point nearest to the cell's centre.
 //!
-//! Trying a pose asks for the nearest reference point hundreds of times, and thousands of poses are tried. The field
-//! answers from one look-up, after the idea of the precomputed distance map in M. A. Greenspan and G. Godin, "A
-//! nearest neighbor method for efficient ICP", 3DIM 2001. It is made once per reference by growing outwards from the
-//! occupied cells, layer by layer.
+//! Evaluating a pose takes hundreds of nearest-point queries, and thousands of poses are evaluated. The field answers a query
+//! with one look-up, following the precomputed distance map of M. A. Greenspan and G. Godin, "A nearest neighbor method for
+//! efficient ICP", 3DIM 2001. It is built once per reference by growing outwards from the occupied cells, layer by layer.
 //!
-//! Known limits: the answer is the point nearest to the *cell*, so it may lie up to a cell's diagonal further away
-//! than the true nearest; beyond the band around the cloud there is no answer. A last refinement asks the tree.
+//! Known limits: the result is the point nearest to the *cell*, so it may lie up to a cell's diagonal farther away
+//! than the true nearest point; outside the band around the cloud there is no result. The final refinement of a
+//! pose queries the k-d tree.
 
 use nalgebra::{Point3, Vector3};
 
 use super::nearest::Neighbour;
 
-/// No point is near this cell. Where cells have 16 bits, its lower half says so.
+/// Marks a cell without a nearby point; its lower 16 bits do so in a `Narrow` field.
 const NOTHING: u32 = u32::MAX;
-/// A grid larger than this would cost more memory than it saves time: cells grow until it fits.
+/// Maximum number of cells: a larger grid would cost more memory than it saves time, so the cells grow until it fits.
 const MAX_CELLS: f64 = 4e6;
-/// Cells along one axis, so that 16 bits number them: a long, thin cloud gets larger cells.
+/// Maximum number of cells along one axis, so that 16 bits can number them; a long, thin cloud gets larger cells.
 const MAX_CELLS_ALONG: f64 = 60_000.0;
 
 /// Nearest points within a band around a cloud.
@@ -33,9 +33,9 @@ pub struct NearestField {
 /// Index of the nearest point per cell, x fastest.
 #[derive(Clone, Debug, PartialEq)]
 enum Cells {
-    /// Of at most 65 535 points, as most references have: at half the size more of them stay in the processor's caches.
+    /// For at most 65 535 points, which most references have; half the size, so more of it stays in the CPU caches.
     Narrow(Vec<u16>),
-    /// Of more.
+    /// For more points.
     Wide(Vec<u32>),
 }
 
@@ -44,7 +44,7 @@ impl Cells {
         if num_points > usize::from(u16::MAX) {
             return Self::Wide(nearest);
         }
-        // By reference: collected from the vector itself, they would keep its memory.
+        // Convert by reference: an in-place `collect` would keep the larger allocation.
         Self::Narrow(nearest.iter().map(|point| *point as u16).collect())
     }
 
@@ -64,7 +64,8 @@ impl Cells {
 }
 
 impl NearestField {
-    /// A field over finite points with cells of `cell` metres, that answers up to about `band` metres off the cloud.
+    /// Creates a field over finite points with cells of `cell` metres; it answers queries up to about `band` metres
+    /// off the cloud.
     pub fn new(points: &[Point3<f32>], cell: f32, band: f32) -> Self {
         let cloud = super::cloud::PointCloud::from_points(points.iter().copied());
         assert_eq!(
@@ -88,8 +89,8 @@ impl NearestField {
             .product::<f64>();
         let cell = cell * (volume / MAX_CELLS).cbrt().max(1.0) as f32;
         let cell = cell.max(extent.max() / MAX_CELLS_ALONG as f32);
-        // A cell answers up to the band from its middle: beyond that and one more there is a margin of cells without an
-        // answer.
+        // Cells whose centre is within the band hold a point; beyond them and one more layer there is a margin of
+        // empty cells.
         let layers = (band / cell).ceil() as usize + 2;
         let low = low - Vector3::repeat((layers as f32 + 0.5) * cell);
         let size = [0, 1, 2].map(|axis| ((high[axis] - low[axis]) / cell) as usize + layers + 2);
@@ -104,12 +105,12 @@ impl NearestField {
         field
     }
 
-    /// The point near `query`; `None` outside the band.
+    /// Returns the point nearest to the cell of `query`; `None` outside the band.
     #[inline]
     pub fn nearest(&self, query: &Point3<f32>) -> Option<Neighbour> {
         let d = (query - self.low) * self.per_cell;
         let inside = d.x >= 0.0 && d.y >= 0.0 && d.z >= 0.0;
-        // A cast stops at the greatest number, which no axis has cells for; to 16 bits it takes the fewest steps.
+        // A cast saturates at `u16::MAX`, which exceeds every axis; casting to 16 bits takes the fewest instructions.
         let [x, y, z] = [d.x, d.y, d.z].map(|at| at as u16);
         let [width, height, depth] = self.size;
         if !inside || x >= width || y >= height || z >= depth {
@@ -125,7 +126,7 @@ impl NearestField {
         })
     }
 
-    /// Seeds the occupied cells and hands each cell's point on to its neighbours, one layer at a time.
+    /// Seeds the occupied cells and propagates each cell's point to its neighbours, one layer at a time.
     fn grow(&mut self, side: f32, band: f32) {
         let size = self.size.map(usize::from);
         let [sx, sy, _] = size;
@@ -135,7 +136,7 @@ impl NearestField {
             let at = |i: u16, low: f32| (f32::from(i) + 0.5) * side + low;
             points[point as usize] - Point3::new(at(x, low.x), at(y, low.y), at(z, low.z))
         };
-        // From each cell's centre to the point it holds.
+        // Squared distance from each cell's centre to its point.
         let mut held_sq = vec![f32::INFINITY; cells.len()];
         let mut front: Vec<(u32, [u16; 3])> = Vec::new();
         for (i, p) in (0_u32..).zip(&points) {
@@ -151,7 +152,7 @@ impl NearestField {
                 held_sq[index] = distance_sq;
             }
         }
-        // Handed on from face to face, no farther than the band.
+        // Propagate across faces, no farther than the band.
         let farthest_sq = (band + side).powi(2);
         let steps = [1, sx, sx * sy].map(|step| step as u32);
         let mut next = Vec::new();
@@ -161,7 +162,7 @@ impl NearestField {
                 let off = off_centre(candidate, at);
                 let here_sq = off.norm_squared();
                 let mut hand_on = |axis: usize, towards: f32, index: u32, way: i16| {
-                    // The square of the distance to a centre one cell further on.
+                    // Squared distance to the centre of the adjacent cell.
                     let distance_sq = here_sq + side * (side - 2.0 * towards * off[axis]);
                     let held_sq = &mut held_sq[index as usize];
                     if distance_sq < *held_sq && distance_sq <= farthest_sq {
@@ -175,7 +176,7 @@ impl NearestField {
                         *held_sq = distance_sq;
                     }
                 };
-                // The outermost cells lie beyond the band, so none of them is ever at the front.
+                // The outermost cells lie beyond the band, so they are never in the front.
                 for (axis, step) in steps.into_iter().enumerate() {
                     hand_on(axis, 1.0, index + step, 1);
                     hand_on(axis, -1.0, index - step, -1);
@@ -193,7 +194,7 @@ mod tests {
     use super::*;
     use crate::geometry::nearest::KdTree;
 
-    /// A curved sheet of so many points along one side.
+    /// A curved sheet with about `num_along` points along one side.
     fn sheet(num_along: usize) -> Vec<Point3<f32>> {
         let place = |i: usize| i as f32 / num_along as f32;
         (0..num_along * num_along * 5 / 6)
@@ -202,7 +203,7 @@ mod tests {
             .collect()
     }
 
-    /// Places around that sheet.
+    /// Query points around that sheet.
     fn queries(num: u32) -> impl Iterator<Item = Point3<f32>> {
         (0..num).map(|i| {
             let spread = |k: u32, range: f32| {
@@ -275,7 +276,7 @@ mod tests {
         for query in queries(5000) {
             assert_eq!(narrow.nearest(&query), wide.nearest(&query));
         }
-        // The last point that 16 bits number, and the first that they do not.
+        // The last index that fits into 16 bits, and the first that does not.
         for (num, is_narrow) in [(65_535, true), (65_536, false)] {
             let crowd = (1..num).map(|i| Point3::new((i % 1000) as f32 * 1e-4, 0.0, 0.0));
             let apart = Point3::new(1.0, 0.0, 0.0);

@@ -1,23 +1,23 @@
 //! Surface normals of a cloud, from the plane through each point's neighbours.
 //!
 //! The normal is the direction of least variance among the points within a radius (H. Hoppe, T. `DeRose`, T. Duchamp,
-//! J. McDonald and W. Stuetzle, "Surface reconstruction from unorganized points", SIGGRAPH 1992). Its sign is free;
-//! a depth camera saw every point from one place, so the normal is turned to that place.
+//! J. McDonald and W. Stuetzle, "Surface reconstruction from unorganized points", SIGGRAPH 1992). Its sign is
+//! arbitrary; a depth camera saw every point from one place, so the normal is turned towards that place.
 //!
-//! Known limits: over an edge sharper than the radius the normal is that of the rounded edge.
+//! Known limits: across an edge that is sharp compared to the radius, the normals are those of a rounded edge.
 
 use nalgebra::{Point3, Vector3};
 
 use super::{cloud::is_finite, nearest::KdTree, principal::principal_axes};
 use crate::units::Metres;
 
-/// Standard deviation along the second axis over that along the first, below which neighbours are a line.
+/// Ratio of the standard deviations along the second and first axes below which neighbours count as a line.
 const LINE_BELOW: f64 = 1e-3;
 
-/// A unit normal per point, turned towards `viewpoint`; `tree` holds the same points.
+/// Returns a unit normal per point, turned towards `viewpoint`; `tree` holds the same points.
 ///
-/// A point with fewer than three neighbours in reach, itself included, or only neighbours on a line through it has
-/// no plane: its normal points straight to the viewpoint. A point that is not finite has a NaN normal.
+/// A point has no plane if it has fewer than three neighbours within the radius, itself included, or if they lie on a
+/// line; its normal then points to the viewpoint. A point that is not finite has a NaN normal.
 pub fn estimate_normals(
     points: &[Point3<f32>],
     tree: &KdTree,
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn the_near_half_of_a_sphere_has_radial_normals() {
         let centre = Point3::new(0.1, 0.0, 2.0);
-        // A Fibonacci spiral is even on the sphere.
+        // A Fibonacci spiral samples the sphere evenly.
         let points: Vec<Point3<f32>> = (0..4000)
             .map(|i| {
                 let z = -1.0 + (f64::from(i) + 0.5) / 4000.0;
@@ -98,7 +98,8 @@ mod tests {
             .zip(normals_of(&points, 0.05, Point3::origin()))
         {
             let radial = (p.cast::<f64>() - centre).normalize();
-            // At the rim neighbours lie on one side only: a radius of 0.05 on one of 0.5 tilts by 3 degrees at most.
+            // At the rim, neighbours lie on one side only: a radius of 0.05 on a sphere of 0.5 tilts the normal by
+            // at most 3 degrees.
             assert!(normal.cast::<f64>().dot(&radial) > 0.998, "{normal} at {p}");
         }
     }

@@ -1,9 +1,9 @@
-//! Equal pieces of work on several workers, the results in the order of the pieces.
+//! Distributes pieces of work over threads and returns the results in order.
 //!
-//! The one place below the window that starts threads for the stages. A stage stays a pure function: it says how many
-//! pieces there are and how many workers may share them, and gets the same results, bit for bit, for any number of
-//! workers, because no piece knows of another and none is summed up here. Threads are started per call and end with
-//! it: a pool would save some ten microseconds a thread and be a global state that outlives its callers.
+//! Stages start threads only here. A stage remains a pure function: it states how many pieces there are and how many
+//! workers may share them, and gets bit-identical results for any number of workers, because the pieces are independent
+//! and nothing is summed here. Threads are started per call and end with it: a pool would save about ten microseconds
+//! per thread, but would be global state that outlives its callers.
 
 use std::{
     num::NonZero,
@@ -12,15 +12,15 @@ use std::{
     thread,
 };
 
-/// Processor cores that may be used.
+/// Returns the number of processor cores available.
 pub fn num_cores() -> usize {
     thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-/// `work` on each of `0..num_pieces`, by up to `num_workers` workers; the results are in order.
+/// Runs `work` on each of `0..num_pieces` with up to `num_workers` workers; returns the results in order.
 ///
-/// Each worker makes itself a state, such as buffers, by `prepare` and hands it to all of its pieces; the results must
-/// not depend on what earlier pieces left in it. One worker, or one piece, starts no thread.
+/// Each worker creates its state, such as buffers, with `prepare` and passes it to all of its pieces; the results must
+/// not depend on what earlier pieces left in it. With one worker or one piece no thread is started.
 pub fn map_in_order<S, T: Send>(
     num_pieces: usize,
     num_workers: usize,
@@ -32,7 +32,7 @@ pub fn map_in_order<S, T: Send>(
         let mut state = prepare();
         return (0..num_pieces).map(|i| work(&mut state, i)).collect();
     }
-    // Small enough that nobody waits long for the last block, large enough that taking one costs nothing.
+    // Small enough that no worker waits long for the last block, large enough that taking a block costs nothing.
     let block = (num_pieces / (num_workers * BLOCKS_EACH)).max(1);
     let next = AtomicUsize::new(0);
     let select_part = || {
@@ -65,7 +65,7 @@ pub fn map_in_order<S, T: Send>(
         .collect()
 }
 
-/// Blocks that a worker takes one after another.
+/// Number of blocks per worker, on average.
 const BLOCKS_EACH: usize = 8;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The pinhole camera that took an organised cloud, fitted to its points: x/z is linear in the column, y/z in the row.
+//! Fits a pinhole camera to the points of an organised cloud: x/z is linear in the column, y/z in the row.
 
 use nalgebra::Point3;
 
@@ -8,12 +8,13 @@ use super::{
     distortion::Distortion,
 };
 
-/// Fits column = fx · x/z + cx and row = fy · y/z + cy; `None` when the fit is off by more than a pixel (rms) or the
-/// points lie behind the camera: then no pinhole camera at the origin took them.
+/// Fits column = fx · x/z + cx and row = fy · y/z + cy. `None` if the fit is off by a pixel (rms) or more, if a
+/// point lies behind the camera, or if there are fewer than 100 readings: then the cloud is not known to come from
+/// a pinhole camera at the origin.
 pub fn fit_pinhole(points: &[Point3<f32>], grid: Grid) -> Option<Intrinsics> {
     let mut columns = LineFit::default();
     let mut rows = LineFit::default();
-    // A few thousand readings fix four numbers; an odd stride visits all columns.
+    // A few thousand readings suffice for four numbers; an odd stride visits all columns.
     let stride = (points.len() / 4000).max(1) | 1;
     for (i, p) in points.iter().enumerate().step_by(stride) {
         if !is_finite(p) {

@@ -1,4 +1,4 @@
-//! A plane in space: three points span it, many points fit it.
+//! A plane in space, through three points or fitted to many.
 
 use nalgebra::{Point3, Vector3};
 
@@ -14,11 +14,11 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane through three points; `None` when they (nearly) lie on one line.
+    /// Returns the plane through three points; `None` if they are (nearly) collinear.
     pub fn through(a: &Point3<f64>, b: &Point3<f64>, c: &Point3<f64>) -> Option<Self> {
         let (ab, ac) = (b - a, c - a);
         let cross = ab.cross(&ac);
-        // The sine of the angle at `a`: below 1e-3 the plane turns freely about the line.
+        // The sine of the angle at `a`: below 1e-3 the plane's rotation about the line is undetermined.
         let flatness = ab.norm() * ac.norm();
         if !(cross.norm() > 1e-3 * flatness) || flatness <= 0.0 {
             return None;
@@ -30,7 +30,7 @@ impl Plane {
         })
     }
 
-    /// The plane with the least sum of weighted squared distances to points; `None` below three points.
+    /// Fits the plane with the least sum of weighted squared distances to the points; `None` for fewer than three points.
     pub fn fit(points: impl Iterator<Item = (Point3<f64>, f64)> + Clone) -> Option<Self> {
         let principal = principal_axes(points)?;
         let normal: Vector3<f64> = principal.axes.column(2).into_owned();
@@ -40,7 +40,7 @@ impl Plane {
         })
     }
 
-    /// The same plane with its normal pointing to the side on which `point` lies.
+    /// Returns the plane with its normal on the side of `point`.
     #[must_use]
     pub fn facing(self, point: &Point3<f64>) -> Self {
         if self.signed_distance(point) < 0.0 {
@@ -53,7 +53,7 @@ impl Plane {
         }
     }
 
-    /// Distance of a point in metres, above zero on the side that the normal points to.
+    /// Returns the signed distance of a point, metres; positive on the side of the normal.
     pub fn signed_distance(&self, point: &Point3<f64>) -> f64 {
         self.normal.dot(&point.coords) + self.offset
     }

@@ -1,11 +1,11 @@
 //! Closed polygons in a plane: area, centroid, length, even resampling, smoothing.
 //!
-//! A polygon is its corners in order; the last is joined to the first, which is not repeated. Area is positive when
-//! the corners run counter-clockwise with x to the right and y up.
+//! A polygon is a list of corners in order; the last is joined to the first, which is not repeated. The area is
+//! positive when the corners run counter-clockwise with x to the right and y up.
 
 use nalgebra::{Point2, Vector2};
 
-/// Signed area in square metres (shoelace formula).
+/// Returns the signed area, square metres (shoelace formula).
 pub fn signed_area(corners: &[Point2<f64>]) -> f64 {
     edges(corners)
         .map(|(a, b)| a.x * b.y - b.x * a.y)
@@ -13,12 +13,12 @@ pub fn signed_area(corners: &[Point2<f64>]) -> f64 {
         / 2.0
 }
 
-/// Length of the closed outline in metres.
+/// Returns the length of the closed outline, metres.
 pub fn perimeter(corners: &[Point2<f64>]) -> f64 {
     edges(corners).map(|(a, b)| (b - a).norm()).sum()
 }
 
-/// Mean of the corners (the paper's centre of gravity, eq. 10); `None` without corners.
+/// Returns the mean of the corners (the paper's centre of gravity, eq. 10); `None` without corners.
 pub fn mean_corner(corners: &[Point2<f64>]) -> Option<Point2<f64>> {
     if corners.is_empty() {
         return None;
@@ -29,8 +29,8 @@ pub fn mean_corner(corners: &[Point2<f64>]) -> Option<Point2<f64>> {
     Some(sum / corners.len() as f64)
 }
 
-/// `num_samples` points along the outline at equal distances, the first at the first corner; `None` when the
-/// outline has no length.
+/// Returns `num_samples` equidistant points along the outline, starting at the first corner; `None` if the outline has
+/// no length or `num_samples` is 0.
 pub fn resample_evenly(corners: &[Point2<f64>], num_samples: usize) -> Option<Vec<Point2<f64>>> {
     let length = perimeter(corners);
     if !(length > 0.0) || num_samples == 0 {
@@ -54,21 +54,22 @@ pub fn resample_evenly(corners: &[Point2<f64>], num_samples: usize) -> Option<Ve
         }
         walked += edge;
     }
-    // Rounding may leave the last sample just past the last edge.
+    // Rounding may put the last sample just beyond the last edge.
     while samples.len() < num_samples {
         samples.push(corners[corners.len() - 1]);
     }
     Some(samples)
 }
 
-/// Replaces each corner by the mean of itself and `reach` neighbours on either side.
+/// Replaces each corner by the mean of itself and `reach` neighbours on either side; a polygon too short for that
+/// is returned unchanged.
 #[must_use]
 pub fn smooth(corners: &[Point2<f64>], reach: usize) -> Vec<Point2<f64>> {
     let n = corners.len();
     if n == 0 || reach == 0 || 2 * reach + 1 > n {
         return corners.to_vec();
     }
-    // A sliding sum: add the corner that comes in, take the one that goes out.
+    // A sliding sum: add the entering corner, subtract the leaving one.
     let width = 2 * reach + 1;
     let around = |first: usize| corners[first..].iter().chain(corners).map(|c| c.coords);
     let mut sum: Vector2<f64> = around(n - reach).take(width).sum();

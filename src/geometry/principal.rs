@@ -1,4 +1,4 @@
-//! Principal axes of a point set: mean, covariance (eq. 4 and 5) and its eigenvectors in descending order (eq. 6).
+//! Principal axes of a point set: mean, covariance (eq. 4 and 5), and its eigenvectors in descending order (eq. 6).
 
 use nalgebra::{
     Isometry3, Matrix3, Point3, Rotation3, SymmetricEigen, Translation3, UnitQuaternion, Vector3,
@@ -18,8 +18,8 @@ pub struct PrincipalAxes {
 }
 
 impl PrincipalAxes {
-    /// Takes the space of the axes into that of the points: origin at their mean, right-handed, so that the third axis
-    /// may point the other way.
+    /// Returns the transform from the space of the axes to that of the points: origin at the mean, right-handed, so
+    /// the third axis may be reversed.
     pub fn frame(&self) -> RigidTransform {
         let first: Vector3<f64> = self.axes.column(0).into_owned();
         let second: Vector3<f64> = self.axes.column(1).into_owned();
@@ -29,9 +29,9 @@ impl PrincipalAxes {
     }
 }
 
-/// The principal axes of points with weights above zero; `None` without at least three points.
+/// Computes the principal axes of points with positive weights; `None` for fewer than three points.
 ///
-/// With equal weights this is the paper's eq. 4 and 5 up to the factor n/(n-1), which moves no axis.
+/// With equal weights this is the paper's eq. 4 and 5 up to the factor n/(n-1), which does not change the axes.
 pub fn principal_axes(
     points: impl Iterator<Item = (Point3<f64>, f64)> + Clone,
 ) -> Option<PrincipalAxes> {
@@ -46,7 +46,7 @@ pub fn principal_axes(
         return None;
     }
     let mean = sum / weight_sum;
-    // The six distinct entries only: this loop runs over every point of the part.
+    // Sum only the six distinct entries: this loop runs over every point of the part.
     let [mut xx, mut xy, mut xz, mut yy, mut yz, mut zz] = [0.0; 6];
     for (point, weight) in points {
         let d = point.coords - mean;

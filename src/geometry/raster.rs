@@ -1,15 +1,15 @@
-//! A binary image and the morphology over it.
+//! Binary images and their morphology.
 
 use nalgebra::{Matrix2x3, Point2};
 
-/// Rows of pixels that are set (1) or not (0).
+/// An image of pixels that are set (1) or not (0).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BinaryImage {
     /// Columns.
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// 1 or 0, row by row from the top left; `width` × `height` of them.
+    /// 1 or 0, row by row from the top left; `width` × `height` values.
     pub pixels: Vec<u8>,
 }
 
@@ -23,7 +23,7 @@ impl BinaryImage {
         }
     }
 
-    /// True if the pixel is set; pixels outside the image are not.
+    /// Returns true if the pixel is set; pixels outside the image are not.
     pub fn is_set(&self, column: i64, row: i64) -> bool {
         column >= 0
             && row >= 0
@@ -32,11 +32,11 @@ impl BinaryImage {
             && self.pixels[row as usize * self.width + column as usize] != 0
     }
 
-    /// Every `step`th pixel of every `step`th row in an eighth of the memory, to look at in many places; a step of 0
-    /// counts as 1.
+    /// Packs every `step`th pixel of every `step`th row into one bit each, for fast lookup of many points; a step
+    /// of 0 counts as 1.
     pub fn packed(&self, step: usize) -> PackedImage {
         let step = step.max(1);
-        // A border of unset pixels: what lies outside is moved onto it and needs no question of its own.
+        // Add a border of unset pixels: points outside are clamped to it, so no bounds check is needed.
         let (width, height) = (
             self.width.div_ceil(step) + 2,
             self.height.div_ceil(step) + 2,
@@ -58,14 +58,14 @@ impl BinaryImage {
         }
     }
 
-    /// The number of set pixels.
+    /// Returns the number of set pixels.
     pub fn num_set(&self) -> usize {
         self.pixels.iter().map(|&p| usize::from(p)).sum()
     }
 
-    /// Fills gaps that a square of 2·`radius` + 1 pixels does not fit into (morphological closing).
+    /// Fills gaps too small for a square of 2·`radius` + 1 pixels (morphological closing).
     ///
-    /// The image must keep `radius` unset pixels along its edge, or shapes grow into the edge.
+    /// The image must have `radius` unset pixels along its edge, or shapes grow into the edge.
     pub fn close(&mut self, radius: usize) {
         if radius == 0 || self.pixels.is_empty() {
             return;
@@ -75,7 +75,8 @@ impl BinaryImage {
         self.spread(radius, &mut scratch, u8::min);
     }
 
-    /// The largest (dilation) or smallest (erosion) value of a square neighbourhood, rows first, then columns.
+    /// Replaces each pixel by the largest (dilation) or smallest (erosion) value of a square around it, rows first,
+    /// then columns.
     fn spread(&mut self, radius: usize, scratch: &mut [u8], pick: impl Fn(u8, u8) -> u8 + Copy) {
         let (width, height) = (self.width, self.height);
         let reach = radius.min(width - 1);
@@ -108,26 +109,26 @@ impl BinaryImage {
     }
 }
 
-/// A binary image of one bit per pixel.
+/// A binary image with one bit per pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedImage {
-    /// Columns, with a border of one pixel on either side.
+    /// Columns, including a border of one pixel on either side.
     width: usize,
-    /// Rows, likewise.
+    /// Rows, including the border.
     height: usize,
-    /// Pixels of the whole image from one to the next.
+    /// Spacing of the packed pixels, in pixels of the whole image.
     step: f32,
-    /// Row by row from the top left, the lowest bit first.
+    /// Row by row from the top left, lowest bit first.
     bits: Vec<u64>,
 }
 
 impl PackedImage {
-    /// How many of the points fall on set pixels; none outside the image does.
+    /// Counts the points that fall on set pixels; points outside the image do not count.
     ///
-    /// `pixel_from_point` takes a point to column and row of the whole image, whole numbers at the middles of pixels.
+    /// `pixel_from_point` maps a point to column and row of the whole image; pixel centres are at whole numbers.
     pub fn num_set_at(&self, points: &PointBlocks, pixel_from_point: &Matrix2x3<f32>) -> usize {
-        // Added to a float from 0 to as much, it leaves the nearest whole number in the last bits. A cast would do the
-        // same, but it saturates, and overflow is checked for: both keep the compiler from making vector code of this.
+        // Adding 2^23 to a float from 0 to 2^23 leaves the nearest integer in its lowest bits. A cast would do the
+        // same, but its saturation and the overflow checks keep the compiler from vectorising the loop.
         const WHOLE: f32 = (1 << 23) as f32;
         let m = pixel_from_point / self.step;
         let (last_column, last_row) = ((self.width - 1) as f32, (self.height - 1) as f32);
@@ -136,11 +137,11 @@ impl PackedImage {
         for [x, y] in &points.blocks {
             let mut places = [0; BLOCK];
             for i in 0..BLOCK {
-                // One more for the border.
+                // Add 1 for the border.
                 let column = m.m11 * x[i] + m.m12 * y[i] + (m.m13 + 1.0);
                 let row = m.m21 * x[i] + m.m22 * y[i] + (m.m23 + 1.0);
                 let (column, row) = (whole(column, last_column), whole(row, last_row));
-                // Of a place within the image nothing is cut off.
+                // Never wraps: the place lies within the image.
                 places[i] = row.wrapping_mul(self.width as u32).wrapping_add(column);
             }
             for place in places {
@@ -151,15 +152,15 @@ impl PackedImage {
     }
 }
 
-/// Points of a plane in the order that vector code wants them in.
+/// Points of a plane, stored in blocks for vectorised code.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointBlocks {
-    /// Abscissas and ordinates; the last block is filled up with points outside of any image.
+    /// x and y coordinates; the last block is padded with points outside of any image.
     blocks: Vec<[[f32; BLOCK]; 2]>,
     num: usize,
 }
 
-/// Points handled at once.
+/// Points per block.
 const BLOCK: usize = 16;
 
 impl PointBlocks {
@@ -239,7 +240,7 @@ mod tests {
             for row in (-4..height as i64 + 4).filter(|row| row % step as i64 == 0) {
                 for column in (-4..width as i64 + 4).filter(|column| column % step as i64 == 0) {
                     let expected = image.is_set(column, row);
-                    // Anywhere in the pixel.
+                    // Off the pixel's centre.
                     let off = 0.4 * step as f32;
                     let point = Point2::new(column as f32 + off, row as f32 - off);
                     let num = packed.num_set_at(&[point].into_iter().collect(), &Matrix2x3::identity());

@@ -7,7 +7,7 @@ use nalgebra::Point3;
 use super::depth_frame::Intrinsics;
 use crate::error::lock;
 
-/// x/z and y/z of the ray of every pixel.
+/// x/z and y/z of every pixel's ray.
 #[derive(Clone, Debug)]
 pub struct Rays {
     width: usize,
@@ -16,22 +16,22 @@ pub struct Rays {
 
 #[derive(Clone, Debug)]
 enum Kind {
-    /// Of a pinhole camera: x/z per column and y/z per row.
+    /// A pinhole camera: x/z per column and y/z per row.
     Pinhole { columns: Vec<f32>, rows: Vec<f32> },
-    /// Through a lens: both per pixel, row by row; NaN where the lens shows no ray.
+    /// A camera with lens distortion: x/z and y/z per pixel, row by row; NaN where no ray maps to the pixel.
     Lens(Table),
 }
 
 type Table = Arc<Vec<[f32; 2]>>;
 
-/// Cameras whose tables are kept, the one used last in front: a cell has one or two.
+/// Cached tables by camera, most recently used first: a cell has one or two cameras.
 static KNOWN: Mutex<Vec<(Intrinsics, Table)>> = Mutex::new(Vec::new());
-/// Tables kept; one of 0.3 million pixels takes 2.5 MB.
+/// Maximum number of cached tables; one of 0.3 million pixels takes 2.5 MB.
 const MAX_KNOWN: usize = 4;
 
 impl Rays {
-    /// The rays of a camera. Of a lens with distortion the first call takes tens of milliseconds; later ones find the
-    /// table.
+    /// Returns the rays of a camera. With lens distortion the first call takes tens of milliseconds; later calls
+    /// use the cached table.
     pub fn of(camera: &Intrinsics) -> Self {
         let kind = if camera.distortion.is_none() {
             let ratio =
@@ -53,7 +53,7 @@ impl Rays {
         }
     }
 
-    /// Appends the camera points of row `v`, which has these depths from the left; NaN is no reading.
+    /// Appends the camera points of row `v` from its depths, left to right; NaN means no reading.
     pub fn append_row(
         &self,
         v: usize,
@@ -72,7 +72,7 @@ impl Rays {
             Kind::Lens(table) => {
                 let row = &table[v * self.width..(v + 1) * self.width];
                 points.extend(depths.zip(row).map(|(z, [x, y])| {
-                    // Without a ray there is no point, whatever was read.
+                    // Without a ray there is no point, whatever the reading.
                     let z = if x.is_nan() { f32::NAN } else { z };
                     Point3::new(x * z, y * z, z)
                 }));
@@ -88,7 +88,7 @@ fn known(camera: &Intrinsics) -> Table {
         tables[..=place].rotate_right(1);
         return Arc::clone(&tables[0].1);
     }
-    // Computed without holding up other cameras; two at once compute the same.
+    // Compute without blocking other cameras; two threads may compute the same table.
     drop(tables);
     let table = Arc::new(table_of(camera));
     let mut tables = lock();
@@ -102,7 +102,7 @@ fn table_of(camera: &Intrinsics) -> Vec<[f32; 2]> {
     let mut table = Vec::with_capacity(camera.width * camera.height);
     let mut row_start = None;
     for v in 0..camera.height {
-        // The neighbour's ray is a good guess: two steps end at the exact one.
+        // The neighbour's ray is a good initial guess: two Newton steps suffice.
         let mut near = row_start;
         for u in 0..camera.width {
             let seen = camera.seen_at(u as f64, v as f64);
@@ -148,7 +148,7 @@ mod tests {
                 assert!((column - u as f64).hypot(row - v as f64) < 1e-6);
             }
         }
-        // The table is found again, and another camera's is not taken for it.
+        // The table is reused, and not confused with another camera's.
         let Kind::Lens(first) = Rays::of(&camera).kind else {
             panic!("a lens");
         };

@@ -1,29 +1,29 @@
-//! A straight segment in space: how near it comes to another one, to a box and to a cloud.
+//! A straight segment in space: its distance to another segment, to a box and to a cloud.
 
 use nalgebra::{Point3, Vector3};
 
 use super::{nearest::KdTree, rigid::RigidTransform};
 
-/// A straight segment, metres. One of no length is a point.
+/// A straight segment, metres. A segment of zero length is a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
-    /// Where it begins.
+    /// Start point.
     pub from: Point3<f64>,
-    /// Where it ends.
+    /// End point.
     pub to: Point3<f64>,
 }
 
-/// Least step along a segment beside a cloud, metres. A point at the distance d then seems at most STEP² / 8d too far away:
-/// 0.1 mm at 100 mm.
+/// Minimum step along a segment beside a cloud, metres. It lets a distance d be overestimated by at most STEP² /
+/// 8d: 0.1 mm at 100 mm.
 const STEP: f64 = 0.01;
 
 impl Segment {
-    /// Its length, metres.
+    /// Returns the length, metres.
     pub fn length(&self) -> f64 {
         (self.to - self.from).norm()
     }
 
-    /// The same segment from its end to its beginning.
+    /// Returns the segment with its ends swapped.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self {
@@ -32,13 +32,14 @@ impl Segment {
         }
     }
 
-    /// What of it lies behind the last place that is within `radius` metres of a point; none if its end is.
+    /// Returns the rest of the segment after it last leaves the sphere of `radius` metres around a point; `None` if it ends
+    /// inside.
     pub fn beyond(&self, point: &Point3<f64>, radius: f64) -> Option<Self> {
         if (self.to - point).norm() < radius {
             return None;
         }
         let (apart, way) = (self.from - point, self.to - self.from);
-        // The shares at which it passes the sphere: the roots of a·s² + 2·b·s + c.
+        // It crosses the sphere at the roots of a·s² + 2·b·s + c.
         let (a, b) = (way.norm_squared(), apart.dot(&way));
         let c = apart.norm_squared() - radius * radius;
         let root = b * b - a * c;
@@ -53,7 +54,7 @@ impl Segment {
         })
     }
 
-    /// The same segment in another frame.
+    /// Returns the segment in another frame.
     #[must_use]
     pub fn moved(&self, transform: &RigidTransform) -> Self {
         Self {
@@ -62,7 +63,7 @@ impl Segment {
         }
     }
 
-    /// Its distance to another segment, metres; 0 where they meet.
+    /// Returns the distance to another segment, metres; 0 where they meet.
     ///
     /// C. Ericson, *Real-Time Collision Detection*, 2005, section 5.1.9.
     pub fn distance_to_segment(&self, other: &Self) -> f64 {
@@ -79,13 +80,13 @@ impl Segment {
         } else {
             let both = way.dot(&other_way);
             let spread = length_sq * other_length_sq - both * both;
-            // Of parallel segments any share does.
+            // Any share will do for parallel segments.
             let share = if spread > 0.0 {
                 ((both * other_along - along * other_length_sq) / spread).clamp(0.0, 1.0)
             } else {
                 0.0
             };
-            // Where the other one ends before its nearest point, its end counts.
+            // Clamp to the other segment's ends.
             let other_share = ((both * share + other_along) / other_length_sq).clamp(0.0, 1.0);
             [(both * other_share - along) / length_sq, other_share]
         };
@@ -93,16 +94,16 @@ impl Segment {
         (apart + way * share - other_way * other_share).norm()
     }
 
-    /// Its distance to the box about the origin that reaches to `half` along each axis, metres; 0 where they meet.
+    /// Returns the distance to the box around the origin with half extents `half`, metres; 0 where they meet.
     pub fn distance_to_box(&self, half: &Vector3<f64>) -> f64 {
         let (from, way) = (self.from.coords, self.to - self.from);
-        // From the nearest point of the box.
+        // Offset from the nearest point of the box.
         let off = |share: f64| {
             let at = from + way * share;
             at - at.zip_map(half, |x, half| x.clamp(-half, half))
         };
-        // Half the slope of the squared distance. A box is convex, so the slope never falls; and it is straight between
-        // the shares at which the segment passes a plane of a face.
+        // Half the slope of the squared distance. It never decreases, because a box is convex, and it is linear between
+        // the shares at which the segment crosses the plane of a face.
         let slope = |share: f64| off(share).dot(&way);
         let mut before = slope(0.0);
         if before >= 0.0 {
@@ -119,7 +120,7 @@ impl Segment {
                     half[axis]
                 };
                 let share = (face - from[axis]) / way[axis];
-                // Not within the segment, or along the plane.
+                // Ignore crossings outside the segment, and planes parallel to it.
                 if share > 0.0 && share < 1.0 {
                     share
                 } else {
@@ -139,10 +140,10 @@ impl Segment {
         off(1.0).norm()
     }
 
-    /// Its distance to the nearest point of a cloud, metres, if that is below `within`.
+    /// Returns the distance to the nearest point of a cloud, metres, if it is below `within`.
     ///
-    /// It is walked along from its beginning. Where the nearest point is at the distance d, none comes nearer than the best
-    /// so far on the next d - best of the way, so a segment far from the cloud takes one search.
+    /// Walks along the segment from its start. Where the nearest point is at distance d, no point within the next `d -
+    /// best` of the segment can be nearer than the best so far, so a segment far from the cloud takes one search.
     pub fn distance_to_cloud(&self, cloud: &KdTree, within: f64) -> Option<f64> {
         let length = self.length();
         let mut best = within;
@@ -151,7 +152,7 @@ impl Segment {
             let share = if length > 0.0 { walked / length } else { 0.0 };
             let here = self.from + (self.to - self.from) * share;
             let rest = length - walked;
-            // What is farther is not reached on the rest of the way either.
+            // Points farther away cannot come within `best` on the rest of the segment.
             let radius = best + rest;
             let Some(found) = cloud.nearest(&here.cast(), (radius * radius) as f32) else {
                 break;
@@ -189,7 +190,7 @@ mod tests {
     fn two_segments_are_as_far_apart_as_their_nearest_places() {
         let along_x = segment([0.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
         for (from, to, wanted) in [
-            // Across it, above it, beside its end, parallel, on its line, and a point.
+            // Crossing, above, beyond its end, parallel, collinear, and a point.
             ([0.5, -1.0, 0.0], [0.5, 1.0, 0.0], 0.0),
             ([0.5, -1.0, 0.2], [0.5, 1.0, 0.2], 0.2),
             ([1.3, -1.0, 0.4], [1.3, 1.0, 0.4], 0.5),
@@ -250,16 +251,16 @@ mod tests {
     fn distances_to_a_box_are_those_to_its_faces_edges_and_corners() {
         let half = Vector3::new(1.0, 2.0, 3.0);
         for (from, to, wanted) in [
-            // Beside a face, along it and towards it.
+            // Beside a face: parallel to it and towards it.
             ([1.5, -9.0, 0.0], [1.5, 9.0, 0.0], 0.5),
             ([4.0, 0.0, 0.0], [1.25, 0.5, 0.5], 0.25),
-            // Past an edge in z, crossing over it.
+            // Past an edge in z, at right angles to it.
             ([4.0, 3.0, 0.0], [2.0, 5.0, 0.0], 2.0_f64.sqrt() * 2.0),
-            // A point beyond a corner, and one that is no way at all from it.
+            // A point beyond a corner.
             ([2.0, 4.0, 5.0], [2.0, 4.0, 5.0], 3.0),
-            // Away from it.
+            // Away from the box.
             ([1.0, 2.0, 4.0], [5.0, 6.0, 9.0], 1.0),
-            // Through it, out of it and within it.
+            // Through the box, out of it and within it.
             ([-5.0, 0.0, 0.0], [5.0, 0.1, 0.2], 0.0),
             ([0.5, 0.0, 0.0], [9.0, 0.0, 0.0], 0.0),
             ([0.5, 0.5, 0.5], [-0.5, -0.5, 1.0], 0.0),

@@ -1,4 +1,4 @@
-//! A rigid transform as it is written: its 4×4 matrix, 16 numbers row after row. For `#[serde(with = "…")]`.
+//! Serialises a rigid transform as its 4×4 matrix: 16 numbers, row by row. For `#[serde(with = "…")]`.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -12,14 +12,14 @@ pub fn serialize<S: Serializer>(
     row_major(transform).serialize(serializer)
 }
 
-/// Reads the matrix; one that also stretches, mirrors or is not finite is refused.
+/// Reads the matrix; fails if it is not a rigid transform (scales, mirrors, or is not finite).
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<RigidTransform, D::Error> {
     let numbers = <[f64; 16]>::deserialize(deserializer)?;
     from_row_major(&numbers, 1e-6)
         .ok_or_else(|| serde::de::Error::custom("the 16 numbers are not a rigid transform"))
 }
 
-/// A rigid transform that is written so, for places where `with` does not fit, such as within an `Option`.
+/// A rigid transform serialised as 16 numbers, for places where `with` does not fit, such as inside an `Option`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct SixteenNumbers(#[serde(with = "super::sixteen_numbers")] pub RigidTransform);

@@ -1,36 +1,36 @@
-//! A cloud of a surface cut into cubes, a few points in each: what lies around a cube shows where the surface ends.
+//! A cloud of a surface divided into cubes of a few points each, to find where the surface ends.
 //!
-//! In the middle of a surface a cube's points lie around the mean of those in it and in the cubes about it; where the
-//! surface ends they lie to one side of it, and beyond them there is nothing. Both are sums over cubes, so the borders of
-//! a cloud cost little more than putting its points into cubes.
+//! Inside a surface, the mean of a cube's points is close to the mean of the points in it and in the adjacent cubes.
+//! Where the surface ends it lies to one side of that mean, with no points beyond. Both means are sums over cubes, so
+//! finding the borders costs little more than sorting the points into cubes.
 //!
-//! Known limits: openings and bars narrower than two cubes have no border.
+//! Known limits: borders of openings and bars narrower than two cubes are not found.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-/// Points in a cube, on average.
+/// Target for the mean number of points per cube.
 const PER_CUBE: f64 = 6.0;
-/// As near to it as this, up or down, will do.
+/// Accepted ratio to that target, up or down.
 const CLOSE_ENOUGH: f64 = 1.3;
 /// Bits of a cube's number along one axis.
 const BITS_PER_AXIS: u32 = 21;
 const LAST_ALONG: u64 = (1 << BITS_PER_AXIS) - 1;
-/// No cube is here.
+/// Marks an empty slot.
 const NOTHING: u32 = u32::MAX;
-/// Points around a cube below which nothing is said.
+/// Minimum number of points in a cube and its neighbours to look for an end.
 const LEAST_AROUND: f64 = 12.0;
-/// A cube's points lie to one side from here on, in sides of a cube: half a side is what a straight end makes of it.
+/// Offset of a cube's mean from which the surface ends there, in cube sides; a straight end gives half a side.
 const ASIDE: f64 = 0.33;
-/// Half the width of the strip across an end of the surface, and how far it may reach beyond a cube's mean, in sides.
+/// Half the width of the strip across an end of the surface, and how far it may reach beyond a cube's mean, in cube sides.
 const HALF_STRIP: f64 = 0.75;
 const MOST_BEYOND: f64 = 0.85;
 
-/// Where a surface ends.
+/// A point at which a surface ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceEnd {
     /// A point of the border.
     pub at: Point3<f32>,
-    /// Unit vector along it.
+    /// Unit vector along the border.
     pub along: Vector3<f32>,
 }
 
@@ -41,9 +41,9 @@ pub struct SurfaceGrid<'a> {
     low: Point3<f32>,
     side: f64,
     cubes: Vec<Cube>,
-    /// Numbers of cubes by the hash of their place.
+    /// Hash table from cube places to cube numbers.
     slots: Vec<u32>,
-    /// The points of one cube after the other.
+    /// Indices of the points, cube by cube.
     members: Vec<u32>,
 }
 
@@ -51,12 +51,13 @@ pub struct SurfaceGrid<'a> {
 struct Cube {
     place: u64,
     moments: Moments,
-    /// Its first point among the members, and the one after its last.
+    /// Range of its points in `members`: the first, and one past the last.
     first: u32,
     end: u32,
 }
 
-/// Of the values in the middle of 27 cubes that at a place in the one amid them, in sides from its middle.
+/// Interpolates trilinearly between the values at the centres of 27 cubes; `within` is the offset from the central
+/// one, in sides.
 fn between(around: &[Vector3<f32>; 27], within: &Vector3<f32>) -> Vector3<f32> {
     let [x, y, z] = [0, 1, 2].map(|axis| {
         let share = within[axis].abs().min(1.0);
@@ -76,7 +77,7 @@ fn between(around: &[Vector3<f32>; 27], within: &Vector3<f32>) -> Vector3<f32> {
     sum
 }
 
-/// Sums over points, about the origin.
+/// Sums over points, relative to the origin.
 #[derive(Clone, Copy, Debug, Default)]
 struct Moments {
     num: f64,
@@ -86,7 +87,7 @@ struct Moments {
 }
 
 impl<'a> SurfaceGrid<'a> {
-    /// Cubes of such a size that some six points lie in each. The points are finite, and about their middle.
+    /// Divides the points into cubes of about six points each. The points must be finite and centred on their mean.
     pub fn new(points: &'a [Point3<f32>]) -> Self {
         let first = points.first().copied().unwrap_or_default();
         let (low, high) = points
@@ -94,7 +95,7 @@ impl<'a> SurfaceGrid<'a> {
             .fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
         let size = f64::from((high - low).amax()).max(f64::MIN_POSITIVE);
         let least = size / f64::from(1_u32 << (BITS_PER_AXIS - 1));
-        // A surface about as large as its extent squared.
+        // Assume a surface as large as its extent squared.
         let mut side = size * (PER_CUBE / points.len().max(1) as f64).sqrt();
         let mut cut = Cut::new(points, &low, side.max(least));
         for _ in 0..4 {
@@ -113,14 +114,14 @@ impl<'a> SurfaceGrid<'a> {
         self.side
     }
 
-    /// Points along the borders of the surface, one for each cube there.
+    /// Returns points along the borders of the surface, one per border cube.
     pub fn ends(&self) -> Vec<SurfaceEnd> {
         (0..self.cubes.len())
             .filter_map(|cube| self.end(cube))
             .collect()
     }
 
-    /// A unit normal of the surface for each point, towards the origin: between those of the nearest cubes.
+    /// Returns a unit normal for each point, towards the origin, interpolated between the adjacent cubes.
     pub fn normals(&self) -> Vec<Vector3<f32>> {
         let of_cubes: Vec<Vector3<f32>> = self.cubes.iter().map(|cube| self.normal(cube)).collect();
         let mut normals = vec![Vector3::zeros(); self.points.len()];
@@ -165,7 +166,7 @@ impl<'a> SurfaceGrid<'a> {
         .cast()
     }
 
-    /// How far a point lies from the middle of its cube, in sides.
+    /// Returns the offset of a point from the centre of its cube, in cube sides.
     fn within(&self, cube: &Cube, p: &Point3<f32>) -> Vector3<f32> {
         let at = (p - self.low) / self.side as f32;
         // Cubes are numbered from 1.
@@ -214,7 +215,7 @@ impl<'a> SurfaceGrid<'a> {
                 }
             }
         }
-        // The surface goes on by as much as its points are apart.
+        // Extend the surface by the spacing of its points.
         let at = top + (top + self.side) / num_behind.max(1.0);
         (top <= MOST_BEYOND * self.side).then(|| SurfaceEnd {
             at: Point3::from((mean + out * at).cast()),
@@ -237,7 +238,7 @@ impl<'a> SurfaceGrid<'a> {
     }
 }
 
-/// Points by the places of their cubes.
+/// The points assigned to cubes.
 struct Cut {
     side: f64,
     places: Vec<u64>,
@@ -256,7 +257,7 @@ impl Cut {
             of_point: Vec::with_capacity(points.len()),
         };
         for p in points {
-            // One more, so that a cube at the low end has one before it.
+            // Number from 1, so that a cube at the low end has a neighbour before it.
             let along = |axis: usize| (f64::from(p[axis] - low[axis]) * per_side) as u64 + 1;
             let place = place_of([along(0), along(1), along(2)]);
             let number = cut.number_at(place);
@@ -322,7 +323,7 @@ fn place_of([x, y, z]: [u64; 3]) -> u64 {
     (z << (2 * BITS_PER_AXIS)) | (y << BITS_PER_AXIS) | x
 }
 
-/// A place and those about it.
+/// Iterates over a place and the 26 around it.
 fn places_around(place: u64) -> impl Iterator<Item = u64> {
     let low = place - place_of([1, 1, 1]);
     (0..27).map(move |i| low + place_of([i % 3, i / 3 % 3, i / 9]))
@@ -364,10 +365,11 @@ impl Moments {
         self.sum / self.num
     }
 
-    /// The direction of least variance; `None` of points on a line.
+    /// Returns the direction of least variance; `None` for points on a line.
     ///
     /// The eigenvalue is a root of the characteristic polynomial in closed form (O. K. Smith, "Eigenvalues of a
-    /// symmetric 3 × 3 matrix", Communications of the ACM 4(4), 1961), the vector is square to the rows of what is left.
+    /// symmetric 3 × 3 matrix", Communications of the ACM 4(4), 1961); the vector is perpendicular to the rows of
+    /// the matrix minus the eigenvalue.
     fn normal(&self) -> Option<Vector3<f64>> {
         let [xx, xy, xz, yy, yz, zz] = self.products.map(|product| product / self.num);
         let mean = self.mean();
@@ -429,7 +431,7 @@ mod tests {
         };
         let near = ends.iter().filter(|end| off(end).abs() < 0.01);
         assert!(near.count() * 100 > 97 * ends.len(), "{} ends", ends.len());
-        // An outline of 3.6 m and an opening of 0.94 m, in cubes of some 2 cm.
+        // An outline of 3.6 m and an opening of 0.94 m, in cubes of about 2 cm.
         assert!((180..600).contains(&ends.len()), "{} ends", ends.len());
         let mean = ends.iter().map(off).sum::<f32>() / ends.len() as f32;
         assert!(mean.abs() < 0.002, "{mean}");

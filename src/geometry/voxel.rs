@@ -1,25 +1,25 @@
-//! Thinning a cloud: one point per cube of space, the mean of all points in it.
+//! Thins a cloud to one point per cube of space: the mean of all points in it.
 //!
-//! Points are sorted by the number of their cube, so the result depends on nothing but the points: the same cloud
-//! gives the same bytes on every run.
+//! Points are sorted by the number of their cube, so the result depends only on the points: the same cloud gives
+//! the same bytes on every run.
 
 use nalgebra::{Point3, Vector3};
 
 use super::cloud::PointCloud;
 use crate::units::Metres;
 
-/// Bits of a cube's number along one axis; three of them fill a `u64` but one bit.
+/// Bits of a cube's number along one axis; three of them fit into a `u64`.
 const BITS_PER_AXIS: u32 = 21;
 
-/// The mean position, normal and colour of the finite points of every cube with edges of `size`, ordered by cube.
+/// Averages the position, normal and colour of the finite points in every cube with edges of `size`; ordered by cube.
 ///
-/// Labels and the grid are dropped: neither has a mean. `size` must be above zero.
+/// Labels and the grid are dropped, since they cannot be averaged. `size` must be above zero.
 pub fn downsample(cloud: &PointCloud, size: Metres) -> PointCloud {
     assert!(size.0 > 0.0, "a cube has edges longer than zero");
     let Some((low, high)) = cloud.bounds() else {
         return PointCloud::default();
     };
-    // Two million cubes along an axis: a stray point kilometres away makes cubes larger, not numbers wrong.
+    // At most two million cubes along an axis: a stray point kilometres away enlarges the cubes instead of overflowing.
     let extent = f64::from((high - low).amax());
     let most = f64::from((1_u32 << BITS_PER_AXIS) - 1);
     let per_metre = 1.0 / size.0.max(extent / most);
@@ -66,7 +66,7 @@ fn mean_position(points: &[Point3<f32>], cube: &[(u64, u32)]) -> Point3<f32> {
     Point3::from(sum / cube.len() as f64).cast()
 }
 
-/// The unit mean; where normals cancel each other, as on both faces of a thin sheet, the first one.
+/// Returns the normalised mean, or the first normal if they cancel out, as on both faces of a thin sheet.
 fn mean_normal(normals: &[Vector3<f32>], cube: &[(u64, u32)]) -> Vector3<f32> {
     let sum = cube
         .iter()
@@ -74,7 +74,7 @@ fn mean_normal(normals: &[Vector3<f32>], cube: &[(u64, u32)]) -> Vector3<f32> {
             sum + normals[i as usize]
         });
     let first = normals[cube[0].1 as usize];
-    // A tenth of a unit normal per point: less than that is the rest of a cancellation.
+    // A mean shorter than 0.1 is the remainder of a cancellation.
     if sum.norm() > 0.1 * cube.len() as f32 {
         sum.normalize()
     } else {

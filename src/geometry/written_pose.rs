@@ -1,4 +1,4 @@
-//! A pose as a person writes it: six numbers, each with its unit or without.
+//! Parses a pose as a person writes it: six numbers with optional units.
 
 use super::rigid::{RigidTransform, from_euler_zyx};
 use crate::{
@@ -6,16 +6,16 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// A pose that a person wrote, and what is odd about it.
+/// A pose as a person wrote it, with doubts about its units.
 #[derive(Clone, Debug)]
 pub struct GivenPose {
-    /// The pose.
+    /// The pose as parsed.
     pub pose: RigidTransform,
     /// Numbers that were probably meant in another unit.
     pub doubts: Vec<UnitDoubt>,
 }
 
-/// A number of a pose that is hardly meant in the unit it was read in.
+/// A number of a pose that was probably meant in another unit.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what} {word} is {value}; did you mean {meant}?")]
 pub struct UnitDoubt {
@@ -31,8 +31,8 @@ impl Advice for UnitDoubt {
     }
 }
 
-/// Reads "rx ry rz x y z" as the paper writes its T1..T5 (eq. 15): radians and metres, R = Rz·Ry·Rx. A number may carry
-/// its unit instead: `90deg`, `90°`, `800mm`, `80cm`.
+/// Parses "rx ry rz x y z" as the paper writes its T1..T5 (eq. 15): radians and metres, R = Rz·Ry·Rx. A number may
+/// carry its own unit: `90deg`, `90°`, `800mm`, `80cm`.
 pub fn parse_pose(text: &str) -> Result<GivenPose, String> {
     let words: Vec<&str> = text
         .split(|c: char| c.is_whitespace() || c == ',')
@@ -60,20 +60,20 @@ pub fn parse_pose(text: &str) -> Result<GivenPose, String> {
     })
 }
 
-/// Units of an angle, in radians.
+/// Angle units and their size in radians.
 const ANGLES: [(&str, f64); 3] = [
     ("deg", std::f64::consts::PI / 180.0),
     ("°", std::f64::consts::PI / 180.0),
     ("rad", 1.0),
 ];
 
-/// Units of a length, in metres; `m` last, since the others end in it.
+/// Length units and their size in metres; `m` last, because the others end in it.
 const LENGTHS: [(&str, f64); 3] = [("mm", 0.001), ("cm", 0.01), ("m", 1.0)];
 
-/// No cell is as long, metres.
+/// Longest plausible length, metres: no cell is larger.
 const LONGEST: f64 = 10.0;
 
-/// More than a full turn is hardly meant, unless its unit was written.
+/// Doubts an angle of more than a full turn, unless its unit was written.
 fn doubt_angle(word: &str, angle: Radians) -> Option<UnitDoubt> {
     let is_bare = word.parse::<f64>().is_ok();
     (is_bare && angle.0.abs() > std::f64::consts::TAU).then(|| UnitDoubt {
@@ -93,7 +93,7 @@ fn doubt_length(word: &str, length: Metres) -> Option<UnitDoubt> {
     })
 }
 
-/// A number with one of the units given, or with none.
+/// Parses a number with one of the given units, or with none.
 fn parse_number(word: &str, units: &[(&str, f64)]) -> Result<f64, String> {
     let with_unit = units
         .iter()

@@ -1,9 +1,9 @@
-//! Contour: follows the borders of the binary image and takes the part's outline and its openings.
+//! Contour: follows the borders of the binary image to find the part's outline and its openings.
 //!
-//! Border following after S. Suzuki and K. Abe, "Topological structural analysis of digitized binary images by
-//! border following", Computer Vision, Graphics, and Image Processing 30(1), 1985, algorithm 1, for 8-connected
-//! shapes. The paper keeps the largest border; we keep the openings inside it too, and always the same direction:
-//! the outline runs counter-clockwise in plane space (x right, y up), openings clockwise.
+//! Border following after S. Suzuki and K. Abe, "Topological structural analysis of digitized binary images by border
+//! following", Computer Vision, Graphics, and Image Processing 30(1), 1985, algorithm 1, for 8-connected shapes. The
+//! paper keeps the largest border; we also keep the openings inside it, and fix the directions: the outline runs
+//! counter-clockwise in plane space (x right, y up), openings clockwise.
 
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -17,7 +17,7 @@ use crate::{
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct ContourParams {
-    /// Openings smaller than this are dropouts of the sensor and are left out, square metres, 0..0.1.
+    /// Openings smaller than this are ignored as sensor dropouts, square metres, 0..0.1.
     pub min_opening_area: f64,
 }
 
@@ -29,7 +29,7 @@ impl Default for ContourParams {
     }
 }
 
-/// Whether a border surrounds set pixels or a hole in them.
+/// Whether a border surrounds set pixels or a hole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BorderKind {
     /// Around a connected shape.
@@ -38,15 +38,15 @@ pub enum BorderKind {
     Hole,
 }
 
-/// One border as it was followed.
+/// A border found by border following.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TracedBorder {
-    /// What it surrounds.
+    /// Whether it surrounds a shape or a hole.
     pub kind: BorderKind,
     /// Index of the border around this one; `None` for the frame of the image.
     pub parent: Option<usize>,
-    /// Column and row of its set pixels in the order followed, closed, the first not repeated. A pixel on a spur is
-    /// passed twice.
+    /// Column and row of its set pixels in the order followed, closed, the first not repeated. A pixel on a spur
+    /// occurs twice.
     pub pixels: Vec<[u32; 2]>,
 }
 
@@ -57,20 +57,20 @@ pub struct Contour {
     pub outline: Vec<Point2<f64>>,
     /// The openings, largest first, each clockwise.
     pub openings: Vec<Vec<Point2<f64>>>,
-    /// The outline's pixels (column, row) as followed, before any turning: the paper's contour.
+    /// The outline's pixels (column, row) in the order followed, not re-oriented: the paper's contour.
     pub outline_pixels: Vec<[u32; 2]>,
-    /// Area of the outline less its openings, square metres.
+    /// Area of the outline minus its openings, square metres.
     pub area: f64,
 }
 
-/// Why no contour was found.
+/// Reason why no contour was found.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum ContourError {
     /// No shape in the image encloses an area.
     #[error("the binary image holds no shape with an area ({num_set} pixels set)")]
     NoShape {
-        /// Set pixels.
+        /// Number of set pixels.
         num_set: usize,
     },
 }
@@ -82,7 +82,7 @@ impl Advice for ContourError {
     }
 }
 
-/// The part's outline (the border that encloses the largest area) and its openings.
+/// Finds the part's outline (the border that encloses the largest area) and its openings.
 pub fn find_contour(plane: &PlaneImage, params: &ContourParams) -> Result<Contour, ContourError> {
     let borders = follow_borders(&plane.image);
     let to_plane = |border: &TracedBorder| -> Vec<Point2<f64>> {
@@ -128,7 +128,7 @@ fn oriented(mut corners: Vec<Point2<f64>>, sign: f64) -> Vec<Point2<f64>> {
 }
 
 impl Contour {
-    /// Outline and openings as space points in plane space (z = height of the surface), where the surface is known
+    /// Returns outline and openings as points in plane space (z = height of the surface), where there is a reading
     /// within two pixels.
     pub fn lifted(&self, plane: &PlaneImage) -> Vec<Point3<f64>> {
         std::iter::once(&self.outline)
@@ -138,18 +138,18 @@ impl Contour {
     }
 }
 
-/// The points of one border, on the surface: plane space, with the height of the nearest reading. Points without a
-/// reading close by are left out.
+/// Returns the points of one border on the surface: plane space, with the height of the nearest reading. Points
+/// without a reading nearby are left out.
 pub fn lift_border(border: &[Point2<f64>], plane: &PlaneImage) -> Vec<Point3<f64>> {
     let lifted = |p: &Point2<f64>| height_near(plane, p).map(|z| Point3::new(p.x, p.y, z));
     border.iter().filter_map(lifted).collect()
 }
 
-/// Points of a border on either side that fix its direction: some 4 cm.
+/// Number of points on either side that determine a border's direction: about 4 cm.
 const TANGENT: usize = 9;
 
-/// The points of one closed border, on the surface, each with the unit vector along it: plane space. `None` where no
-/// reading is close by.
+/// Returns the points of one closed border on the surface, each with the unit vector along it: plane space. `None`
+/// where there is no reading nearby.
 pub fn lift_oriented(
     border: &[Point2<f64>],
     plane: &PlaneImage,
@@ -166,7 +166,7 @@ pub fn lift_oriented(
     (0..n).map(oriented).collect()
 }
 
-/// The height of the surface at the reading nearest to a plane point, at most two pixels away.
+/// Returns the height of the reading nearest to a plane point, at most two pixels away along each axis.
 fn height_near(plane: &PlaneImage, point: &Point2<f64>) -> Option<f64> {
     let (column, row) = plane.pixel_of(point);
     let (column, row) = (column.round() as i64, row.round() as i64);
@@ -179,7 +179,7 @@ fn height_near(plane: &PlaneImage, point: &Point2<f64>) -> Option<f64> {
         height.is_finite().then_some(f64::from(height))
     };
     let around = || (-2..=2).flat_map(|dv| (-2..=2).map(move |du| (du, dv)));
-    // A border's own pixels have one, as a rule.
+    // A border's own pixels usually have a reading.
     reading(0, 0).or_else(|| {
         around()
             .filter_map(|(du, dv)| Some((du * du + dv * dv, reading(du, dv)?)))
@@ -188,7 +188,7 @@ fn height_near(plane: &PlaneImage, point: &Point2<f64>) -> Option<f64> {
     })
 }
 
-/// The eight neighbours in clockwise order as seen on the picture (row grows downwards), beginning to the right.
+/// The eight neighbours in clockwise order as displayed (row grows downwards), starting to the right.
 const CLOCKWISE: [(i64, i64); 8] = [
     (1, 0),
     (1, 1),
@@ -200,9 +200,9 @@ const CLOCKWISE: [(i64, i64); 8] = [
     (1, -1),
 ];
 
-/// All borders of an image with their nesting, in the order in which a scan meets them.
+/// Returns all borders of an image with their nesting, in scan order.
 pub fn follow_borders(image: &BinaryImage) -> Vec<TracedBorder> {
-    // A frame of unset pixels, so that no neighbour is ever outside.
+    // Add a frame of unset pixels, so that no neighbour is ever outside.
     let stride = image.width + 2;
     let mut labels = vec![0_i32; stride * (image.height + 2)];
     for (row, pixels) in image.pixels.chunks_exact(image.width.max(1)).enumerate() {
@@ -221,7 +221,7 @@ pub fn follow_borders(image: &BinaryImage) -> Vec<TracedBorder> {
             if label == 0 {
                 continue;
             }
-            // Step (1): does a border start here, and which?
+            // Step (1): determine whether a border starts here, and of which kind.
             let start = if label == 1 && labels[at - 1] == 0 {
                 Some((BorderKind::Outer, 4))
             } else if label >= 1 && labels[at + 1] == 0 {
@@ -252,7 +252,7 @@ pub fn follow_borders(image: &BinaryImage) -> Vec<TracedBorder> {
     borders
 }
 
-/// Table 1 of the article: the parent follows from the new border's kind and the border met last.
+/// Table 1 of the article: determines the parent from the new border's kind and the border met last.
 fn parent_of(kind: BorderKind, last_met: i32, borders: &[TracedBorder]) -> Option<usize> {
     let last = (last_met >= 2).then(|| last_met as usize - 2)?;
     if borders[last].kind == kind {
@@ -286,7 +286,7 @@ fn follow(
     let (mut at, mut came_from) = (start, first);
     loop {
         pixels.push(position(at));
-        // (3.3) counter-clockwise from where we came to the next set pixel.
+        // (3.3) counter-clockwise from the previous pixel to the next set one.
         let mut right_is_unset = false;
         let mut next = came_from;
         for turn in 1..=8 {
@@ -303,7 +303,7 @@ fn follow(
             labels[at] = label;
         }
         let next_pixel = neighbour(at, next);
-        // (3.5) back at the start, about to leave it the way we first did.
+        // (3.5) back at the start and about to leave it as at first.
         if next_pixel == start && at == last_pixel {
             return pixels;
         }
@@ -331,7 +331,7 @@ mod tests {
         }
     }
 
-    /// Labels of 4- or 8-connected regions by flooding, over pixels equal to `value`, with a frame of unset pixels.
+    /// Labels 4- or 8-connected regions of pixels equal to `value` by flood fill, with a frame of unset pixels.
     fn flood(
         image: &BinaryImage,
         value: bool,
@@ -365,7 +365,7 @@ mod tests {
     const FOUR: [(i64, i64); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
     proptest! {
-        /// By definition: a border is the set of pixels of one 8-connected shape that have a 4-neighbour in one
+        /// By definition, a border is the set of pixels of one 8-connected shape that have a 4-neighbour in one
         /// 4-connected region of the background.
         #[test]
         fn borders_are_the_pixels_between_a_shape_and_a_background_region(
@@ -396,7 +396,7 @@ mod tests {
             expected.sort();
             prop_assert_eq!(found, expected);
             for border in &borders {
-                // Neighbours in the list are neighbours in the image, also across the end.
+                // Neighbours in the list are neighbours in the image, also from the last to the first.
                 for (a, b) in border.pixels.iter().zip(border.pixels.iter().cycle().skip(1)) {
                     prop_assert!(a[0].abs_diff(b[0]) <= 1 && a[1].abs_diff(b[1]) <= 1);
                 }

@@ -8,10 +8,10 @@ use rustfft::{Fft, FftDirection, FftNum, FftPlanner, num_complex::Complex};
 use crate::error::lock;
 use crate::stages::signature::LiteralSignature;
 
-/// The rays of one or several outlines as complex numbers x + iy, ready for the circular correlation.
+/// The rays of one or several outlines as complex numbers x + iy, transformed for the circular correlation.
 ///
-/// All in one piece of memory, since the ranking reads them from end to end, and in single precision: of rays of
-/// metres, a micrometre is left.
+/// Stored contiguously, because the ranking reads all of them, and in single precision, which resolves about a
+/// micrometre in rays of metres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RaySpectra {
     num_rays: usize,
@@ -22,7 +22,7 @@ pub struct RaySpectra {
 }
 
 impl RaySpectra {
-    /// Of outlines with equally many rays, metres.
+    /// Transforms outlines with the same number of rays, metres.
     pub fn of<'a>(outlines: impl IntoIterator<Item = &'a [Vector2<f64>]>) -> Self {
         let complex = |r: &Vector2<f64>| Complex::new(r.x as f32, r.y as f32);
         let mut all = Self {
@@ -42,29 +42,29 @@ impl RaySpectra {
         all
     }
 
-    /// Rays of each outline.
+    /// Returns the number of rays of each outline.
     pub fn num_rays(&self) -> usize {
         self.num_rays
     }
 }
 
-/// Plans transforms of one precision, and keeps them: planning one takes as long as dozens of transforms.
+/// A cached planner for one precision: planning takes as long as dozens of transforms.
 type FftPlanCache<T> = LazyLock<Mutex<FftPlanner<T>>>;
 static PLANNER: FftPlanCache<f32> = LazyLock::new(|| Mutex::new(FftPlanner::new()));
 static EXACT_PLANNER: FftPlanCache<f64> = LazyLock::new(|| Mutex::new(FftPlanner::new()));
 
-/// The transform of so many values.
+/// Returns the transform of `length` values.
 fn planned<T: FftNum>(
     planner: &FftPlanCache<T>,
     length: usize,
     direction: FftDirection,
 ) -> Arc<dyn Fft<T>> {
-    // A planner that panicked while planning has at worst forgotten a plan.
+    // A planner that panicked while planning has at worst lost a plan.
     let mut planner = lock(planner);
     planner.plan_fft(length, direction)
 }
 
-/// Circular correlation of one outline's rays with those of others, by their spectra:
+/// Circular correlation of one outline's rays with those of others, using their spectra:
 /// `out[lag] = Σ query[k + lag] · conj(reference[k])`.
 pub struct CircularCorrelator {
     query: RaySpectra,
@@ -74,9 +74,9 @@ pub struct CircularCorrelator {
 }
 
 impl CircularCorrelator {
-    /// For the first outline of `query`, which has at least one ray.
+    /// Creates a correlator for the first outline of `query`, which must have at least one ray.
     pub fn new(mut query: RaySpectra) -> Self {
-        // What the transforms there and back multiply by.
+        // Compensates for the scale of the unnormalised forward and inverse transforms.
         let scale = 1.0 / query.num_rays as f32;
         query.values.iter_mut().for_each(|value| *value *= scale);
         let inverse = planned(&PLANNER, query.num_rays, FftDirection::Inverse);
@@ -88,8 +88,8 @@ impl CircularCorrelator {
         }
     }
 
-    /// The correlation at every lag with each of the outlines, each with the sum of both powers; with none if their
-    /// rays are not as many as the query's.
+    /// Returns, per outline, the correlation at every lag and the sum of both powers; nothing if the number of rays
+    /// differs from the query's.
     pub fn correlate(
         &mut self,
         references: &RaySpectra,
@@ -110,8 +110,8 @@ impl CircularCorrelator {
     }
 }
 
-/// Linear correlation of real signals (eq. 7), zero-padded: `f.len() + g.len() - 1` values, from the lag at which
-/// the end of `f` meets the start of `g` on.
+/// Linear correlation of real signals (eq. 7), zero-padded: `f.len() + g.len() - 1` values, starting at the lag where
+/// the end of `f` meets the start of `g`.
 pub fn linear_correlation(f: &[f64], g: &[f64]) -> Vec<f64> {
     if f.is_empty() || g.is_empty() {
         return Vec::new();
@@ -119,7 +119,7 @@ pub fn linear_correlation(f: &[f64], g: &[f64]) -> Vec<f64> {
     let num_lags = f.len() + g.len() - 1;
     let size = num_lags.next_power_of_two();
     let forward = planned(&EXACT_PLANNER, size, FftDirection::Forward);
-    // Correlation is convolution with f reversed. Both signals are real, so one transform carries the two.
+    // Correlation is convolution with f reversed. Both signals are real, so one transform serves both.
     let mut both = vec![Complex::default(); size];
     for (slot, &value) in both.iter_mut().zip(f.iter().rev()) {
         slot.re = value;
@@ -144,7 +144,7 @@ pub fn linear_correlation(f: &[f64], g: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// What the paper's offline stage keeps of a part: its signature and [L|Θ]_A, the signature's auto-correlation.
+/// Data of a part from the paper's offline stage: its signature and [L|Θ]_A, the signature's auto-correlation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiteralReference {
     /// The reference's own signature.
@@ -156,7 +156,7 @@ pub struct LiteralReference {
 }
 
 impl LiteralReference {
-    /// Algorithm 1, step 7.
+    /// Computes the auto-correlation (Algorithm 1, step 7).
     pub fn new(signature: LiteralSignature) -> Self {
         Self {
             lengths_auto: linear_correlation(&signature.lengths, &signature.lengths),
@@ -165,8 +165,8 @@ impl LiteralReference {
         }
     }
 
-    /// Algorithm 2: ‖A - C‖₁ over lengths and angles (eq. 11) with A = corr(reference, reference) and
-    /// C = corr(reference, query), the shorter of each padded with zeros (Note 1). A part compared with itself is 0.
+    /// Returns the distance of Algorithm 2: ‖A - C‖₁ over lengths and angles (eq. 11) with A = corr(reference, reference)
+    /// and C = corr(reference, query), the shorter of each padded with zeros (Note 1). 0 for a part compared with itself.
     pub fn distance(&self, query: &LiteralSignature) -> f64 {
         l1_distance(
             &self.lengths_auto,
@@ -177,7 +177,7 @@ impl LiteralReference {
         )
     }
 
-    /// ‖A‖₁: the distance from a query that is nothing at all.
+    /// Returns ‖A‖₁, the distance from an empty query.
     pub fn norm(&self) -> f64 {
         l1_distance(&self.lengths_auto, &[]) + l1_distance(&self.angles_auto, &[])
     }

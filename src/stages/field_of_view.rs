@@ -1,53 +1,53 @@
-//! The field of view: the part of a picture in which the camera delivers readings.
+//! The field of view: the region of a picture in which the camera delivers readings.
 //!
 //! Depth that is registered to a colour camera ends inside the picture, along a border that is not quite a rectangle:
-//! keystone, rounded or turned. It is convex, so the convex hull of the readings (A. M. Andrew, "Another efficient
-//! algorithm for convex hulls in two dimensions", Information Processing Letters 9(5), 1979) is the field of view,
-//! and a place inside without a reading is a hole.
+//! trapezoidal, rounded or rotated. The border is convex, so the field of view is the convex hull of the readings (A.
+//! M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", Information Processing Letters 9(5),
+//! 1979), and a pixel inside without a reading is a hole.
 //!
-//! The two lenses stand apart, so near surfaces end some pixels further inside than far ones: between them and the
-//! border lies a band without readings. A surface that is the outermost reading of its row or column within that band
-//! ends at the border.
+//! The two lenses are some distance apart, so near surfaces end some pixels further inside than far ones, leaving a
+//! band without readings along the border. A surface ends at the border if it is the outermost reading of its row
+//! or column within that band.
 //!
-//! Known limits: readings that cover less than half of the picture or leave gaps along their hull, such as a part alone
-//! before nothing, are no field of view; the whole picture is. A border that a frame leaves dark over its whole length
-//! is found too far inside. The capture of an empty cell shows it, and so do other frames of the same camera: Live,
-//! scans and the window's camera remember what they saw.
+//! Known limits: if the readings cover less than 45 % of the picture or leave gaps along their hull, as with a part in
+//! front of nothing, the whole picture is taken as the field of view. A border without readings over its whole length
+//! is found too far inside. The capture of an empty cell avoids this, and so do other frames of the same camera: Live,
+//! scans and the window's camera remember the field of view.
 
 use std::sync::Arc;
 
 use crate::geometry::cloud::Grid;
 
-/// In which pixels of a picture the camera delivers readings.
+/// The pixels of a picture in which the camera delivers readings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldOfView {
     grid: Grid,
-    /// Of each row the first and last column inside; the first is behind the last where the row lies outside.
+    /// First and last column inside, per row; first > last where the whole row is outside.
     rows: Vec<[u32; 2]>,
-    /// Of each row and each column the outermost readings within [`BAND`] of the border, else the border.
+    /// Outermost readings within [`BAND`] of the border, per row and per column; the border itself where there are none.
     ends: [Vec<[u32; 2]>; 2],
     is_inner: bool,
 }
 
-/// Readings in a row from which on they are no specks.
+/// Minimum length of a run of readings; shorter runs are specks.
 const RUN: usize = 4;
-/// A row or column looked along for the outermost readings, pixels from the border: twice what near surfaces were seen
-/// to be off at 640 columns.
+/// Distance from the border within which the outermost reading of a row or column is searched for, pixels: twice the
+/// offset of near surfaces observed at 640 columns.
 const BAND: u32 = 40;
-/// Least extent of the readings, shares of the picture's width and height.
+/// Minimum extent of the readings, as a share of the picture's width and height.
 const LEAST_EXTENT: f64 = 0.6;
-/// Least area of the readings' hull, share of the picture's.
+/// Minimum area of the readings' hull, as a share of the picture's area.
 const LEAST_AREA: f64 = 0.45;
-/// Share of the rows and columns that have a reading close to both ends, at least.
+/// Minimum share of row ends that have a reading close to them.
 const LEAST_BORDER: f64 = 0.7;
-/// A reading this close to the hull is at its border, pixels: registered depth is ragged there.
+/// A reading this close to the hull is at its border, pixels: the border of registered depth is ragged.
 const CLOSE: u32 = 12;
-/// A hull that leaves out less than this share of the picture at each side is the whole picture.
+/// A hull that leaves out less than this share of the picture's width and height counts as the whole picture.
 const NEGLIGIBLE: f64 = 0.02;
 
 impl FieldOfView {
-    /// What the readings of a frame show of it: their convex hull if they fill it up to its border, else the whole
-    /// picture. `known` is what another frame of the same camera showed.
+    /// Determines the field of view from a frame: the convex hull of the readings if they fill it up to its border,
+    /// else the whole picture. `known` is the field of view found in another frame of the same camera.
     pub fn of(grid: Grid, is_reading: impl Fn(usize) -> bool, known: Option<&Self>) -> Self {
         let hull = hull_of_readings(grid, &is_reading);
         let is_inner =
@@ -70,7 +70,7 @@ impl FieldOfView {
         }
     }
 
-    /// What this frame and those before it show together; `None` while the field of view is the whole picture.
+    /// Joins the known field of view with that of a new frame; `None` while it is the whole picture.
     pub fn remembered(known: Option<Arc<Self>>, seen: Option<&Self>) -> Option<Arc<Self>> {
         match (known, seen.filter(|view| view.is_inner)) {
             (Some(known), Some(view)) if known.grid == view.grid => {
@@ -85,28 +85,29 @@ impl FieldOfView {
         }
     }
 
-    /// True if it is smaller than the picture.
+    /// Returns true if it is smaller than the picture.
     pub fn is_inner(&self) -> bool {
         self.is_inner
     }
 
-    /// True if the camera could deliver a reading at this column and row.
+    /// Returns true if the camera can deliver a reading at this column and row.
     pub fn contains(&self, u: i64, v: i64) -> bool {
         let row = usize::try_from(v).ok().and_then(|v| self.rows.get(v));
         row.is_some_and(|&[first, last]| u >= i64::from(first) && u <= i64::from(last))
     }
 
-    /// First and last column of a row that the camera could deliver readings in; near surfaces end some pixels inside.
+    /// Returns the columns at which the readings of a row end: the outermost readings close to the border of the
+    /// view, else the border.
     pub fn row_ends(&self, v: usize) -> Option<[u32; 2]> {
         self.ends[0].get(v).copied()
     }
 
-    /// First and last row of a column, likewise.
+    /// Returns the rows at which the readings of a column end, likewise.
     pub fn column_ends(&self, u: usize) -> Option<[u32; 2]> {
         self.ends[1].get(u).copied()
     }
 
-    /// True if a reading at this column and row is within `margin` pixels of where the view ends.
+    /// Returns true if a reading at this column and row is within `margin` pixels of the end of the view.
     pub fn ends_at(&self, u: usize, v: usize, margin: u32) -> bool {
         let is_end = |along: &[[u32; 2]], line: usize, at: usize| {
             along.get(line).is_some_and(|&[first, last]| {
@@ -129,10 +130,10 @@ fn area(rows: &[[u32; 2]]) -> f64 {
     rows.iter().map(|row| length(*row)).sum()
 }
 
-/// A row without a pixel inside.
+/// A row with no pixel inside.
 const OUTSIDE: [u32; 2] = [1, 0];
 
-/// Of each row the columns within the convex hull of the readings; `None` without readings.
+/// Returns the columns within the convex hull of the readings, per row; `None` without readings.
 fn hull_of_readings(grid: Grid, is_reading: impl Fn(usize) -> bool) -> Option<Vec<[u32; 2]>> {
     let Grid { width, height } = grid;
     let extents = (0..height).map(|v| {
@@ -145,7 +146,7 @@ fn hull_of_readings(grid: Grid, is_reading: impl Fn(usize) -> bool) -> Option<Ve
     convex(extents.map(|extent| extent.unwrap_or(OUTSIDE)))
 }
 
-/// The convex hull of two fields of view.
+/// Returns the convex hull of two fields of view.
 fn joined(one: &[[u32; 2]], other: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let both = one
         .iter()
@@ -158,7 +159,7 @@ fn joined(one: &[[u32; 2]], other: &[[u32; 2]]) -> Vec<[u32; 2]> {
     convex(both).unwrap_or_else(|| one.to_vec())
 }
 
-/// The convex hull of what lies between the first and last column of each row; `None` if that is nothing.
+/// Returns the convex hull of the spans between the first and last column of each row; `None` if all are empty.
 fn convex(rows: impl ExactSizeIterator<Item = [u32; 2]>) -> Option<Vec<[u32; 2]>> {
     let height = rows.len();
     let (mut left, mut right): (Vec<[f64; 2]>, Vec<[f64; 2]>) = (Vec::new(), Vec::new());
@@ -180,8 +181,8 @@ fn convex(rows: impl ExactSizeIterator<Item = [u32; 2]>) -> Option<Vec<[u32; 2]>
     Some(rows)
 }
 
-/// Adds a corner below all others to one side of a hull; corners that lie inside go. `inwards` is the sign of the columns'
-/// direction from that side into the hull.
+/// Adds a corner below all others to one side of a hull and removes corners that are no longer on the hull. `inwards`
+/// is the sign of the column direction from that side into the hull.
 fn keep_convex(side: &mut Vec<[f64; 2]>, corner: [f64; 2], inwards: f64) {
     while let [.., a, b] = side[..] {
         let turn = (b[0] - a[0]) * (corner[1] - a[1]) - (corner[0] - a[0]) * (b[1] - a[1]);
@@ -193,7 +194,7 @@ fn keep_convex(side: &mut Vec<[f64; 2]>, corner: [f64; 2], inwards: f64) {
     side.push(corner);
 }
 
-/// The column of a hull's side at a row; rows are asked for in ascending order.
+/// Returns the column of a hull's side at a row; must be called with ascending rows.
 fn column_at(side: &[[f64; 2]], at: &mut usize, row: f64) -> f64 {
     while *at + 1 < side.len() && side[*at + 1][0] < row {
         *at += 1;
@@ -215,12 +216,12 @@ fn is_plausible(rows: &[[u32; 2]], grid: Grid) -> bool {
         && area(rows) >= LEAST_AREA * grid.num_cells() as f64
 }
 
-/// True if hardly anything of the picture lies outside.
+/// Returns true if the view covers nearly the whole picture.
 fn is_nearly_all(rows: &[[u32; 2]], grid: Grid) -> bool {
     area(rows) >= (1.0 - NEGLIGIBLE) * (1.0 - NEGLIGIBLE) * grid.num_cells() as f64
 }
 
-/// True if most rows have a reading close to both of their ends.
+/// Returns true if most row ends have a reading close to them.
 fn reaches_the_border(rows: &[[u32; 2]], ends: &[[u32; 2]]) -> bool {
     let inside = rows.iter().zip(ends).filter(|(row, _)| row[0] <= row[1]);
     let (mut num, mut close) = (0.0_f64, 0.0);
@@ -232,7 +233,8 @@ fn reaches_the_border(rows: &[[u32; 2]], ends: &[[u32; 2]]) -> bool {
     close >= LEAST_BORDER * num
 }
 
-/// The outermost readings of rows and columns within the band along the border; the border itself where there is none.
+/// Returns the outermost readings of rows and columns within the band along the border, or the border itself where
+/// there are none.
 fn ends_of(
     grid: Grid,
     is_reading: impl Fn(usize) -> bool,
@@ -285,7 +287,7 @@ mod tests {
         height: 120,
     };
 
-    /// True within a rounded, turned rectangle with a ragged border.
+    /// True inside a rounded, rotated rectangle with a ragged border.
     fn is_inside(i: usize) -> bool {
         let (u, v) = (
             (i % GRID.width) as f64 - 82.0,
@@ -298,7 +300,7 @@ mod tests {
 
     #[test]
     fn readings_that_end_inside_the_picture_show_where_the_view_ends() {
-        // A handle within, and the shadow of a near surface at the left border.
+        // A hole inside, and the shadow of a near surface at the left border.
         let is_hole = |i: usize| {
             let (u, v) = (i % GRID.width, i / GRID.width);
             (70..90).contains(&u) && (50..60).contains(&v) || u < 34 && (40..80).contains(&v)
@@ -306,13 +308,13 @@ mod tests {
         let view = FieldOfView::of(GRID, |i| is_inside(i) && !is_hole(i), None);
         assert!(view.is_inner());
         let truth = (0..GRID.num_cells()).filter(|&i| is_inside(i));
-        // The shadow takes the border's own bulge there.
+        // The shadow hides the bulge of the border there.
         let is_missed = |i: &usize| !view.contains((i % 160) as i64, (i / 160) as i64);
         let num_missed = truth.clone().filter(is_missed).count();
         assert!(num_missed < 10, "{num_missed} pixels");
         let num = area(&view.rows);
         assert!(num < 1.06 * truth.count() as f64, "{num} pixels");
-        // The surface beside the shadow is the outermost there, the one beside the handle is not.
+        // The surface beside the shadow is the outermost there; the one beside the hole is not.
         assert!(view.ends_at(34, 60, 3) && !view.ends_at(69, 55, 3));
         assert!(!view.contains(-1, 60) && !view.contains(82, 119));
     }
@@ -373,7 +375,7 @@ mod tests {
         alone.set_known_view(remembered);
         let view = alone.field_of_view().expect("a picture");
         assert!(view.is_inner() && view.contains(30, 60) && !view.contains(10, 60));
-        // Nothing is known of a camera that fills its picture.
+        // A camera that fills its picture leaves nothing to remember.
         let full = scene(|_| true);
         assert!(FieldOfView::remembered(None, full.field_of_view()).is_none());
     }

@@ -1,4 +1,4 @@
-//! A scene's part put in its place as the paper does it, from the standard position.
+//! Locates a scene's part as the paper does, starting from the standard position.
 
 use nalgebra::Point3;
 
@@ -15,10 +15,10 @@ use super::{
 };
 use crate::units::Metres;
 
-/// Points on which the figures of a fit are taken.
+/// Number of points used to measure a fit.
 const NUM_MEASURED: usize = 5000;
 
-/// The pose of a scene's part by ICP or by Algorithm 3, from no displacement.
+/// Estimates the pose of a scene's part with ICP or ICP-GA, starting from the standard position.
 pub fn locate(
     part: &SegmentedPart,
     reference: &Reference,

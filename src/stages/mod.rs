@@ -5,9 +5,9 @@
 //!           scene        segment         project        contour    signature       rank            pose
 //! ```
 //!
-//! `reference` prepares an enrolled part for the last two, `correlation` is the signal processing below `rank`, and `locate`
-//! takes a scene's part to `pose` as the paper does. `stand_off` follows the pose where it is shown: how far the nozzle
-//! would be from the part.
+//! `reference` prepares an enrolled part for `rank` and `pose`, `correlation` holds the signal processing of `rank`,
+//! and `locate` runs `pose` on a scene's part as the paper does. `stand_off` computes the distance of the nozzle from
+//! the part; it runs where it is shown.
 
 pub mod confirm;
 pub mod contour;

@@ -1,9 +1,9 @@
-//! Projection: the part's points onto the plane of their first two principal axes, as a binary image (eq. 3 to 6).
+//! Projects the part's points onto the plane of their first two principal axes, as a binary image (eq. 3 to 6).
 //!
-//! Departures from the paper: the third axis is turned towards the camera and the three are right-handed, so a left
-//! part never looks like a right one; a pixel stands for a fixed length, so size stays evidence; small gaps of the
-//! sampling are closed morphologically while real holes stay open; points count by the surface they stand for
-//! (depth²), so that the near side of a tilted part, where the camera samples densely, does not pull the axes.
+//! Deviations from the paper: the third axis points towards the camera and the axes are right-handed, so a left part
+//! never looks like a right one; pixels have a fixed metric size, so size remains evidence; small sampling gaps are
+//! closed morphologically while real holes stay open; points are weighted by the surface they stand for (depth²), so
+//! that the near side of a tilted part, which the camera samples densely, does not bias the axes.
 //!
 //! ```text
 //! plane space: x, y along the first two axes, z towards the camera, origin at the points' mean
@@ -31,7 +31,7 @@ use crate::{
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct ProjectParams {
-    /// Side of a pixel, 1..20 mm. Below the spacing of the points gaps appear; raising it blurs the outline.
+    /// Side of a pixel, 1..20 mm. Below the spacing of the points, gaps appear; raising it blurs the outline.
     pub pixel: Metres,
     /// Gaps up to this width are closed, 0..50 mm. Raising it fills narrow real openings.
     pub closed_gap: Metres,
@@ -49,23 +49,23 @@ impl Default for ProjectParams {
 /// The part as a binary image in the plane of its principal axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaneImage {
-    /// Set where the part is.
+    /// Pixels covered by the part are set.
     pub image: BinaryImage,
-    /// Height of the surface above the plane (metres, towards the camera) per pixel; NaN where no point fell, also
-    /// where a gap was closed.
+    /// Height of the surface above the plane (metres, towards the camera) per pixel; NaN where no point fell,
+    /// including closed gaps.
     pub heights: Vec<f32>,
     /// Side of a pixel.
     pub pixel: Metres,
     /// Plane coordinates of the centre of pixel (0, 0).
     pub origin: Point2<f64>,
-    /// Takes camera space into plane space.
+    /// Transform from camera space to plane space.
     pub plane_from_camera: RigidTransform,
     /// Standard deviations along the three axes, metres, descending.
     pub deviations: [f64; 3],
 }
 
 impl PlaneImage {
-    /// An image drawn by hand or read from a file, in its own plane with the centre of the image as origin.
+    /// Creates the plane of an image drawn by hand or read from a file, with the centre of the image as origin.
     pub fn from_image(image: BinaryImage, pixel: Metres) -> Self {
         let half = |n: usize| (n as f64 - 1.0) / 2.0 * pixel.0;
         Self {
@@ -78,7 +78,7 @@ impl PlaneImage {
         }
     }
 
-    /// Plane coordinates of the centre of a pixel.
+    /// Returns the plane coordinates of the centre of a pixel.
     pub fn plane_point(&self, column: f64, row: f64) -> Point2<f64> {
         Point2::new(
             self.origin.x + column * self.pixel.0,
@@ -86,7 +86,7 @@ impl PlaneImage {
         )
     }
 
-    /// Column and row (not rounded) at which a plane point lies.
+    /// Returns the column and row of a plane point, not rounded.
     pub fn pixel_of(&self, point: &Point2<f64>) -> (f64, f64) {
         (
             (point.x - self.origin.x) / self.pixel.0,
@@ -95,20 +95,20 @@ impl PlaneImage {
     }
 }
 
-/// Why no image could be made.
+/// Reason why no image could be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum ProjectError {
     /// The points span no plane.
     #[error("the part's {num_points} points lie on a line or a spot ({width:.4} m wide)")]
     NoPlane {
-        /// Points given.
+        /// Number of points.
         num_points: usize,
         /// Standard deviation along the second axis, metres.
         #[serde(rename = "width_m")]
         width: f64,
     },
-    /// The points reach too far for an image.
+    /// The points extend too far for an image.
     #[error("the part spans {found:.1} m, an image covers {limit:.1} m")]
     TooLarge {
         /// Extent, metres.
@@ -134,15 +134,15 @@ impl Advice for ProjectError {
     }
 }
 
-/// Unset pixels kept around the part, so that closing and border following never meet the edge.
+/// Unset pixels around the part, so that closing and border following never reach the edge.
 const MARGIN: usize = 2;
-/// An image side of 4096 pixels is 20 m at the default pixel: beyond any part, and a bound on memory.
+/// Maximum image side, a bound on memory: 20 m at the default pixel, larger than any part.
 const MAX_SIDE: usize = 4096;
 
-/// The binary image of a part as the camera at the origin of its space sees it.
+/// Projects a part to a binary image, as seen by the camera at the origin of its space.
 pub fn project(part: &SegmentedPart, params: &ProjectParams) -> Result<PlaneImage, ProjectError> {
     let points = &part.cloud.points;
-    // A pixel at depth z stands for a surface of z²; a cloud around the origin was not seen from there.
+    // A pixel at depth z covers an area proportional to z². A cloud around the origin was not seen from there.
     let seen_from_origin = points.iter().all(|p| p.z > 0.1);
     let weight = |_: usize, p: &Point3<f32>| {
         if seen_from_origin {
@@ -154,10 +154,10 @@ pub fn project(part: &SegmentedPart, params: &ProjectParams) -> Result<PlaneImag
     project_weighted(points, weight, &Point3::origin(), params)
 }
 
-/// Points on which the plane rests, at least.
+/// Minimum number of points sampled to find the plane.
 const NUM_PLANE_POINTS: usize = 16_000;
 
-/// The binary image of points that count by `weight(index, point)` and are seen from `viewpoint`.
+/// Projects points to a binary image, weighted by `weight(index, point)` and seen from `viewpoint`.
 pub fn project_weighted(
     points: &[Point3<f32>],
     weight: impl Fn(usize, &Point3<f32>) -> f64,
@@ -168,7 +168,7 @@ pub fn project_weighted(
         num_points: points.len(),
         width,
     };
-    // Eq. 4 and 5. Of a close part every fourth point says as much about its plane.
+    // Eq. 4 and 5. A sample of a large cloud gives the plane equally well.
     let step = (points.len() / NUM_PLANE_POINTS).max(1);
     let weighted = points
         .iter()
@@ -185,7 +185,7 @@ pub fn project_weighted(
     rasterise(points, plane_from_camera, deviations, params)
 }
 
-/// The frame of eq. 6 with its signs fixed: third axis towards the viewpoint, right-handed.
+/// Returns the frame of eq. 6 with fixed signs: third axis towards the viewpoint, right-handed.
 fn plane_frame(principal: &PrincipalAxes, viewpoint: &Point3<f64>) -> RigidTransform {
     let towards_camera: Vector3<f64> = viewpoint - principal.mean;
     let mut third: Vector3<f64> = principal.axes.column(2).into_owned();
@@ -194,7 +194,7 @@ fn plane_frame(principal: &PrincipalAxes, viewpoint: &Point3<f64>) -> RigidTrans
     }
     let first: Vector3<f64> = principal.axes.column(0).into_owned();
     let second = third.cross(&first);
-    // Rows of plane_from_camera are the axes in camera space.
+    // The rows of plane_from_camera are the axes in camera space.
     let rotation = Matrix3::from_rows(&[first.transpose(), second.transpose(), third.transpose()]);
     let rotation =
         UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
@@ -210,15 +210,15 @@ fn rasterise(
     deviations: [f64; 3],
     params: &ProjectParams,
 ) -> Result<PlaneImage, ProjectError> {
-    // Eq. 3, in f32: coordinates are within metres of the mean and a pixel is millimetres.
-    // As a matrix, which takes half the operations of a quaternion.
+    // Eq. 3, in f32: coordinates are within metres of the mean, and a pixel is millimetres. A matrix takes half the
+    // operations of a quaternion.
     let turn: Matrix3<f32> = plane_from_camera
         .rotation
         .to_rotation_matrix()
         .into_inner()
         .cast();
     let shift: Vector3<f32> = plane_from_camera.translation.vector.cast();
-    // Twice, for the extent and for the pixels: to write them down and read them again takes longer.
+    // Computed twice, for the extent and for the pixels: storing the points would take longer.
     let in_plane = || points.iter().map(|p| turn * p + shift);
     let mut low = [f32::INFINITY; 2];
     let mut high = [f32::NEG_INFINITY; 2];
@@ -272,7 +272,7 @@ mod tests {
     use super::*;
     use crate::geometry::cloud::PointCloud;
 
-    /// A plate of 1.0 × 0.4 m with a window near one corner, 1.2 m before the camera, tilted.
+    /// A tilted plate of 1.0 × 0.4 m with a window near one corner, 1.2 m in front of the camera.
     fn plate() -> Vec<Point3<f32>> {
         let tilt = UnitQuaternion::from_euler_angles(0.3, -0.2, 0.4);
         (0..250 * 100)
@@ -310,7 +310,7 @@ mod tests {
         let plane = projected(plate());
         let area = plane.image.num_set() as f64 * plane.pixel.0.powi(2);
         assert!((area - (0.4 - 0.032)).abs() < 0.02, "{area} m²");
-        // From every set pixel back into the camera's space there is a point of the plate nearby.
+        // Every set pixel, transformed back to camera space, is close to a point of the plate.
         let camera_from_plane = plane.plane_from_camera.inverse();
         let tree = crate::geometry::nearest::KdTree::new(&plate());
         for (i, _) in plane
@@ -336,8 +336,8 @@ mod tests {
             .iter()
             .map(|p| Point3::new(-p.x, p.y, p.z))
             .collect();
-        // The product of the two skews keeps its sign when the picture is turned by half a turn, as axes may be, and
-        // changes it when the picture is mirrored.
+        // The product of the two skews keeps its sign when the image is turned by 180°, as the axes may be, and
+        // changes it when the image is mirrored.
         let handedness = |plane: &PlaneImage| {
             let width = plane.image.width;
             let set = plane

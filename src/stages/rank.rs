@@ -1,9 +1,9 @@
 //! Ranking: how well each reference explains the scene's shape, best first.
 //!
-//! Default matcher: for every view of a reference the circular correlation of the complex rays L·e^{iΘ} over all lags
-//! (by FFT) gives at once the lag, the turn in the plane and the distance that remains between the outlines; the best
-//! few views are then laid over the scene's image, openings included, and scored by their overlap. Lengths are
-//! metres throughout, so size is evidence.
+//! Default matcher: for every view of a reference, the circular correlation of the complex rays L·e^{iΘ} over all lags
+//! (by FFT) yields the lag, the rotation in the plane and the remaining distance between the outlines at once. The best
+//! few views are then laid over the scene's image, openings included, and scored by their overlap. Lengths are metric
+//! throughout, so size is evidence.
 //!
 //! Paper matcher: Algorithm 2 with eq. 7 and 11 and Note 1, as written.
 
@@ -23,7 +23,7 @@ use crate::{
     units::Metres,
 };
 
-/// Which matcher ranks the references.
+/// The matcher that ranks the references.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Matcher {
@@ -38,16 +38,16 @@ pub enum Matcher {
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct RankParams {
-    /// Which matcher.
+    /// The matcher to use.
     pub matcher: Matcher,
-    /// Placements of each reference that are laid over the scene's image, 1..20. Raising it costs time and helps
-    /// near-symmetric parts.
+    /// Number of placements per reference that are laid over the scene's image, 1..20. Raising it costs time and
+    /// helps with near-symmetric parts.
     pub num_overlaid: usize,
-    /// Distance of the outlines at which the score has dropped to 1/e, 10..200 mm.
+    /// Distance between outlines at which the score has dropped to 1/e, 10..200 mm.
     pub outline_tolerance: Metres,
-    /// References from which all cores rank, one otherwise, 1..100 000. Lowering it costs time where starting the
-    /// others takes longer than the ranking. `partsight bench scaling` finds the crossover; on two cores two workers
-    /// paid from 16 on and four from 32 on, below which a tenth of a millisecond is at stake.
+    /// Minimum number of references to rank on all cores instead of one, 1..100 000. Lowering it costs time where
+    /// starting the threads takes longer than ranking. `partsight bench scaling` finds the crossover; on two cores, two
+    /// workers paid off from 16 references and four from 32; below that, only a tenth of a millisecond is at stake.
     pub parallel_from: usize,
 }
 
@@ -62,7 +62,7 @@ impl Default for RankParams {
     }
 }
 
-/// The scene's shape as the earlier stages found it.
+/// The scene's shape from the earlier stages.
 #[derive(Clone, Copy, Debug)]
 pub struct Query<'a> {
     /// Binary image.
@@ -73,20 +73,20 @@ pub struct Query<'a> {
     pub signature: &'a FanSignature,
 }
 
-/// How well one reference matches.
+/// Match of one reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatchEntry {
-    /// Index of the reference among those given.
+    /// Index into the given references.
     pub reference: usize,
     /// The part's name.
     pub part: String,
-    /// The name that the reference is enrolled under; another than the part's where it is one of several.
+    /// The name under which the reference is enrolled; differs from the part's name where the part has several.
     pub enrolled_as: String,
-    /// 0..1, 1 for the same shape.
+    /// 0..1; 1 for the same shape.
     pub score: f64,
     /// The matcher's own distance: metres between outlines by default, ‖A - C‖₁ for the paper's.
     pub distance: f64,
-    /// Placements, best first; the paper's matcher finds none.
+    /// Placements, best first; empty for the paper's matcher.
     pub placements: Vec<ImagePlacement>,
 }
 
@@ -107,7 +107,7 @@ pub fn rank(query: &Query<'_>, references: &[Reference], params: &RankParams) ->
     rank_by(num_workers, query, references, params)
 }
 
-/// As [`rank`], by so many workers; the ranking is the same for any number.
+/// Like [`rank`], with the given number of workers, which does not affect the result.
 pub fn rank_by(
     num_workers: usize,
     query: &Query<'_>,
@@ -150,7 +150,7 @@ fn rank_literally(
             reference,
             part: references[reference].name.clone(),
             enrolled_as: references[reference].enrolled_as.clone(),
-            // The paper takes the least distance (eq. 11) whatever its size: the score only has to keep that order.
+            // The paper takes the smallest distance (eq. 11) whatever its size; the score only has to preserve that order.
             score: (1.0 - relative).clamp(0.0, 1.0) * 0.5
                 + 0.5 * (least / distance.max(f64::MIN_POSITIVE)).min(1.0),
             distance,
@@ -183,7 +183,7 @@ fn rank_by_overlap(
     map_in_order(references.len(), num_workers, prepare, entry)
 }
 
-/// The ways of laying one reference over the scene, best first; for a matcher that finds none itself.
+/// Finds the placements of one reference over the scene, best first; for a matcher that finds none itself.
 pub fn place(query: &Query<'_>, reference: &Reference, params: &RankParams) -> Vec<ImagePlacement> {
     let mut placements = PlacementSearch::new(query, params).place(reference);
     refine_first(&mut placements, query, reference);

@@ -1,18 +1,18 @@
-//! Reduction of a picture that is finer than the method needs: a block of readings becomes one.
+//! Reduces a picture that is finer than the method needs: each block of readings becomes one.
 //!
-//! An outline is drawn with pixels of 5 mm, and a camera of half a million pixels resolves 3 mm at 1.5 m: more cost time
-//! and tell nothing. What a block of k × k readings shows is the surface that most of them lie on, the nearer one of
-//! two that have as many; its depth is their mean, so the noise falls too. Readings of two surfaces are never mixed. The
-//! mean stands on the ray through the middle of its block; rows and columns that fill no block are left out.
+//! Outlines are drawn with pixels of 5 mm, and a camera of half a million pixels resolves 3 mm at 1.5 m: more pixels cost
+//! time and add nothing. A block of k × k readings yields the surface that most of them lie on, or the nearer of two with as
+//! many readings; its depth is their mean, which also reduces noise. Readings of two surfaces are never mixed. In a depth
+//! image the mean lies on the ray through the middle of its block. Incomplete blocks at the right and bottom are dropped.
 
 use nalgebra::Point3;
 
 use crate::geometry::cloud::Grid;
 
-/// How captures become scenes.
+/// Parameters of making a scene from a capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SceneParams {
-    /// A picture of more pixels is reduced until it has no more, 100 000 to 20 000 000. Raising it costs time in every
+    /// Larger pictures are reduced to at most this many pixels, 100 000..20 000 000. Raising it costs time in every
     /// stage and resolves smaller openings; lowering it blurs the outline.
     pub max_pixels: usize,
 }
@@ -26,7 +26,7 @@ impl Default for SceneParams {
 }
 
 impl SceneParams {
-    /// Readings along the side of a block; 1 leaves the picture as it is.
+    /// Returns the side of a block in readings; 1 leaves the picture unchanged.
     pub fn block_side(&self, grid: Grid) -> usize {
         let most = self.max_pixels.max(1);
         let at_least = (grid.num_cells() as f64 / most as f64).sqrt() as usize;
@@ -38,16 +38,16 @@ impl SceneParams {
     }
 }
 
-/// Readings within this share of the nearest of them are of one surface: far above the noise and the slope of what can
-/// be seen at all, far below the distance of a part from what is behind it.
+/// Readings within this share of the nearest depth belong to one surface: far above the noise and the slope of any
+/// visible surface, far below the distance between a part and what is behind it.
 const SAME_SURFACE: f32 = 0.02;
 
-/// Readings of one surface that make a block's: fewer are strays.
+/// Returns the minimum number of readings of one surface in a block; fewer are strays.
 fn least_readings(side: usize) -> usize {
     (side * side / 4).max(1)
 }
 
-/// Depths of the blocks of a depth image, metres, row by row; NaN is no reading.
+/// Returns the depths of the blocks of a depth image, metres, row by row; NaN where there is no reading.
 pub(super) fn reduced_depths(
     depth: &[u16],
     grid: Grid,
@@ -58,7 +58,7 @@ pub(super) fn reduced_depths(
     let used = columns * side;
     let least = least_readings(side);
     let mut reduced = Vec::with_capacity(columns * (grid.height / side));
-    // Per column of the image first: whole rows at once are quick.
+    // Reduce each column of the image first: whole rows at once are fast.
     let mut nearest = vec![0_u16; used];
     let mut farthest = vec![0_u16; used];
     let mut sums = vec![0_u32; used];
@@ -71,7 +71,7 @@ pub(super) fn reduced_depths(
         counts.fill(0);
         for row in rows.chunks_exact(grid.width) {
             for (u, &units) in row[..used].iter().enumerate() {
-                // Without a reading, 0, this is the largest number there is.
+                // Wraps to the maximum where there is no reading (0).
                 nearest[u] = nearest[u].min(units.wrapping_sub(1));
                 farthest[u] = farthest[u].max(units);
                 sums[u] += u32::from(units);
@@ -108,7 +108,7 @@ pub(super) fn reduced_depths(
     reduced
 }
 
-/// The points of the blocks of an organised cloud, row by row; NaN is no reading.
+/// Returns the mean points of the blocks of an organised cloud, row by row; NaN where there is no reading.
 pub(super) fn reduced_points(points: &[Point3<f32>], grid: Grid, side: usize) -> Vec<Point3<f32>> {
     let columns = grid.width / side;
     let least = least_readings(side);
@@ -144,8 +144,8 @@ pub(super) fn reduced_points(points: &[Point3<f32>], grid: Grid, side: usize) ->
     reduced
 }
 
-/// Of ascending depths those of the surface that most of them lie on, the nearer one of two; `None` if fewer than
-/// `least` do.
+/// Returns the depths of the surface that most of the ascending `depths` lie on, the nearer one in a tie; `None` if
+/// these are fewer than `least`.
 fn main_surface(depths: &[f32], least: usize) -> Option<&[f32]> {
     let mut best: &[f32] = &[];
     let mut end = 0;
@@ -174,7 +174,7 @@ mod tests {
         height: 5,
     };
 
-    /// A picture of 9 × 5 readings whose upper left block of 4 × 4 has these, row by row.
+    /// A picture of 9 × 5 readings with the given upper left block of 4 × 4, row by row.
     fn picture(block: [u16; 16]) -> Vec<u16> {
         let mut depth = vec![1000; GRID.num_cells()];
         for (i, units) in block.into_iter().enumerate() {
@@ -186,7 +186,7 @@ mod tests {
     fn reduced(block: [u16; 16]) -> f32 {
         let depth = picture(block);
         let all = reduced_depths(&depth, GRID, 4, 0.001);
-        // One row of two blocks; the last column and the last row fill none.
+        // One row of two blocks; the last column and the last row fall outside complete blocks.
         assert_eq!((all.len(), all[1]), (2, 1.0));
         let points = depth.iter().map(|&units| match units {
             0 => Point3::new(f32::NAN, f32::NAN, f32::NAN),
@@ -208,7 +208,7 @@ mod tests {
         let mut block = [1000; 16];
         block[3] = 1016;
         assert!((reduced(block) - 1.001).abs() < 1e-6);
-        // Dropouts are left out.
+        // Dropouts are ignored.
         block[4..12].fill(0);
         assert!((reduced(block) - 1.002).abs() < 1e-6);
     }
@@ -238,7 +238,7 @@ mod tests {
         assert!(reduced(block).is_nan());
         block[3] = 1000;
         assert!((reduced(block) - 1.0).abs() < 1e-6);
-        // As many readings, all apart.
+        // As many readings, each on a different surface.
         block[..4].copy_from_slice(&[1000, 1100, 1200, 1300]);
         assert!(reduced(block).is_nan());
     }
@@ -254,7 +254,7 @@ mod tests {
             let spread = 1 + random(30);
             let block: [u16; 16] = std::array::from_fn(|_| match random(5) {
                 0 => 0,
-                // Odd, so that none lies exactly as far off as is allowed.
+                // Odd, so that no distance is exactly at the limit.
                 _ => (1001 + 2 * random(spread)) as u16,
             });
             let mut valid: Vec<f32> = block

@@ -1,8 +1,8 @@
-//! Reference: what an enrolled part is compared by, prepared once (the paper's offline stage, Algorithm 1).
+//! Reference: an enrolled part, prepared once for comparison (the paper's offline stage, Algorithm 1).
 //!
-//! The paper keeps one signature per part, taken square on. The projection of a curved part changes with the side it
-//! is seen from, so we keep several *views*: the reference cloud as a camera would see it from in front and from
-//! some 20 to 25 degrees around. A view goes through the same projection, contour and signature as a scene.
+//! The paper keeps one signature per part, taken at right angles. The projection of a curved part changes with the side it
+//! is seen from, so we keep several *views*: the reference cloud as a camera would see it from the front and from
+//! directions about 20 to 25 degrees around it. A view goes through the same projection, contour and signature as a scene.
 
 pub mod border;
 mod view;
@@ -31,45 +31,45 @@ use crate::{
     units::Metres,
 };
 
-/// From where the reference cloud was seen.
+/// The sides from which the reference cloud was seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Coverage {
     /// One capture by a camera at the origin of part space: the far side is unknown.
     OneSide,
-    /// All around, as from a mesh: it can be recognised from both of its faces.
+    /// All around, as with a mesh: the part can be recognised from both faces.
     AllAround,
-    /// A scan of several captures: it can be recognised from where most of its surface was seen. The normals point to
-    /// the cameras.
+    /// A scan of several captures: the part can be recognised from directions that show most of the captured surface.
+    /// The normals point to the cameras.
     SeveralSides,
 }
 
-/// Parameters of [`Reference::prepare`]; those of the stages must be the ones used on scenes.
+/// Parameters of [`Reference::prepare`]; those of the stages must be the same as for scenes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReferenceParams {
-    /// Projection.
+    /// Parameters of the projection.
     pub project: ProjectParams,
-    /// Contour.
+    /// Parameters of the contour.
     pub contour: ContourParams,
-    /// Signature.
+    /// Parameters of the signature.
     pub signature: SignatureParams,
 }
 
-/// Why a cloud cannot be a reference.
+/// Reason why a cloud cannot be a reference.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ReferenceError {
-    /// No view of it has an outline.
+    /// None of the views has an outline.
     #[error("the cloud of {num_points} points has no outline from any side")]
     NoOutline {
-        /// Points given.
+        /// Number of points in the cloud.
         num_points: usize,
     },
-    /// Larger than any car part.
+    /// The cloud is larger than any car part.
     #[error("the part spans {:.1} m, expected at most {:.0} m", found.0, limit.0)]
     TooLarge {
-        /// Its largest extent.
+        /// The cloud's largest extent.
         found: Metres,
-        /// The largest extent of a part.
+        /// The largest extent allowed.
         limit: Metres,
     },
 }
@@ -85,7 +85,7 @@ impl Advice for ReferenceError {
     }
 }
 
-/// No car part is longer than this, metres; what is, is a file in millimetres or a whole scene.
+/// Maximum extent of a car part, metres; anything larger is a file in millimetres or a whole scene.
 const MAX_EXTENT: f64 = 5.0;
 
 /// An enrolled part, prepared for ranking and pose.
@@ -93,41 +93,40 @@ const MAX_EXTENT: f64 = 5.0;
 pub struct Reference {
     /// The part's name.
     pub name: String,
-    /// The name that this reference is enrolled under: several may stand for one part, each in coordinates of its own.
+    /// The name under which this reference is enrolled: a part may have several, each with its own coordinates.
     pub enrolled_as: String,
     /// The reference cloud in part space, with unit normals.
     pub cloud: PointCloud,
-    /// Search tree over `cloud`, made when it is first asked for: only the last steps towards a pose search exactly.
+    /// Search tree over `cloud`, built on first use: only the last steps of a pose search exactly.
     tree: OnceLock<KdTree>,
-    /// Field of nearest points around `cloud`.
+    /// Nearest-point field around `cloud`.
     pub field: NearestField,
-    /// The reference from several sides; the first is its standard view.
+    /// Views from several sides; the first is the standard view.
     pub views: Vec<ReferenceView>,
-    /// The views' signatures, for the circular correlation.
+    /// The views' signatures, transformed for the circular correlation.
     pub spectra: RaySpectra,
-    /// What only the paper's matcher looks at, and so made when it is first asked for.
+    /// Used only by the paper's matcher, so built on first use.
     literal: OnceLock<LiteralReference>,
-    /// Where the view that it was captured from cut it off.
+    /// The cut-off by the field of view of the capture.
     pub cut: ViewCut,
-    /// Oriented points and their pairs, from each side that it can be seen from; made when the first piece of a part is
-    /// laid onto it.
+    /// Oriented points and their pairs, for each side that the part can be seen from; built when a piece is first aligned.
     borders: OnceLock<Vec<ReferenceBorder>>,
-    /// Likewise: the default pose begins from placements and needs none of it.
+    /// Built on first use: the default pose search starts from placements and does not need it.
     whole: OnceLock<Result<PreparedTarget, PoseError>>,
 }
 
-/// Points kept of a view's outline and openings: about one per centimetre and a half around a door.
+/// Number of points kept of a view's outline and openings: about one per 1.5 cm around a door.
 const NUM_EDGES: usize = 256;
-/// Cells of the field of nearest points, metres: two to three spacings of a reference cloud.
+/// Cell size of the nearest-point field, metres: two to three times the spacing of a reference cloud.
 const FIELD_CELL: f32 = 0.02;
-/// How far off the part the field answers, metres: further than the outline's placement is off.
+/// Distance from the part up to which the field answers, metres: more than the error of a placement by outline.
 const FIELD_BAND: f32 = 0.06;
 
-/// Distance between neighbouring points of a reference cloud, metres: enrolment thins to this.
+/// Spacing of the points of a reference cloud, metres; enrolment thins to this.
 pub const SPACING: f64 = 0.008;
 
 impl Reference {
-    /// Middle of its extent, part space, metres; `None` of a cloud without points.
+    /// Returns the middle of the extent, part space, metres; `None` for a cloud without points.
     pub fn middle(&self) -> Option<Point3<f64>> {
         let (low, high) = self.cloud.bounds()?;
         Some(nalgebra::center(&low, &high).cast())
@@ -179,7 +178,7 @@ impl Reference {
         }
     }
 
-    /// The reference as the target of a pose, with the edges of one of its views; `None` for a flat shape.
+    /// Returns the reference as a target for a pose, with the edges of one of its views; `None` for a flat shape.
     pub fn target(&self, view: usize) -> Option<AlignmentTarget<'_>> {
         let Self {
             cloud, tree, field, ..
@@ -203,8 +202,8 @@ impl Reference {
         })
     }
 
-    /// Makes now what is otherwise made when it is first asked for, a millisecond or two: for who measures what an
-    /// inspection takes once all is made.
+    /// Builds the tree, auto-correlation and edges, which are otherwise built on first use, in a millisecond or two;
+    /// for measuring the time of an inspection without them.
     pub fn prefetch(&self) {
         self.tree();
         self.literal();
@@ -213,14 +212,14 @@ impl Reference {
         }
     }
 
-    /// The same part, captured in a view that cut it off so.
+    /// Sets the cut-off by the field of view of the capture.
     #[must_use]
     pub fn with_cut(self, cut: ViewCut) -> Self {
         Self { cut, ..self }
     }
 
-    /// Its border from each side that it can be seen from. Where a rounded surface turns away its outline wanders with the
-    /// viewpoint, so the outlines of all views of a side belong to it: a piece seen at an angle ends at one of them.
+    /// Returns the border for each side that the part can be seen from. Where a rounded surface turns away, its outline moves
+    /// with the viewpoint, so the outlines of all views of a side are included: a piece seen at an angle ends at one of them.
     pub fn borders(&self) -> &[ReferenceBorder] {
         self.borders.get_or_init(|| {
             let Some(front) = self.views.first() else {
@@ -248,7 +247,7 @@ impl Reference {
         })
     }
 
-    /// Outline and openings from one side, part space, without what the view that it was captured from cut off.
+    /// Returns outline and openings from one side, part space, without points at the cut-off by the field of view.
     fn outline_of(&self, view: &ReferenceView) -> Vec<BorderPoint> {
         let part_from_plane = view.plane_from_part.inverse();
         let point = |(at, along): (Point3<f64>, Vector3<f64>)| {
@@ -275,12 +274,12 @@ impl Reference {
             .collect()
     }
 
-    /// Search tree over the cloud.
+    /// Returns the search tree over the cloud.
     pub fn tree(&self) -> &KdTree {
         self.tree.get_or_init(|| KdTree::new(&self.cloud.points))
     }
 
-    /// The paper's auto-correlation of the standard view.
+    /// Returns the paper's auto-correlation of the standard view.
     pub fn literal(&self) -> &LiteralReference {
         self.literal.get_or_init(|| {
             let pixels = self
@@ -291,7 +290,7 @@ impl Reference {
         })
     }
 
-    /// Another one, for references that are simulated as signatures alone.
+    /// Replaces the auto-correlation, for references that are simulated as signatures only.
     #[must_use]
     pub fn with_literal(self, literal: LiteralReference) -> Self {
         Self {
@@ -300,13 +299,13 @@ impl Reference {
         }
     }
 
-    /// The reference as a target that is searched from anywhere.
+    /// Returns the reference as a target that can be searched from any start.
     pub fn whole(&self) -> Result<&PreparedTarget, PoseError> {
         let prepared = self.whole.get_or_init(|| PreparedTarget::new(&self.cloud));
         prepared.as_ref().map_err(|error| *error)
     }
 
-    /// A reference that is only a flat shape, such as a silhouette: it can be ranked, but has no cloud for a pose.
+    /// Creates a reference from a flat shape, such as a silhouette: it can be ranked, but has no cloud for a pose.
     pub fn from_plane(
         name: &str,
         plane: PlaneImage,
@@ -325,14 +324,14 @@ impl Reference {
     }
 }
 
-/// The views' signatures, for the circular correlation.
+/// Transforms the views' signatures for the circular correlation.
 pub fn spectra_of(views: &[ReferenceView]) -> RaySpectra {
     RaySpectra::of(views.iter().map(|view| &view.signature.rays[..]))
 }
 
-/// The surface at an edge of the sheet is seen at a cosine of at least this; less is where a rounded surface turns
-/// away, and that outline wanders over the surface as the viewpoint moves.
+/// Minimum cosine at which the surface is seen at a true edge; below it a rounded surface turns away, and its outline
+/// moves over the surface with the viewpoint.
 const LEAST_FACING_AT_EDGE: f64 = 0.5;
 
-/// A border this close to where the view cut the part off is the view's, metres.
+/// A border this close to the cut-off is due to the field of view, metres.
 const AT_CUT: f64 = 0.02;

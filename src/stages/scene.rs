@@ -1,9 +1,9 @@
-//! The scene: the points that a camera sees, in camera space.
+//! The scene: the points of a capture, in camera space.
 //!
-//! A depth frame becomes an organised cloud on the rays of its camera. For an organised cloud that came without a camera
-//! the intrinsics are fitted from the points themselves, because x/z of a pinhole camera is linear in the column:
-//! later stages ask the camera what it would have seen at a place. A capture saved as bare points (PLY, XYZ) has lost
-//! its rows and columns, but not its viewpoint: it is put back onto a picture, so that it is inspected as well.
+//! A depth frame becomes an organised cloud on the rays of its camera. For an organised cloud without a camera, the
+//! intrinsics are fitted to the points, because x/z of a pinhole camera is linear in the column; later stages use the
+//! camera to predict what it would see at a given place. A capture saved as bare points (PLY, XYZ) has lost its rows
+//! and columns but not its viewpoint: it is arranged into a picture again, so that it can be inspected in the same way.
 
 mod empty_cell;
 mod picture;
@@ -34,36 +34,36 @@ use crate::{
 /// The points of one capture, in camera space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneCloud {
-    /// The points, organised when they come from one frame.
+    /// The points, organised if they come from one frame.
     pub cloud: PointCloud,
-    /// The camera, if the cloud is organised and a pinhole camera explains it.
+    /// The camera, if the cloud is organised and a pinhole model fits it.
     pub intrinsics: Option<Intrinsics>,
-    /// What lies at the edge of an organised cloud.
+    /// Meaning of the edge of an organised cloud.
     pub edge: PictureEdge,
-    /// What the same camera saw without a part, if that was captured.
+    /// The capture of the empty cell by the same camera, if there is one.
     pub empty_cell: Option<Arc<EmptyCell>>,
-    /// The field of view that other frames of the same camera showed.
+    /// The field of view found in other frames of the same camera.
     pub known_view: Option<Arc<FieldOfView>>,
-    /// What it was reduced from, if the picture was finer than the method needs.
+    /// The original capture, if the picture was reduced.
     pub reduced: Option<Reduced>,
-    /// How the program failed to make it; it is empty then.
+    /// The program fault that prevented making the scene, which is then empty.
     pub fault: Option<Fault>,
-    /// Made when it is first asked for.
+    /// Computed on first use.
     #[doc(hidden)]
     pub field_of_view: OnceLock<FieldOfView>,
 }
 
-/// What a scene was reduced from.
+/// The original of a reduced scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reduced {
-    /// The capture, every reading of it.
+    /// The capture with all its readings.
     pub original: Arc<Image>,
-    /// Readings along the side of a block that became one, at least 2.
+    /// Side in readings of a block that became one reading, at least 2.
     pub block_side: usize,
 }
 
 impl SceneCloud {
-    /// A cloud whose picture, if it is organised, ends where the camera's view does.
+    /// Creates a scene; the edge of an organised cloud is taken as the end of the camera's view.
     pub fn new(cloud: PointCloud, intrinsics: Option<Intrinsics>) -> Self {
         Self {
             cloud,
@@ -72,8 +72,7 @@ impl SceneCloud {
         }
     }
 
-    /// Where in the picture the camera could deliver readings; `None` if the scene is no picture, or if it was put around
-    /// its points.
+    /// Returns the field of view; `None` if the scene is not organised, or if its picture was put around its points.
     pub fn field_of_view(&self) -> Option<&FieldOfView> {
         let grid = self.cloud.grid.filter(|_| self.edge == PictureEdge::View)?;
         Some(self.field_of_view.get_or_init(|| {
@@ -84,17 +83,17 @@ impl SceneCloud {
         }))
     }
 
-    /// Makes known what other frames of the same camera showed of its field of view.
+    /// Sets the field of view found in other frames of the same camera.
     pub fn set_known_view(&mut self, known: Option<Arc<FieldOfView>>) {
         self.known_view = known;
         self.field_of_view = OnceLock::new();
     }
 
-    /// The scene as in a mirror held beside the camera: x turned round, the picture's rows with it.
+    /// Returns the mirrored scene: x negated, and each row of an organised cloud reversed.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let turned = |p: &Point3<f32>| Point3::new(-p.x, p.y, p.z);
-        // Row by row into memory of the right size: growing it takes several times as long.
+        // Copy row by row into memory of the right size: growing it takes several times as long.
         let mut points = Vec::with_capacity(self.cloud.points.len());
         match self.cloud.grid {
             Some(Grid { width, .. }) => {
@@ -111,7 +110,7 @@ impl SceneCloud {
             ..PointCloud::default()
         };
         let intrinsics = self.intrinsics.map(Intrinsics::mirrored);
-        // The empty cell is only of use before the part is found.
+        // The empty cell is only used before the part is found.
         Self {
             edge: self.edge,
             ..Self::new(cloud, intrinsics)
@@ -119,21 +118,21 @@ impl SceneCloud {
     }
 }
 
-/// What the edge of a picture is.
+/// Meaning of the edge of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PictureEdge {
-    /// The camera's view ends there; the scene goes on.
+    /// The camera's view ends; the scene continues.
     #[default]
     View,
-    /// The points end there: the picture was put around them.
+    /// The points end: the picture was put around them.
     Points,
 }
 
-/// Points sampled of a mesh to align it.
+/// Number of points sampled from a mesh to align it.
 const MESH_POINTS: usize = 16_000;
 
-/// Every point of what a file holds; a mesh is sampled evenly, and gives `None` if it has no area.
+/// Returns all points of a file's content; a mesh is sampled evenly, `None` if it has no area.
 pub fn cloud_of(opened: FileContent) -> Option<PointCloud> {
     match opened {
         FileContent::Cloud(cloud) => Some(cloud),
@@ -142,7 +141,7 @@ pub fn cloud_of(opened: FileContent) -> Option<PointCloud> {
     }
 }
 
-/// The points of a depth frame; pixels without a reading become NaN. A picture finer than the method needs is reduced.
+/// Converts a depth frame to a scene; pixels without a reading become NaN. A picture finer than the method needs is reduced.
 pub fn scene_from_frame(frame: &DepthFrame) -> SceneCloud {
     match SceneParams::default().block_side(grid_of(&frame.intrinsics)) {
         1 => full_scene(frame),
@@ -157,7 +156,7 @@ fn grid_of(camera: &Intrinsics) -> Grid {
     }
 }
 
-/// As [`scene_from_frame`], with a point for every pixel.
+/// Like [`scene_from_frame`], but with a point for every pixel.
 pub fn full_scene(frame: &DepthFrame) -> SceneCloud {
     let scale = frame.metres_per_unit as f32;
     let metres = |units: &u16| match units {
@@ -192,8 +191,8 @@ fn scene_of_depths(
     SceneCloud::new(cloud, Some(camera))
 }
 
-/// A capture as a scene in which `side` × `side` readings are one. Bare points, which have no rows and columns, give an
-/// empty scene.
+/// Converts a capture to a scene in which each block of `side` × `side` readings becomes one. Unorganised points
+/// give an empty scene.
 ///
 /// # Panics
 /// If `side` is 0.
@@ -233,7 +232,7 @@ pub fn reduced_scene(original: Arc<Image>, side: usize) -> SceneCloud {
     }
 }
 
-/// What a source captured, as a scene; a picture finer than the method needs is reduced.
+/// Converts a capture to a scene; a picture finer than the method needs is reduced.
 pub fn scene_from_image(image: Image) -> SceneCloud {
     guarded(|| scene_with(image, &SceneParams::default())).unwrap_or_else(|fault| SceneCloud {
         fault: Some(fault),
@@ -241,7 +240,7 @@ pub fn scene_from_image(image: Image) -> SceneCloud {
     })
 }
 
-/// As [`scene_from_image`], by other parameters.
+/// Like [`scene_from_image`], with the given parameters; does not catch faults.
 pub fn scene_with(image: Image, params: &SceneParams) -> SceneCloud {
     let grid = match &image {
         Image::Depth(frame) => Some(grid_of(&frame.intrinsics)),
@@ -257,16 +256,16 @@ pub fn scene_with(image: Image, params: &SceneParams) -> SceneCloud {
     }
 }
 
-/// A loaded cloud as a scene in camera space.
+/// Converts a loaded cloud to a scene in camera space.
 ///
-/// An organised cloud keeps its grid, and the camera is fitted; one finer than the method needs is reduced. A cloud
-/// without rows and columns that one camera at the origin can have seen is put back onto a picture of its own density;
-/// any other stays as it is.
+/// An organised cloud keeps its grid and gets a fitted camera; one finer than the method needs is reduced. An
+/// unorganised cloud that a single camera at the origin can have seen is arranged into a picture of its own
+/// density; any other stays unchanged.
 pub fn scene_from_cloud(cloud: PointCloud) -> SceneCloud {
     scene_from_image(Image::Cloud(cloud))
 }
 
-/// An organised cloud as a scene.
+/// Converts an organised cloud to a scene.
 fn picture_of(cloud: PointCloud, grid: Grid) -> SceneCloud {
     let camera = fit_pinhole(&cloud.points, grid);
     SceneCloud::new(cloud, camera)
@@ -339,7 +338,7 @@ mod tests {
             let (u, v) = camera.pixel_of(&p.cast()).expect("in front");
             assert!((u - (i % 640) as f64).abs() < 1e-3 && (v - (i / 640) as f64).abs() < 1e-3);
         }
-        // In the mirror too.
+        // Also in the mirrored scene.
         let mirrored = scene.mirrored();
         let camera = mirrored.intrinsics.expect("a camera");
         for (i, p) in mirrored.cloud.finite().step_by(97) {
@@ -365,7 +364,7 @@ mod tests {
             assert_eq!(there[opposite], Point3::new(-p.x, p.y, p.z));
         }
         assert_eq!(bits(&mirrored.mirrored()), bits(&scene));
-        // Without rows the points keep their order.
+        // Unorganised points keep their order.
         let loose = PointCloud::from_points(before.iter().copied());
         let loose = SceneCloud::new(loose, None);
         let turned = loose.mirrored().cloud.points;
@@ -373,7 +372,7 @@ mod tests {
         assert_eq!(turned[0], Point3::new(-first.x, first.y, first.z));
     }
 
-    /// A tilted plane before a camera of 2560×1920 pixels with a lens.
+    /// A tilted plane in front of a camera of 2560×1920 pixels with lens distortion.
     fn fine_plane() -> (DepthFrame, crate::geometry::plane::Plane) {
         let intrinsics = Intrinsics {
             width: 2560,
@@ -460,7 +459,7 @@ mod tests {
     #[test]
     fn a_capture_exported_as_bare_points_becomes_a_picture_again() {
         let scene = scene_from_frame(&tilted_wall());
-        // Another order: nothing but the positions is left.
+        // In reverse order: only the positions are left.
         let points: Vec<_> = scene.cloud.points.iter().rev().copied().collect();
         let again = scene_from_cloud(PointCloud::from_points(points));
         let (camera, grid) = (

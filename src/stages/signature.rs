@@ -1,10 +1,9 @@
 //! Signature: the fan shape model, the lengths and angles of the rays from the centroid to the contour (eq. 8 to 10).
 //!
-//! The paper's signature is kept as written in [`LiteralSignature`]: one ray per contour pixel, the angle folded into
-//! one quadrant. The default departs from it: the outline is smoothed over the pixels' staircase and resampled at
-//! equal distances, so that a signature has the same length at any resolution, and the angle runs over the full
-//! circle. A shift of the part then leaves the signature as it was, and a turn adds a constant to the angles and
-//! shifts both lists cyclically.
+//! [`LiteralSignature`] is the paper's signature as written: one ray per contour pixel, the angle folded into one
+//! quadrant. The default differs: the outline is smoothed to remove the pixel staircase and resampled at equal distances,
+//! so that a signature has the same length at any resolution, and the angle covers the full circle. Translating the part
+//! then leaves the signature unchanged; rotating it adds a constant to the angles and shifts both lists cyclically.
 
 use nalgebra::{Point2, Vector2};
 
@@ -14,10 +13,10 @@ use crate::{error::Advice, geometry::polygon, stages::contour::Contour, units::M
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct SignatureParams {
-    /// Rays around the outline, a power of two, 64..2048. Raising it costs ranking time and resolves smaller detail.
+    /// Number of rays around the outline, a power of two, 64..2048. Raising it costs ranking time and resolves finer detail.
     pub num_rays: usize,
-    /// The outline is averaged over this length before resampling, 0..100 mm. Raising it forgives ragged edges and
-    /// rounds corners.
+    /// Length over which the outline is averaged before resampling, 0..100 mm. Raising it tolerates ragged edges
+    /// and rounds corners.
     pub smoothing: Metres,
 }
 
@@ -35,19 +34,19 @@ impl Default for SignatureParams {
 pub struct FanSignature {
     /// Mean of the outline's points (eq. 10), plane space, metres.
     pub centroid: Point2<f64>,
-    /// The points themselves relative to the centroid, metres; as complex numbers they are L·e^{iΘ}.
+    /// The points relative to the centroid, metres; as complex numbers they are L·e^{iΘ}.
     pub rays: Vec<Vector2<f64>>,
     /// Length of the smoothed outline.
     pub perimeter: Metres,
 }
 
 impl FanSignature {
-    /// Ray lengths L (eq. 8), metres.
+    /// Returns the ray lengths L (eq. 8), metres.
     pub fn lengths(&self) -> Vec<f64> {
         self.rays.iter().map(Vector2::norm).collect()
     }
 
-    /// Ray angles Θ from the first plane axis, radians, continuous from ray to ray over the full circle.
+    /// Returns the ray angles Θ from the first plane axis, radians, continuous from ray to ray.
     pub fn angles(&self) -> Vec<f64> {
         unwrapped(self.rays.iter().map(|r| r.y.atan2(r.x)))
     }
@@ -62,14 +61,14 @@ pub struct LiteralSignature {
     pub angles: Vec<f64>,
 }
 
-/// Why no signature could be made.
+/// Reason why no signature could be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum SignatureError {
     /// The outline has no length.
     #[error("the outline of {num_points} points has no length")]
     NoOutline {
-        /// Points of the outline.
+        /// Number of points of the outline.
         num_points: usize,
     },
 }
@@ -80,7 +79,7 @@ impl Advice for SignatureError {
     }
 }
 
-/// The fan signature of an outline.
+/// Computes the fan signature of an outline.
 pub fn describe(
     contour: &Contour,
     params: &SignatureParams,
@@ -90,7 +89,7 @@ pub fn describe(
     };
     let spacing = polygon::perimeter(&contour.outline) / contour.outline.len().max(1) as f64;
     let reach = (params.smoothing.0 / spacing.max(f64::MIN_POSITIVE) / 2.0).round() as usize;
-    // A small outline keeps its shape: never average over more than a sixteenth of it on either side.
+    // Preserve the shape of a small outline: never average over more than 1/32 of it on either side.
     let reach = reach.min(contour.outline.len() / 32);
     let smooth = polygon::smooth(&contour.outline, reach);
     let samples = polygon::resample_evenly(&smooth, params.num_rays).ok_or(no_outline)?;
@@ -103,7 +102,7 @@ pub fn describe(
     })
 }
 
-/// Adds whole turns so that neighbours differ by less than half a turn.
+/// Adds full turns so that neighbours differ by at most half a turn.
 fn unwrapped(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut previous: Option<f64> = None;
     angles
@@ -122,7 +121,7 @@ fn unwrapped(angles: impl Iterator<Item = f64>) -> Vec<f64> {
 }
 
 impl LiteralSignature {
-    /// Of an outline's pixels (column, row) in the order followed.
+    /// Computes the signature from an outline's pixels (column, row) in the order followed.
     pub fn of(pixels: &[[u32; 2]]) -> Self {
         let n = pixels.len().max(1) as f64;
         // Eq. (10)
@@ -155,7 +154,7 @@ mod tests {
         },
     };
 
-    /// An L-shaped part drawn at any turn, shift and resolution.
+    /// An L-shaped part drawn with any rotation, translation and resolution.
     fn drawn(turn: f64, shift: [f64; 2], pixel: f64) -> FanSignature {
         let side = (1.6 / pixel) as usize;
         let mut image = BinaryImage::new(side, side);
@@ -178,7 +177,7 @@ mod tests {
         describe(&contour, &SignatureParams::default()).expect("an outline")
     }
 
-    /// The largest difference of ray lengths at the best cyclic shift.
+    /// Returns the largest difference of ray lengths at the best cyclic shift.
     fn length_difference(a: &FanSignature, b: &FanSignature) -> f64 {
         let (a, b) = (a.lengths(), b.lengths());
         let n = a.len();

@@ -1,10 +1,10 @@
-//! Stand-off: how far the spray nozzle would be from the part, and how square on, if its path ran as it was taught.
+//! Stand-off: distance and angle between nozzle and part if the spray path ran as taught.
 //!
-//! The paper keeps the directed distance d = ‖pₑ - pᵢ‖ (eq. 14) between the nozzle pₑ and the surface point pᵢ before
-//! it within 10 to 20 cm, with the surface's normal pointing at the nozzle. It names no path. Ours is the one that
-//! belongs to the enrolled part: taught over its *standard position*, with the nozzle at the distance d₀ before every
-//! surface point sᵢ, on the normal nᵢ. The part now hangs at the pose T = `camera_from_part` = (R, t) instead. Carried
-//! into part space, the nozzle and the way it points are
+//! The paper keeps the directed distance d = ‖pₑ - pᵢ‖ (eq. 14) between the nozzle pₑ and the surface point pᵢ in front
+//! of it within 10 to 20 cm, with the surface normal pointing at the nozzle. It does not define a path. Ours belongs to
+//! the enrolled part: taught over its *standard position*, with the nozzle at the distance d₀ from every surface point
+//! sᵢ, on the normal nᵢ. The part now hangs at the pose T = `camera_from_part` = (R, t) instead. In part space, the
+//! nozzle position and direction are
 //!
 //! ```text
 //! eᵢ = T⁻¹ (sᵢ + d₀ nᵢ)        aᵢ = -R⁻¹ nᵢ
@@ -12,14 +12,14 @@
 //! φᵢ = the angle between -aᵢ and the normal at pᵢ
 //! ```
 //!
-//! so that at the standard position dᵢ = d₀ and φᵢ = 0 everywhere, and a part that came 30 mm nearer has every dᵢ
-//! 30 mm shorter. A dᵢ below 0 means that the nozzle would stand in or behind the part. Rays are taught over what the
-//! camera sees of the part. A ray that meets nothing sprays past the part, and counts as outside the band.
+//! so that at the standard position dᵢ = d₀ and φᵢ = 0 everywhere, and a part that is 30 mm nearer has every dᵢ 30 mm
+//! shorter. dᵢ < 0 means that the nozzle would be inside or behind the part. Rays are taught only over surfaces that
+//! the camera sees. A ray that misses the part sprays past it, and counts as outside the band.
 //!
 //! Source: the paper's section V-B, eq. 14 and Fig. 7(d).
 //!
-//! Known limits: the surface is the reference cloud's, locally flat between its points; a surface that lies further
-//! than 0.4 m from where it was taught is not looked for; flatter than 80° to the ray counts as not met.
+//! Known limits: the surface is the reference cloud's, locally flat between its points; it is searched for only within
+//! 0.4 m of where it was taught; a surface at more than 80° to the ray counts as missed.
 
 pub(crate) mod ray;
 
@@ -42,12 +42,12 @@ pub struct StandOffParams {
     pub nearest: Metres,
     /// Farthest distance that still coats well, 160..1000 mm.
     pub farthest: Metres,
-    /// Rays of the taught path, 10..10 000. Raising it costs about 2 µs each and finds a smaller worst spot.
+    /// Number of rays of the taught path, 10..10 000. Each costs about 2 µs; more rays find smaller worst spots.
     pub num_rays: usize,
 }
 
 impl Default for StandOffParams {
-    /// The paper's band, and its middle.
+    /// The paper's band, taught at its middle.
     fn default() -> Self {
         Self {
             taught: Metres(0.15),
@@ -58,16 +58,16 @@ impl Default for StandOffParams {
     }
 }
 
-/// A taught nozzle before the part as it hangs now; camera space.
+/// A taught nozzle position relative to the part as it hangs now; camera space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NozzleRay {
-    /// The nozzle pₑ, metres.
+    /// Nozzle tip pₑ, metres.
     pub mouth: Point3<f64>,
-    /// The way it points, unit length.
+    /// Direction of the nozzle, unit length.
     pub direction: Vector3<f64>,
-    /// Where its ray meets the part, pᵢ.
+    /// Point pᵢ at which the ray meets the part.
     pub surface: Point3<f64>,
-    /// dᵢ; below 0 with the nozzle in or behind the part.
+    /// dᵢ; below 0 if the nozzle is inside or behind the part.
     pub distance: Metres,
     /// φᵢ, 0..80°.
     pub angle: Radians,
@@ -76,17 +76,17 @@ pub struct NozzleRay {
 /// The stand-off over a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StandOff {
-    /// Every ray that meets the part.
+    /// All rays that meet the part.
     pub rays: Vec<NozzleRay>,
-    /// Rays taught, met or not.
+    /// Number of taught rays, including those that miss.
     pub num_taught: usize,
     /// Mean of dᵢ.
     pub mean: Metres,
-    /// The ray whose dᵢ is furthest from d₀.
+    /// The ray whose dᵢ differs most from d₀.
     pub worst: NozzleRay,
-    /// The ray that was taught nearest to the middle of the part.
+    /// The ray taught nearest to the middle of the part.
     pub middle: NozzleRay,
-    /// Share of the rays taught with dᵢ inside the band, 0..1.
+    /// Share of the taught rays with dᵢ inside the band, 0..1.
     pub in_band: f64,
     /// Mean of φᵢ.
     pub mean_angle: Radians,
@@ -94,34 +94,34 @@ pub struct StandOff {
     pub worst_angle: Radians,
 }
 
-/// With less than this share inside the band a coat is not even: the twentieth part is what meets rims and openings.
+/// Minimum share inside the band for an even coat; the other 5 % allow for rims and openings.
 const LEAST_IN_BAND: f64 = 0.95;
 
 impl StandOff {
-    /// True when the path can run as it was taught.
+    /// Returns true if the path can run as taught.
     pub fn keeps_the_band(&self) -> bool {
         self.in_band >= LEAST_IN_BAND
     }
 }
 
-/// Why there is no stand-off.
+/// Reason why there is no stand-off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StandOffError {
-    /// A flat shape, or a cloud without normals.
+    /// The reference is a flat shape, or a cloud without normals.
     #[error("the enrolled part has no surface with normals")]
     NoSurface,
     /// The part is nowhere near where the path was taught.
     #[error("none of {num_taught} taught nozzle positions points at the part")]
     NoneMeets {
-        /// Rays taught.
+        /// Number of rays taught.
         num_taught: usize,
     },
 }
 
-/// A camera sees a surface well above this cosine; flatter ones are not painted from its side.
+/// Minimum cosine between normal and line of sight: flatter surfaces are not painted from the camera's side.
 const LEAST_SEEN: f64 = 0.3;
 
-/// The stand-off of the path taught over `reference`, with the part at `camera_from_part`.
+/// Computes the stand-off of the path taught over `reference`, with the part at `camera_from_part`.
 pub fn stand_off(
     reference: &Reference,
     camera_from_part: &RigidTransform,
@@ -150,7 +150,7 @@ pub fn stand_off(
     let part_from_camera: Isometry3<f32> = camera_from_part.inverse().cast();
     let met: Vec<(f32, NozzleRay)> = taught
         .filter_map(|(s, n)| {
-            // Micrometres are left of a metre in f32, far below what a nozzle notices.
+            // At a metre f32 resolves micrometres, far finer than needed.
             let d0 = params.taught.0 as f32;
             let ray = Ray {
                 mouth: part_from_camera * (*s + *n * d0),
@@ -173,7 +173,7 @@ pub fn stand_off(
     summary(&met, num_taught, params).ok_or(StandOffError::NoneMeets { num_taught })
 }
 
-/// `None` without a ray; each comes with how far from the part's middle it was taught.
+/// `None` without a ray. Each ray comes with the squared distance of its taught point from the part's middle.
 fn summary(
     met: &[(f32, NozzleRay)],
     num_taught: usize,
@@ -213,7 +213,7 @@ mod tests {
         stand_off(&plate(), pose, &StandOffParams::default()).expect("a stand-off")
     }
 
-    /// About the vertical through the plate's middle.
+    /// Rotation about the vertical axis through the plate's middle.
     fn turned(angle: f64) -> RigidTransform {
         let middle = Translation3::new(0.0, 0.0, 1.2);
         middle * UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle) * middle.inverse()
@@ -227,7 +227,7 @@ mod tests {
         assert!((found.worst.distance.mm() - 150.0).abs() < 0.01);
         assert!(found.worst_angle.degrees() < 0.1);
         assert!(found.keeps_the_band() && (found.in_band - 1.0).abs() < 1e-12);
-        // The middle ray stands before the plate's middle.
+        // The middle ray is in front of the plate's middle.
         assert!(found.middle.surface.coords.xy().norm() < 0.03);
         assert!((found.middle.mouth.z - 1.05).abs() < 1e-4);
     }
@@ -238,7 +238,7 @@ mod tests {
             let found = at(&RigidTransform::translation(0.0, 0.0, z));
             assert!((found.mean.mm() - expected).abs() < 0.05, "{}", found.mean);
             assert!((found.worst.distance.mm() - expected).abs() < 0.05);
-            // Camera space: the nozzle stays, the surface moved.
+            // In camera space the nozzle stays and the surface moves.
             assert!((found.worst.mouth.z - 1.05).abs() < 1e-4);
             assert!((found.worst.surface.z - 1.2 - z).abs() < 1e-4);
         }
@@ -270,7 +270,7 @@ mod tests {
         assert!((found.mean_angle.degrees() - 6.0).abs() < 0.05);
         assert!((found.worst_angle.degrees() - 6.0).abs() < 0.05);
         for ray in &found.rays {
-            // The turned plane through the middle, at the nozzle's x.
+            // Distance to the turned plane through the middle, at the nozzle's x.
             let expected = 0.15 - ray.mouth.x * angle.tan();
             assert!((ray.distance.0 - expected).abs() < 2e-4);
         }
@@ -280,7 +280,7 @@ mod tests {
 
     #[test]
     fn a_ray_past_the_part_is_outside_the_band() {
-        // A quarter of the plate's width to the side: as many rays meet nothing.
+        // Shifted by a quarter of the plate's width: a quarter of the rays miss.
         let found = at(&RigidTransform::translation(0.2, 0.0, 0.0));
         let met = found.rays.len() as f64 / found.num_taught as f64;
         assert!((met - 0.75).abs() < 0.03, "{met}");

@@ -1,17 +1,17 @@
-//! Fast point feature histograms: how the normals around a keypoint lie to each other.
+//! Fast point feature histograms: relative orientations of the normals around a keypoint.
 //!
 //! R. B. Rusu, N. Blodow and M. Beetz, "Fast Point Feature Histograms (FPFH) for 3D registration", ICRA 2009. Each
-//! point p gets a *simplified* histogram SPFH(p) of the three angles between it and each neighbour, 11 bins an angle;
+//! point p gets a *simplified* histogram SPFH(p) of the three angles between it and each neighbour, 11 bins per angle;
 //! the keypoint's row is its own plus the mean of its neighbours', each divided by its distance ω:
 //! `FPFH(p) = SPFH(p) + 1/k Σ SPFH(p_k)/ω_k`.
 //!
-//! The square roots of the shares are kept, so that Euclid's distance of two rows compares the histograms as
-//! Hellinger's does (R. Arandjelović and A. Zisserman, "Three things everyone should know to improve object
-//! retrieval", CVPR 2012); it named more parts rightly.
+//! The square roots of the shares are stored, so that the Euclidean distance of two rows is the Hellinger distance of
+//! the histograms (R. Arandjelović and A. Zisserman, "Three things everyone should know to improve object retrieval",
+//! CVPR 2012); this recognised more parts.
 //!
-//! Our choices where the paper leaves room: ω is in radii, so that the row does not depend on the unit of length; each
-//! angle's 11 bins sum to one; of a pair, that point is the source whose normal looks more along the line to the other,
-//! so a pair has the same angles seen from both ends and is worked out once.
+//! Our choices where the paper leaves room: ω is in radii, so that the row does not depend on the unit of length; the
+//! 11 bins of each angle sum to one; the source of a pair is the point whose normal is more aligned with the line to
+//! the other, so a pair has the same angles from both ends and is evaluated once.
 
 use super::{
     Descriptors,
@@ -22,16 +22,15 @@ use crate::units::Metres;
 
 /// Bins per angle.
 const NUM_BINS: usize = 11;
-/// Numbers in a row.
+/// Numbers per row.
 const WIDTH: usize = 3 * NUM_BINS;
-/// A neighbourhood of fewer points is no surface.
+/// Minimum number of neighbours for a description.
 const MIN_NEIGHBOURS: u32 = 5;
 
 /// Parameters of [`describe_fpfh`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FpfhParams {
-    /// Neighbours are within this distance, 30..200 mm; what is described reaches twice as far. Time grows with its
-    /// square.
+    /// Radius of the neighbourhood, 30..200 mm; the description covers twice that. Time grows with its square.
     pub radius: Metres,
 }
 
@@ -43,14 +42,14 @@ impl Default for FpfhParams {
     }
 }
 
-/// The pairs counted around one point.
+/// The pair histogram of one point.
 #[derive(Clone, Copy)]
 struct Simplified {
     counts: [u32; WIDTH],
     num_pairs: u32,
 }
 
-/// A row for each of these points (indices into the surface, ascending).
+/// Computes the rows of the given points (indices into the surface, ascending); a point with too few neighbours gets none.
 pub fn describe_fpfh(
     surface: &DescribedSurface,
     keypoints: &[u32],
@@ -71,7 +70,7 @@ pub fn describe_fpfh(
     described
 }
 
-/// SPFH of every point; each pair is counted at both its ends.
+/// Computes SPFH of every point; each pair is counted at both ends.
 fn simplified_histograms(surface: &DescribedSurface, radius: f32) -> Vec<Simplified> {
     let empty = Simplified {
         counts: [0; WIDTH],
@@ -97,7 +96,7 @@ fn simplified_histograms(surface: &DescribedSurface, radius: f32) -> Vec<Simplif
     all
 }
 
-/// The bins that a pair falls into, the same for (i, j) and (j, i).
+/// Returns the bins of a pair, the same for (i, j) and (j, i).
 fn pair_bins(surface: &DescribedSurface, i: usize, j: usize) -> Option<[usize; 3]> {
     let end = |i: usize| (&surface.points[i], &surface.normals[i]);
     let line = surface.points[j] - surface.points[i];
@@ -160,7 +159,7 @@ mod tests {
         tests::{bent_surface, moved, plane, sphere, surface_of, test_motion},
     };
 
-    /// The formulas word for word, pair by pair.
+    /// The formulas as written, pair by pair.
     fn slow_row(surface: &DescribedSurface, keypoint: usize, radius: f64) -> Vec<f64> {
         let n = surface.points.len();
         let point = |i: usize| surface.points[i].cast::<f64>();
@@ -231,7 +230,7 @@ mod tests {
                 .zip(slow)
                 .map(|(a, b)| (f64::from(*a) - b).abs())
                 .sum();
-            // A few pairs lie on the border of two bins and fall to either side by rounding.
+            // A few pairs lie on the border of two bins and fall on either side due to rounding.
             assert!(apart < 0.02, "{apart} at {keypoint}");
         }
     }

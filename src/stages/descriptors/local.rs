@@ -1,4 +1,4 @@
-//! A part described by one of the three local descriptors: its surface, its keypoints, a row for each.
+//! Describes a part by one of the three local descriptors: its surface, its keypoints, and a row for each.
 
 use nalgebra::Point3;
 
@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{geometry::cloud::PointCloud, units::Metres};
 
-/// Which local descriptor, with its parameters.
+/// A local descriptor with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LocalDescriptor {
     /// Fast point feature histograms.
@@ -25,23 +25,22 @@ pub enum LocalDescriptor {
 /// Parameters of [`describe_scene`] and [`describe_reference`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalParams {
-    /// Which descriptor.
+    /// The descriptor.
     pub descriptor: LocalDescriptor,
-    /// The surface; the same for scenes and references.
+    /// Parameters of the surface; must be the same for scenes and references.
     pub surface: SurfaceParams,
-    /// Distance between a scene's keypoints, 40..200 mm. Halving it makes four times as many rows, to describe and to
-    /// match.
+    /// Distance between a scene's keypoints, 40..200 mm. Halving it quadruples the number of rows to describe and to match.
     pub scene_spacing: Metres,
-    /// Distance between a reference's keypoints, 30..200 mm: closer, so that one lies near each of the scene's. Halving
-    /// it makes four times as many rows to match.
+    /// Distance between a reference's keypoints, 30..200 mm: shorter, so that one lies near each of the scene's.
+    /// Halving it quadruples the number of rows to match.
     pub reference_spacing: Metres,
 }
 
 impl LocalParams {
-    /// Fast point feature histograms.
+    /// Returns the parameters for fast point feature histograms.
     pub fn fpfh() -> Self {
         Self {
-            // The angles between neighbours' normals blur sooner than what the others count.
+            // Denser, because the angles between normals blur sooner than the quantities of the other descriptors.
             surface: SurfaceParams {
                 spacing: Metres::from_mm(16.0),
                 normal_radius: Metres::from_mm(48.0),
@@ -50,12 +49,12 @@ impl LocalParams {
         }
     }
 
-    /// Signatures of histograms of orientations.
+    /// Returns the parameters for signatures of histograms of orientations.
     pub fn shot() -> Self {
         Self::of(LocalDescriptor::Shot(ShotParams::default()))
     }
 
-    /// Spin images.
+    /// Returns the parameters for spin images.
     pub fn spin_images() -> Self {
         Self::of(LocalDescriptor::SpinImages(SpinImageParams::default()))
     }
@@ -70,12 +69,12 @@ impl LocalParams {
     }
 }
 
-/// A part's rows, and what they were taken from.
+/// The rows of a part.
 #[derive(Clone, Debug)]
 pub struct LocalDescription {
-    /// Points of the thinned surface.
+    /// Number of points of the thinned surface.
     pub num_points: usize,
-    /// The rows.
+    /// One row per described keypoint.
     pub rows: Descriptors,
 }
 
@@ -87,7 +86,7 @@ pub fn describe_scene(
     describe_locally(cloud, params.scene_spacing, params)
 }
 
-/// Describes a reference's cloud; without normals of its own, a camera at the origin saw it.
+/// Describes a reference's cloud; if it has no normals, it is taken as seen by a camera at the origin.
 pub fn describe_reference(
     cloud: &PointCloud,
     params: &LocalParams,

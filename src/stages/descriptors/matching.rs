@@ -1,19 +1,17 @@
-//! Matching by local descriptors: which reference holds, for each row of the scene, the nearest row?
+//! Matching by local descriptors: for each row of the scene, the reference with the nearest row.
 //!
-//! Every row of the scene gives each reference a penalty: the distance to its nearest row there, in units of the
-//! distance to the nearest row of any reference, no more than [`WORST_RATIO`]; a reference's distance is the mean
-//! penalty. It is the ratio test of D. G. Lowe, "Distinctive image features from scale-invariant keypoints",
-//! International Journal of Computer Vision 60(2), 2004, without its threshold. What all references hold, such as the
-//! middle of a panel, decides little; what none holds, such as half a hole at the edge of what is seen, cannot decide
-//! alone.
+//! Every row of the scene gives each reference a penalty: the distance to the reference's nearest row, divided by the
+//! distance to the nearest row of any reference and limited to [`WORST_RATIO`]. A reference's distance is its mean penalty.
+//! This is the ratio test of D. G. Lowe, "Distinctive image features from scale-invariant keypoints", International Journal
+//! of Computer Vision 60(2), 2004, without its threshold. Features common to all references, such as the middle of a panel,
+//! have little influence; features found in none, such as half a hole at the edge of the visible area, cannot decide alone.
 //!
-//! Chosen on 160 frames with the part turned up to 45°: with SHOT it named 158 of them rightly, the mean distance 152,
+//! Chosen on 160 frames with the part turned by up to 45°: with SHOT it recognised 158 of them, the mean distance 152,
 //! the mean both ways 151, counting rows that pass a ratio test within a reference 151, and one vote per row 159; with
 //! FPFH 148, 142, 148, 118 and 145.
 //!
-//! All distances come out of one matrix product, |a - b|² = |a|² + |b|² - 2 a·b. An exact search in a k-d tree per
-//! reference was slower: 1.1 times for rows of 33 numbers, where it looked at 24 % of them, 2.9 for 352 (63 %), and 4.3
-//! for 225 (95 %).
+//! All distances come from one matrix product, |a - b|² = |a|² + |b|² - 2 a·b. An exact search in a k-d tree per reference
+//! was slower: 1.1 times for rows of 33 numbers, where it visited 24 % of them, 2.9 for 352 (63 %), and 4.3 for 225 (95 %).
 
 use std::ops::Range;
 
@@ -21,35 +19,35 @@ use nalgebra::{DMatrix, DMatrixView};
 
 use super::Descriptors;
 
-/// The rows of all references, ready to be compared with.
+/// The rows of all references, prepared for comparison.
 #[derive(Clone, Debug)]
 pub struct DescriptorBank {
-    /// Reference after reference.
+    /// Rows of all references, one reference after the other.
     rows: DMatrix<f32>,
     /// Squared length of each row.
     lengths_sq: Vec<f32>,
-    /// The rows of each reference.
+    /// Range of rows of each reference.
     ranges: Vec<Range<usize>>,
 }
 
-/// How near a reference is to the scene.
+/// Distance of a reference from the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DescriptorDistance {
     /// Index of the reference.
     pub reference: usize,
-    /// Mean penalty, 1 for a reference that every row of the scene is nearest to, to [`WORST_RATIO`].
+    /// Mean penalty: 1 if the reference is the nearest for every row of the scene, at most [`WORST_RATIO`].
     pub distance: f32,
 }
 
-/// A reference that much further off than the nearest is out of the question for a row; more says nothing more.
-/// Between 1.15 and 1.5 nearly the same parts were named.
+/// Largest ratio of a reference's distance to the nearest reference's; beyond it a row rules the reference out,
+/// whatever the ratio. Values between 1.15 and 1.5 gave nearly the same results.
 pub const WORST_RATIO: f32 = 1.3;
 
-/// Rows of the scene that are compared at a time: their distances to all references then stay in the cache.
+/// Number of scene rows compared at a time, so that their distances to all references stay in the cache.
 const BLOCK: usize = 64;
 
 impl DescriptorBank {
-    /// Stacks the rows of all references, which are of one descriptor.
+    /// Stacks the rows of all references, which must use the same descriptor.
     pub fn new(references: &[Descriptors]) -> Self {
         let width = references.first().map_or(0, |r| r.width);
         assert!(
@@ -75,18 +73,18 @@ impl DescriptorBank {
         }
     }
 
-    /// The number of rows of all references together.
+    /// Returns the total number of rows.
     pub fn len(&self) -> usize {
         self.lengths_sq.len()
     }
 
-    /// True when no reference has a row.
+    /// Returns true if no reference has a row.
     pub fn is_empty(&self) -> bool {
         self.lengths_sq.is_empty()
     }
 }
 
-/// All references, nearest first; none for a scene or a bank without rows.
+/// Ranks all references, nearest first; empty for a scene or a bank without rows.
 pub fn rank_by_rows(scene: &Descriptors, bank: &DescriptorBank) -> Vec<DescriptorDistance> {
     if scene.is_empty() || bank.is_empty() {
         return Vec::new();
@@ -95,7 +93,7 @@ pub fn rank_by_rows(scene: &Descriptors, bank: &DescriptorBank) -> Vec<Descripto
     for_each_row(scene, bank, |nearest| {
         let best = nearest.iter().copied().fold(f32::INFINITY, f32::min);
         for (penalty, distance) in penalties.iter_mut().zip(nearest) {
-            // A row that is there exactly leaves 0/0 for those that have it.
+            // An exact match would give 0/0.
             *penalty += if *distance <= best {
                 1.0
             } else {
@@ -113,8 +111,8 @@ pub fn rank_by_rows(scene: &Descriptors, bank: &DescriptorBank) -> Vec<Descripto
     ranked
 }
 
-/// Calls `visit` for each row of the scene with its distance to the nearest row of every reference, infinite where a
-/// reference has none.
+/// Calls `visit` for each row of the scene with its distance to the nearest row of every reference; infinite for a
+/// reference without rows.
 fn for_each_row(scene: &Descriptors, bank: &DescriptorBank, mut visit: impl FnMut(&[f32])) {
     let width = bank.rows.ncols();
     assert_eq!(
@@ -137,7 +135,7 @@ fn for_each_row(scene: &Descriptors, bank: &DescriptorBank, mut visit: impl FnMu
                     .zip(&products[range.clone()])
                     .map(|(length_sq, product)| length_sq - 2.0 * product)
                     .fold(f32::INFINITY, f32::min);
-                // Rounding can bring the square of a distance of zero below zero.
+                // Rounding can make the square of a zero distance negative.
                 *nearest = (own + least).max(0.0).sqrt();
             }
             visit(&nearest);
@@ -204,7 +202,7 @@ mod tests {
 
     #[test]
     fn rows_judge_by_ratio_and_none_more_than_by_the_worst() {
-        // Distances of the two rows of the scene: 1 and 1.1, then 1 and 100.
+        // Distances of the scene's two rows: 1 and 1.1, then 100 and 1.
         let scene = rows_of(1, &[0.0, 1000.0]);
         let references = [rows_of(1, &[1.0, 1100.0]), rows_of(1, &[-1.1, 1001.0])];
         let ranked = rank_by_rows(&scene, &DescriptorBank::new(&references));

@@ -1,8 +1,8 @@
-//! Recognition by 3-D descriptors: the major systems that a car part recogniser is compared with, on our own frames.
+//! Recognition by 3-D descriptors: established methods, for comparison on our own frames.
 //!
 //! A segmented part is thinned and given normals (`surface`), described, and matched against the described references
-//! (`matching`). Three descriptors are local: one row of numbers per keypoint, from the surface within a radius of it.
-//! One is global: a single row for all that a camera sees.
+//! (`matching`). Three descriptors are local: one row of numbers per keypoint, computed from the surface within a
+//! radius. One is global: a single row for everything that a camera sees.
 //!
 //! | descriptor | numbers | what is counted |
 //! | --- | --- | --- |
@@ -11,7 +11,7 @@
 //! | `spin_image` | 225 | points by their distance from the normal's line and from the tangent plane |
 //! | `vfh` | 308 | angles between all normals, the mean normal and the viewing direction |
 //!
-//! All four are unchanged when camera and part are moved together, and all need normals that look at the camera.
+//! All four are invariant to moving camera and part together, and all need normals that point to the camera.
 
 pub mod fpfh;
 pub mod local;
@@ -25,27 +25,26 @@ pub mod vfh;
 /// One row of numbers per described keypoint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Descriptors {
-    /// Numbers in a row.
+    /// Numbers per row.
     pub width: usize,
     /// The rows one after the other; `width` times the number of keypoints, all finite.
     pub values: Vec<f32>,
-    /// Index of each row's keypoint among the surface's points, ascending. A keypoint too lonely to be described is
-    /// left out.
+    /// Index of each row's keypoint among the surface's points, ascending. Keypoints with too few neighbours are left out.
     pub keypoints: Vec<u32>,
 }
 
 impl Descriptors {
-    /// The rows.
+    /// Iterates over the rows.
     pub fn rows(&self) -> impl Iterator<Item = &[f32]> {
         self.values.chunks_exact(self.width.max(1))
     }
 
-    /// The number of rows.
+    /// Returns the number of rows.
     pub fn len(&self) -> usize {
         self.keypoints.len()
     }
 
-    /// True without a row.
+    /// Returns true if there are no rows.
     pub fn is_empty(&self) -> bool {
         self.keypoints.is_empty()
     }

@@ -1,13 +1,13 @@
-//! Two oriented points as three angles: the pair feature below FPFH and VFH.
+//! The pair feature of FPFH and VFH: two oriented points as three angles.
 //!
-//! R. B. Rusu, N. Blodow and M. Beetz, "Fast Point Feature Histograms (FPFH) for 3D registration", ICRA 2009: at the
-//! source point s a frame u, v, w is put up on its normal and the line to the target t, and t's normal is read in it.
+//! R. B. Rusu, N. Blodow and M. Beetz, "Fast Point Feature Histograms (FPFH) for 3D registration", ICRA 2009: the
+//! normal and the line to the target t define a frame u, v, w at the source point s, in which t's normal is expressed.
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Point3, Vector3};
 
-/// How the normal at the target lies to that at the source.
+/// Orientation of the normal at the target relative to that at the source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PairAngles {
     /// `α = v·n_t`, -1..1.
@@ -18,8 +18,8 @@ pub(super) struct PairAngles {
     pub(super) theta: f32,
 }
 
-/// The angles with the source `u = n_s`, v = d × u (unit), w = u × v; `None` where the two points are one, or the
-/// normal runs along the line d between them, so that there is no frame.
+/// Computes the angles with the source `u = n_s`, v = d × u (unit), w = u × v; `None` if the points coincide or the
+/// normal is parallel to the line d between them, so that there is no frame.
 #[inline]
 pub(super) fn pair_angles(
     source: (&Point3<f32>, &Vector3<f32>),
@@ -34,7 +34,7 @@ pub(super) fn pair_angles(
     let (u, n) = (source.1, target.1);
     let across = d.cross(u);
     let width = across.norm();
-    // Where d and u differ by less than a thousandth of a radian, rounding decides where v points.
+    // If the angle between d and u is less than a milliradian, rounding determines the direction of v.
     if !(width > 1e-3) {
         return None;
     }
@@ -47,7 +47,7 @@ pub(super) fn pair_angles(
     })
 }
 
-/// `y.atan2(x)` to within 2e-5: half the time of a pair went into the exact one, and its angle only falls into a bin.
+/// Approximates `y.atan2(x)` to within 2e-5: the exact function took half the time of a pair, and the angle is only binned.
 ///
 /// M. Abramowitz and I. A. Stegun, "Handbook of Mathematical Functions", 1964, 4.4.47, for the arc tangent up to one.
 #[inline]
@@ -74,11 +74,11 @@ fn angle_of(y: f32, x: f32) -> f32 {
     up_to_half.copysign(y)
 }
 
-/// The bin of `value` among `num` equal ones over `-limit..limit`; what lies outside belongs to the outermost.
+/// Returns the bin of `value` among `num` equal ones over `-limit..limit`; values outside go to the outermost bins.
 #[inline]
 pub(super) fn bin(value: f32, limit: f32, num: usize) -> usize {
     let position = (value / limit + 1.0) * 0.5 * num as f32;
-    // Casting cuts off below zero and takes NaN for zero.
+    // The cast clamps negative values and NaN to zero.
     (position as usize).min(num - 1)
 }
 

@@ -1,17 +1,16 @@
-//! Signatures of histograms of orientations: the normals around a keypoint, sector by sector of a sphere.
+//! Signatures of histograms of orientations: the normals around a keypoint, by sector of a sphere.
 //!
 //! F. Tombari, S. Salti and L. Di Stefano, "Unique signatures of histograms for local surface description", ECCV 2010;
 //! S. Salti, F. Tombari and L. Di Stefano, "SHOT: Unique signatures of histograms for surface and texture description",
-//! Computer Vision and Image Understanding 125, 2014. The keypoint gets a repeatable frame of its own: the principal
-//! axes of its neighbours about itself, weighted by R - d, with signs such that most neighbours lie on the positive
-//! side. The sphere is cut into 8 azimuths × 2 elevations × 2 shells, each a histogram of 11 bins of the cosine between
-//! a neighbour's normal and the z axis. A neighbour is shared between the adjacent bins of all four (quadrilinear), and
-//! the row has length one.
+//! Computer Vision and Image Understanding 125, 2014. The keypoint gets a repeatable frame: the principal axes of its
+//! neighbours relative to the keypoint, weighted by R - d, with signs such that most neighbours lie on the positive
+//! side. The sphere is divided into 8 azimuths × 2 elevations × 2 shells, each with a histogram of 11 bins of the
+//! cosine between a neighbour's normal and the z axis. A neighbour is distributed over the adjacent bins of all four
+//! (quadrilinear), and the row has length one.
 //!
-//! Our departures: a neighbour beyond the middle of the outermost shell, elevation or cosine counts for that one
-//! wholly instead of being dropped in part. Turning z to the side that the camera saw, instead of to where most
-//! neighbours are, made no difference at our radius; at 120 mm, where noise decides on a smooth sheet, it was right
-//! 45 times instead of 42 of 48.
+//! Our deviations: a neighbour beyond the middle of the outermost shell, elevation or cosine bin counts fully for that bin
+//! instead of being dropped in part. Turning z to the side that the camera saw, instead of to where most neighbours are, made
+//! no difference at our radius; at 120 mm, where noise decides on a smooth sheet, it was right 45 times instead of 42 of 48.
 
 use std::f32::consts::PI;
 
@@ -28,16 +27,16 @@ const NUM_ELEVATIONS: usize = 2;
 const NUM_SHELLS: usize = 2;
 /// Bins of the cosine.
 const NUM_COSINES: usize = 11;
-/// Numbers in a row.
+/// Numbers per row.
 const WIDTH: usize = NUM_AZIMUTHS * NUM_ELEVATIONS * NUM_SHELLS * NUM_COSINES;
-/// With fewer neighbours the axes are chance.
+/// Minimum number of neighbours; with fewer the axes are random.
 const MIN_NEIGHBOURS: usize = 5;
 
 /// Parameters of [`describe_shot`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShotParams {
-    /// Neighbours are within this distance, 30..300 mm. Time grows with its square; a larger one is told apart more
-    /// easily and suffers more from what is hidden.
+    /// Radius of the neighbourhood, 30..300 mm. Time grows with its square; a larger radius is more distinctive and
+    /// more sensitive to occlusion.
     pub radius: Metres,
 }
 
@@ -49,17 +48,17 @@ impl Default for ShotParams {
     }
 }
 
-/// A neighbour of the keypoint that is being described.
+/// A neighbour of the keypoint being described.
 #[derive(Clone, Copy)]
 struct NeighbourInFrame {
-    /// From the keypoint to it.
+    /// Vector from the keypoint, metres.
     offset: Vector3<f32>,
-    /// Length of the offset, above zero.
+    /// Length of `offset`, above zero.
     distance: f32,
     normal: Vector3<f32>,
 }
 
-/// A row for each of these points (indices into the surface, ascending).
+/// Computes the rows of the given points (indices into the surface, ascending); a point with too few neighbours gets none.
 pub fn describe_shot(
     surface: &DescribedSurface,
     keypoints: &[u32],
@@ -106,9 +105,9 @@ fn gather(
     });
 }
 
-/// The keypoint's own axes x, y, z: of most, middle and least spread, right-handed.
+/// Returns the keypoint's axes x, y, z: of largest, middle and smallest spread, right-handed.
 fn local_frame(around: &[NeighbourInFrame], radius: f32) -> [Vector3<f32>; 3] {
-    // The factor 1/Σ(R - d) of the weighted covariance moves no axis.
+    // The factor 1/Σ(R - d) of the weighted covariance does not change the axes.
     let spread: Matrix3<f64> = around.iter().fold(Matrix3::zeros(), |sum, a| {
         let offset: Vector3<f64> = a.offset.cast();
         sum + offset * offset.transpose() * f64::from(radius - a.distance)
@@ -117,16 +116,16 @@ fn local_frame(around: &[NeighbourInFrame], radius: f32) -> [Vector3<f32>; 3] {
     let axis = |column: usize| eigen.eigenvectors.column(column).into_owned().cast::<f32>();
     let (most, least) = (eigen.eigenvalues.imax(), eigen.eigenvalues.imin());
     let x = sign_by_majority(axis(most), around);
-    // Where all spreads are equal both would be the same column.
+    // If all spreads are equal, both would be the same column.
     let least = if least == most { (most + 1) % 3 } else { least };
     let z = sign_by_majority(axis(least), around);
     [x, z.cross(&x), z]
 }
 
-/// Neighbours around the median distance that decide where both sides hold equally many (odd, so that they can).
+/// Number of neighbours around the median distance that decide when both sides hold equally many; odd, to avoid a tie.
 const NUM_DECIDING: usize = 5;
 
-/// The axis with the sign that puts most neighbours on its positive side.
+/// Returns the axis with the sign that puts most neighbours on its positive side.
 fn sign_by_majority(axis: Vector3<f32>, around: &[NeighbourInFrame]) -> Vector3<f32> {
     let num_ahead =
         |some: &[&NeighbourInFrame]| some.iter().filter(|a| a.offset.dot(&axis) >= 0.0).count();
@@ -144,7 +143,7 @@ fn sign_by_majority(axis: Vector3<f32>, around: &[NeighbourInFrame]) -> Vector3<
     if is_forward { axis } else { -axis }
 }
 
-/// Shares every neighbour between the bins next to it.
+/// Distributes every neighbour over the adjacent bins.
 fn count(around: &[NeighbourInFrame], frame: &[Vector3<f32>; 3], radius: f32, row: &mut [f32]) {
     let [x_axis, y_axis, z_axis] = frame;
     for a in around {
@@ -172,13 +171,13 @@ fn count(around: &[NeighbourInFrame], frame: &[Vector3<f32>; 3], radius: f32, ro
     }
 }
 
-/// A place among bins: the two bins whose middles it lies between, each with its share; the shares sum to one.
+/// A position among bins: the two bins whose centres it lies between, each with its share; the shares sum to one.
 struct BinInterpolation {
     bins: [(usize, f32); 2],
 }
 
 impl BinInterpolation {
-    /// Bin i reaches from i to i + 1; before the first middle and behind the last all goes to that bin.
+    /// Bin i covers i to i + 1; positions before the first centre or after the last count fully for that bin.
     fn of(position: f32, num: usize) -> Self {
         let x = (position - 0.5).clamp(0.0, (num - 1) as f32);
         let low = x as usize;
@@ -188,7 +187,7 @@ impl BinInterpolation {
         }
     }
 
-    /// As [`Self::of`], the last bin being next to the first; `position` is at least half.
+    /// Like [`Self::of`], but cyclic; `position` must be at least 0.5.
     fn around(position: f32, num: usize) -> Self {
         let x = position - 0.5;
         let low = x as usize;
@@ -228,7 +227,7 @@ mod tests {
             .collect()
     }
 
-    /// Every neighbour against every bin: a tent in each of the four directions, one wide to either side.
+    /// Every neighbour against every bin: a triangular weight in each of the four directions, one bin wide on either side.
     fn slow_row(around: &[NeighbourInFrame], frame: &[Vector3<f32>; 3], radius: f64) -> Vec<f64> {
         let tent = |position: f64, bin: usize, num: usize| {
             let position = position.clamp(0.5, num as f64 - 0.5);
@@ -299,7 +298,7 @@ mod tests {
 
     #[test]
     fn the_frame_is_right_handed_and_looks_to_where_most_neighbours_are() {
-        // Long in x with more on its negative side, wide in y, and one point above the plane of the others.
+        // Long in x with more points on its negative side, wide in y, and one point above the plane of the others.
         let around = around_of(&[
             [-0.9, 0.1, 0.0],
             [-0.8, -0.3, 0.0],
@@ -314,7 +313,7 @@ mod tests {
         assert!(x.dot(&y).abs() + y.dot(&z).abs() + z.dot(&x).abs() < 1e-5);
         // Four of the six lie in the plane or above it.
         assert!(z.z.abs() > 0.9);
-        // The mirrored neighbourhood has the mirrored axis: the sign follows the points, not the solver.
+        // The mirrored neighbourhood has the mirrored axis: the sign depends on the points, not on the solver.
         let mirrored: Vec<NeighbourInFrame> = around
             .iter()
             .map(|a| NeighbourInFrame {
@@ -328,7 +327,7 @@ mod tests {
 
     #[test]
     fn equally_many_on_both_sides_are_decided_by_those_at_the_median_distance() {
-        // Three a side; the middle distances (all but the outermost one) hold more on the negative side.
+        // Three on either side; the middle distances (all but the outermost) have more on the negative side.
         let around = around_of(&[
             [0.1, 0.0, 0.0],
             [-0.2, 0.0, 0.0],
@@ -339,7 +338,7 @@ mod tests {
         ]);
         for axis in [Vector3::x(), -Vector3::x()] {
             let chosen = sign_by_majority(axis, &around);
-            // Sorted by distance, the five around the middle are -0.2, -0.3, 0.4, -0.5, 0.6.
+            // Sorted by distance, the five around the median are -0.2, -0.3, 0.4, -0.5, 0.6.
             assert!(chosen.x < 0.0);
         }
     }
@@ -350,7 +349,7 @@ mod tests {
             radius: Metres(0.12),
         };
         let found = describe_shot(&plane(), &[840], &params);
-        // No side of a plane holds more of it: z may be either.
+        // Neither side of a plane holds more points, so z may have either sign.
         let cosine = if found.values.iter().step_by(11).any(|x| *x > 0.0) {
             0
         } else {
@@ -359,7 +358,7 @@ mod tests {
         for (i, value) in found.values.iter().enumerate() {
             assert!(i % 11 == cosine || value.abs() < 1e-6);
         }
-        // Half of each neighbour falls to either elevation: the tangent plane is the border between them.
+        // Half of each neighbour counts for either elevation: the tangent plane is the border between them.
         for outer in (0..352).step_by(44).map(|i| i + 11 + cosine) {
             let (above, below) = (found.values[outer], found.values[outer + 22]);
             assert!(above > 0.1 && (above - below).abs() < 1e-4);
@@ -374,7 +373,7 @@ mod tests {
         };
         let found = describe_shot(&surface, &[1000], &params);
         let row = found.rows().next().expect("described");
-        // All neighbours lie on the inner side of the tangent plane: z looks inwards, against the normals, whose
+        // All neighbours lie on the inner side of the tangent plane: z points inwards, against the normals, whose
         // cosines are -1..-1/2.
         for (i, value) in row.iter().enumerate() {
             assert!(i % 11 <= 3 || *value < 1e-6, "bin {i}");

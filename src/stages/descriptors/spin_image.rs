@@ -1,32 +1,31 @@
-//! Spin images: where the neighbours of a keypoint lie, seen as it spins about its normal.
+//! Spin images: positions of a keypoint's neighbours, accumulated over rotation about its normal.
 //!
 //! A. E. Johnson and M. Hebert, "Using spin images for efficient object recognition in cluttered 3D scenes", IEEE
 //! Transactions on Pattern Analysis and Machine Intelligence 21(5), 1999. A neighbour x of the oriented point (p, n)
-//! has the coordinates β = n·(x - p) along the normal and α = √(|x - p|² - β²) away from it, and is shared bilinearly
-//! between the four pixels around (α, β). Neighbours whose normal differs by more than the support angle do not
-//! count: they would be hidden from other sides.
+//! has the coordinates β = n·(x - p) along the normal and α = √(|x - p|² - β²) away from it, and is distributed
+//! bilinearly over the four pixels around (α, β). Neighbours whose normal differs by more than the support angle are
+//! ignored: they would be hidden from other sides.
 //!
-//! Departures: the paper compares by the correlation of those pixels that both images fill. Each row is brought to mean
-//! zero and length one instead, so that |a - b|² = 2 - 2R with R the correlation over all pixels: nearest in
-//! descriptor space is best correlated, without a term for the share of pixels filled.
+//! Deviations: the paper compares images by the correlation of the pixels that are filled in both. Here each row is
+//! normalised to mean zero and length one, so that |a - b|² = 2 - 2R with R the correlation over all pixels: the
+//! nearest row in descriptor space has the highest correlation. There is no term for the share of filled pixels.
 
 use super::{Descriptors, surface::DescribedSurface};
 use crate::units::{Metres, Radians};
 
-/// Pixels along α, and along β.
+/// Number of pixels along α and along β.
 const SIDE: usize = 15;
-/// Numbers in a row.
+/// Numbers per row.
 const WIDTH: usize = SIDE * SIDE;
-/// With fewer neighbours the image is chance.
+/// Minimum number of neighbours; with fewer the image is random.
 const MIN_NEIGHBOURS: usize = 5;
 
 /// Parameters of [`describe_spin_images`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpinImageParams {
-    /// Side of the image: α reaches from zero to this, β half of it to either side, 60..600 mm. Time grows with its
-    /// square.
+    /// Side of the image, 60..600 mm: α covers zero to this, β half of it on either side. Time grows with its square.
     pub reach: Metres,
-    /// Normals of neighbours differ by no more than this, 30°..180°.
+    /// Maximum angle between the normals of keypoint and neighbour, 30°..180°.
     pub support_angle: Radians,
 }
 
@@ -39,7 +38,8 @@ impl Default for SpinImageParams {
     }
 }
 
-/// A row for each of these points (indices into the surface, ascending): β grows row by row, α within each.
+/// Computes the rows of the given points (indices into the surface, ascending): β grows row by row, α within each.
+/// Points with too few neighbours get none.
 pub fn describe_spin_images(
     surface: &DescribedSurface,
     keypoints: &[u32],
@@ -63,7 +63,7 @@ pub fn describe_spin_images(
     described
 }
 
-/// Adds the neighbours to the image; their number.
+/// Adds the neighbours to the image; returns their number.
 fn accumulate(
     surface: &DescribedSurface,
     keypoint: usize,
@@ -75,7 +75,7 @@ fn accumulate(
     let least_cosine = params.support_angle.0.cos() as f32;
     let reach = params.reach.0 as f32;
     let pixels_per_metre = SIDE as f32 / reach;
-    // The corner of the cylinder that the image covers.
+    // Distance to the corner of the cylinder that the image covers.
     let radius = reach * (1.0_f32 + 0.25).sqrt();
     let mut num = 0;
     surface.tree.within(here, radius, |neighbour| {
@@ -99,8 +99,8 @@ fn accumulate(
     num
 }
 
-/// Shares one point between the four pixels around it. Pixel i reaches from i to i + 1; at the image's edge a point
-/// belongs to the outermost pixel.
+/// Distributes a point over the four pixels around it. Pixel i covers i to i + 1; at the image's edge a point
+/// counts for the outermost pixel.
 fn add(image: &mut [f32], column: f32, row: f32) {
     let split = |position: f32| {
         let x = (position - 0.5).clamp(0.0, (SIDE - 1) as f32);
@@ -115,7 +115,7 @@ fn add(image: &mut [f32], column: f32, row: f32) {
     image[bottom * SIDE + right] += a * b;
 }
 
-/// Mean zero and length one; false for an image that is the same all over.
+/// Normalises to mean zero and length one; returns false for a constant image.
 fn standardise(image: &mut [f32]) -> bool {
     let mean = image.iter().sum::<f32>() / image.len() as f32;
     for x in image.iter_mut() {
@@ -140,7 +140,7 @@ mod tests {
         tests::{bent_surface, moved, plane, sphere, surface_of, test_motion},
     };
 
-    /// Pixels of one centimetre.
+    /// Pixels of 10 mm.
     fn small() -> SpinImageParams {
         SpinImageParams {
             reach: Metres(0.15),
@@ -204,7 +204,7 @@ mod tests {
                 .zip(&slow)
                 .map(|(a, b)| (f64::from(*a) - b).abs())
                 .sum();
-            // A neighbour at the very edge of the cylinder or the angle may fall to either side.
+            // A neighbour at the very edge of the cylinder or the support angle may fall on either side.
             assert!(apart < 2.5, "{apart} at {keypoint}");
         }
     }
@@ -255,7 +255,7 @@ mod tests {
         for (i, count) in image.iter().enumerate() {
             assert!(i / SIDE == SIDE / 2 || *count < 1e-3, "pixel {i}: {count}");
         }
-        // A ring of radius r, one pixel (10 mm) wide, holds 2πr of the points 10 mm apart.
+        // A ring of radius r, one pixel (10 mm) wide, contains 2πr of the points 10 mm apart.
         for column in 3..SIDE - 1 {
             let expected = std::f32::consts::TAU * (column as f32 + 0.5);
             let found = image[SIDE / 2 * SIDE + column];

@@ -1,8 +1,8 @@
-//! The surface that descriptors are taken from: thinned to an even spacing, with normals, a search tree and keypoints.
+//! The surface for the descriptors: thinned to an even spacing, with normals, a search tree and keypoints.
 //!
-//! Counting points in a neighbourhood only means something if a scene and a reference are sampled alike, whatever the
-//! camera's distance was: so both are thinned to one point per cube of the same edge. Keypoints are an even grid
-//! of places: car parts are too smooth for the corner detectors that would pick fewer.
+//! Point counts in a neighbourhood are only comparable if scene and reference are sampled alike, whatever the camera's
+//! distance: both are thinned to one point per cube of the same size. Keypoints form an even grid: car parts are too
+//! smooth for corner detectors, which would pick fewer.
 
 use nalgebra::{Point3, Vector3};
 
@@ -15,11 +15,9 @@ use crate::{
 /// Parameters of [`prepare_surface`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceParams {
-    /// Edge of the cubes that the cloud is thinned to, 5..30 mm. Raising it loses detail; halving it costs four times
-    /// as much.
+    /// Edge of the cubes to which the cloud is thinned, 5..30 mm. Raising it loses detail; halving it quadruples the time.
     pub spacing: Metres,
-    /// Points within this distance say what the normal is, 2..5 spacings. Raising it rounds edges, lowering it lets
-    /// the sensor's noise through.
+    /// Radius for estimating normals, 2..5 spacings. Raising it rounds edges, lowering it lets sensor noise through.
     pub normal_radius: Metres,
 }
 
@@ -43,15 +41,15 @@ pub struct DescribedSurface {
     pub tree: KdTree,
 }
 
-/// Why a cloud has no surface to describe.
+/// Reason why a cloud has no surface to describe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SurfaceError {
-    /// Hardly a point.
+    /// Almost no points are left.
     #[error("{found} points are left of the part once it is thinned, at least {needed} are needed")]
     TooFewPoints {
-        /// Points after thinning.
+        /// Number of points after thinning.
         found: usize,
-        /// Least number of points.
+        /// Minimum number of points.
         needed: usize,
     },
 }
@@ -66,11 +64,10 @@ impl Advice for SurfaceError {
     }
 }
 
-/// Fewer points than this are no surface: three make a normal, and a descriptor counts dozens.
+/// Minimum number of points of a surface: a normal needs three, a descriptor counts dozens.
 pub(super) const MIN_POINTS: usize = 20;
 
-/// Thins a cloud and estimates its normals, turned to the side that the cloud's own normals look to, if it has some,
-/// and to `viewpoint` if not.
+/// Thins a cloud and estimates its normals, oriented like the cloud's own normals if it has some, else towards `viewpoint`.
 pub fn prepare_surface(
     cloud: &PointCloud,
     viewpoint: &Point3<f64>,
@@ -103,7 +100,7 @@ pub fn prepare_surface(
     })
 }
 
-/// Indices of an even choice of points, ascending: those nearest to the middle of each cube of edge `spacing`.
+/// Selects evenly spaced points: those nearest to the mean of each cube of edge `spacing`. Returns their indices, ascending.
 pub fn keypoints(surface: &DescribedSurface, spacing: Metres) -> Vec<u32> {
     let cloud = PointCloud {
         points: surface.points.clone(),
@@ -126,7 +123,7 @@ pub(super) mod tests {
 
     use super::*;
 
-    /// A bent, ridged sheet of half a metre, about 1.2 m before a camera at the origin: no two places of it are alike.
+    /// A bent, ridged sheet of 0.5 m, about 1.2 m in front of a camera at the origin: no two places are alike.
     pub(in super::super) fn bent_sheet() -> Vec<Point3<f32>> {
         (0..60 * 50)
             .map(|i| {
@@ -143,7 +140,7 @@ pub(super) mod tests {
             .collect()
     }
 
-    /// A surface of exactly these points, with exactly these normals.
+    /// A surface with exactly these points and normals.
     pub(in super::super) fn surface_of(
         points: Vec<Point3<f32>>,
         normals: Vec<Vector3<f32>>,
@@ -155,7 +152,7 @@ pub(super) mod tests {
         }
     }
 
-    /// The bent sheet, its normals estimated.
+    /// The bent sheet with estimated normals.
     pub(in super::super) fn bent_surface() -> DescribedSurface {
         let points = bent_sheet();
         let tree = KdTree::new(&points);
@@ -180,7 +177,7 @@ pub(super) mod tests {
         )
     }
 
-    /// Points of the sphere's face towards the origin, with outward normals; even.
+    /// Evenly spaced points of a sphere with outward normals.
     pub(in super::super) fn sphere(centre: Point3<f64>, radius: f64, num: i32) -> DescribedSurface {
         let directions = (0..num)
             .map(|i| {
@@ -199,7 +196,7 @@ pub(super) mod tests {
         )
     }
 
-    /// An upright plane of 41 × 41 points, 10 mm apart, facing the origin; the middle one is number 840.
+    /// An upright plane of 41 × 41 points, 10 mm apart, facing the origin; the middle point has index 840.
     pub(in super::super) fn plane() -> DescribedSurface {
         let points: Vec<Point3<f32>> = (0..41 * 41)
             .map(|i| ((i % 41 - 20) as f32 * 0.01, (i / 41 - 20) as f32 * 0.01))

@@ -1,16 +1,16 @@
-//! The viewpoint feature histogram: one row for all that a camera sees of a part.
+//! The viewpoint feature histogram: one row for everything that a camera sees of a part.
 //!
-//! R. B. Rusu, G. Bradski, R. Thibaux and J. Hsu, "Fast 3D recognition and pose using the viewpoint feature
-//! histogram", IROS 2010, in the layout of the authors' Point Cloud Library: the three pair angles between the centroid
-//! with the mean normal and every point (45 bins each), the distances from the centroid (45 bins), and the cosine
-//! between every normal and the direction from the centroid to the camera (128 bins). Rows are compared by χ².
+//! R. B. Rusu, G. Bradski, R. Thibaux and J. Hsu, "Fast 3D recognition and pose using the viewpoint feature histogram",
+//! IROS 2010, in the layout of the authors' Point Cloud Library: the three pair angles between the centroid with the
+//! mean normal and every point (45 bins each), the distances from the centroid (45 bins), and the cosine between every
+//! normal and the direction from the centroid to the camera (128 bins). Rows are compared by χ².
 //!
-//! Departures: distances are counted in metres, because the parts of cars come in one size and size is evidence; each
-//! of the five histograms sums to one.
+//! Deviations: distances are in metres, because car parts have a fixed size and size is evidence; each of the five
+//! histograms sums to one.
 //!
-//! A histogram of everything depends on what is seen. So a reference is described once per virtual view: only the
-//! points that a camera there would see count, and the row nearest to the scene's speaks for the reference. Turning
-//! the camera about its axis changes no row.
+//! A global histogram depends on the visible surface. So a reference is described once per virtual view, using only the
+//! points visible to that camera, and the row nearest to the scene's represents the reference. Rotating the camera
+//! about its axis does not change a row.
 
 use nalgebra::{Point3, Vector3};
 
@@ -23,23 +23,23 @@ use crate::{
     stages::reference::{Coverage, seen_around},
 };
 
-/// Bins of each of the three angles, and of the distance.
+/// Number of bins of each of the three angles, and of the distance.
 const NUM_SHAPE_BINS: usize = 45;
-/// Bins of the cosine to the viewing direction.
+/// Number of bins of the cosine to the viewing direction.
 const NUM_VIEW_BINS: usize = 128;
-/// Numbers in a row.
+/// Numbers per row.
 const WIDTH: usize = 4 * NUM_SHAPE_BINS + NUM_VIEW_BINS;
-/// The last bin of distances ends here, metres: half a long bumper.
+/// Upper limit of the last distance bin, metres: half a long bumper.
 const FARTHEST: f32 = 1.0;
 
-/// What a camera sees of a part, as one row.
+/// The histogram of a part as seen by a camera, as one row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewHistogram {
-    /// The bins of α, φ, θ, the distance and the view, one after the other. Each of the five sums to one.
+    /// The bins of α, φ, θ, the distance and the view, in this order. Each of the five histograms sums to one.
     pub row: Vec<f32>,
 }
 
-/// The row of a surface as seen from `viewpoint`.
+/// Computes the row of a surface as seen from `viewpoint`.
 pub fn describe_vfh(surface: &DescribedSurface, viewpoint: &Point3<f64>) -> ViewHistogram {
     let mut row = vec![0.0; WIDTH];
     let num = surface.points.len();
@@ -48,7 +48,7 @@ pub fn describe_vfh(surface: &DescribedSurface, viewpoint: &Point3<f64>) -> View
     };
     let centroid: Point3<f64> =
         Point3::from(sum(&mut surface.points.iter().map(|p| p.coords)) / num.max(1) as f64);
-    // Normals that cancel leave no direction; any is as good.
+    // If the normals cancel there is no mean direction, and any will do.
     let mean_normal = sum(&mut surface.normals.iter().copied())
         .try_normalize(1e-9)
         .unwrap_or_else(Vector3::z)
@@ -86,8 +86,7 @@ pub fn describe_vfh(surface: &DescribedSurface, viewpoint: &Point3<f64>) -> View
     ViewHistogram { row }
 }
 
-/// The rows of a reference cloud, one for each side that its views are taken from; a side that shows next to nothing
-/// has none.
+/// Computes the rows of a reference cloud, one per view; a view with too few visible points has none.
 pub fn describe_views(
     cloud: &PointCloud,
     coverage: Coverage,
@@ -111,7 +110,7 @@ pub fn describe_views(
     Ok(rows)
 }
 
-/// The index of the reference that has the row nearest to the scene's; `None` without references.
+/// Returns the index of the reference with the row nearest to the scene's; `None` without references.
 pub fn nearest_reference(
     scene: &ViewHistogram,
     references: &[Vec<ViewHistogram>],
@@ -126,7 +125,7 @@ pub fn nearest_reference(
         .map(|(reference, _)| reference)
 }
 
-/// The χ² distance of two rows, 0..10: Σ (a - b)²/(a + b).
+/// Returns the χ² distance of two rows, 0..10: Σ (a - b)²/(a + b).
 pub fn distance(a: &ViewHistogram, b: &ViewHistogram) -> f32 {
     let term = |(a, b): (&f32, &f32)| {
         let sum = a + b;
@@ -150,7 +149,7 @@ mod tests {
         a.row.iter().zip(&b.row).map(|(a, b)| (a - b).abs()).sum()
     }
 
-    /// The formulas word for word, in double precision.
+    /// The formulas as written, in double precision.
     fn slow_row(surface: &DescribedSurface, viewpoint: &Point3<f64>) -> ViewHistogram {
         let num = surface.points.len() as f64;
         let points: Vec<Point3<f64>> = surface.points.iter().map(|p| p.cast()).collect();
@@ -186,7 +185,7 @@ mod tests {
         for viewpoint in [Point3::origin(), Point3::new(0.7, -0.4, 0.1)] {
             let fast = describe_vfh(&surface, &viewpoint);
             assert_eq!(fast.row.len(), 308);
-            // Some points lie on the border of two bins and fall to either side by rounding.
+            // Some points lie on the border of two bins and fall on either side due to rounding.
             assert!(apart(&fast, &slow_row(&surface, &viewpoint)) < 0.02);
         }
     }
@@ -200,7 +199,7 @@ mod tests {
         let after = describe_vfh(&moved(&surface, &motion), &camera);
         assert!(apart(&before, &after) < 0.05, "{}", apart(&before, &after));
         assert!(distance(&before, &after) < 0.02);
-        // But a camera that stays behind sees another side of it.
+        // But a camera that does not move along sees another side of it.
         let from_aside = describe_vfh(&surface, &Point3::new(1.2, 0.0, 0.4));
         assert!(distance(&before, &from_aside) > 0.5);
     }
@@ -215,14 +214,14 @@ mod tests {
                 "{start}: {histogram:?}"
             );
         }
-        // Half its diagonal is 0.28 m: bins up to number 12 of 45 a metre.
+        // Half the diagonal is 0.28 m: bins up to number 12, at 45 bins per metre.
         assert!(found.row[135 + 13..180].iter().all(|x| *x == 0.0));
         assert!(found.row[135 + 11] > 0.0);
     }
 
     #[test]
     fn the_near_half_of_a_sphere_spreads_its_normals_evenly_over_the_view() {
-        // Archimedes: equal heights on a sphere have equal areas. So have cosines to the direction of the camera.
+        // Archimedes: equal heights on a sphere have equal areas. The same holds for cosines to the direction of the camera.
         let surface = sphere(Point3::new(0.0, 0.0, 2.0), 0.3, 12_800);
         let found = describe_vfh(&surface, &Point3::origin());
         for (bin, share) in found.row[180..308].iter().enumerate() {

@@ -1,5 +1,5 @@
-//! How the views of one reference may lie over the scene's image: by the circular correlation of the outlines, then by
-//! the overlap of the images.
+//! Finds how the views of a reference may lie over the scene's image: by circular correlation of the outlines, then
+//! by the overlap of the images.
 
 use nalgebra::{Isometry2, Matrix2x3, Point2, UnitQuaternion, Vector2, Vector3};
 use rustfft::num_complex::Complex;
@@ -15,25 +15,26 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// One way of laying a reference view over the scene's image.
+/// A placement of a reference view over the scene's image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImagePlacement {
     /// Index of the view within its reference.
     pub view: usize,
-    /// Ray of the scene that the view's first ray falls on.
+    /// Index of the scene's ray that the view's first ray falls on.
     pub lag: usize,
-    /// Turn in the plane from the view to the scene.
+    /// Rotation in the plane from the view to the scene.
     pub turn: Radians,
     /// Root mean square distance between the outlines' samples.
     pub outline_distance: Metres,
-    /// Shared area over joint area of the two images, 0..1; `None` if not laid over.
+    /// Shared area over joint area of the two images, 0..1; `None` if not computed.
     pub overlap: Option<f64>,
 }
 
 impl ImagePlacement {
-    /// At one lag of a view with `num_rays` rays, where the correlation is `value`; `power` is that of both outlines.
+    /// Creates the placement at one lag of a view with `num_rays` rays; `value` is the correlation there and `power`
+    /// the sum of both outlines' powers.
     fn at(view: usize, lag: usize, value: Complex<f64>, power: f64, num_rays: usize) -> Self {
-        // The turn that maximises Re(e^{-iφ} c) is the argument of c, and |c| is what it reaches.
+        // The turn that maximises Re(e^{-iφ} c) is the argument of c; the maximum is |c|.
         let left = power - 2.0 * value.norm();
         Self {
             view,
@@ -44,7 +45,7 @@ impl ImagePlacement {
         }
     }
 
-    /// The same in double precision, from the rays of query and view.
+    /// Like [`Self::at`], but computes the correlation in double precision from the rays of query and view.
     fn exactly_at(view: usize, lag: usize, [query, seen]: [&[Vector2<f64>]; 2]) -> Self {
         let complex = |ray: &Vector2<f64>| Complex::new(ray.x, ray.y);
         let pairs = query[lag..].iter().chain(query).zip(seen);
@@ -53,14 +54,15 @@ impl ImagePlacement {
         Self::at(view, lag, value, power, seen.len())
     }
 
-    /// 0..1. Outlines alone are fooled by ragged edges, areas alone by slim parts.
+    /// Returns the score, 0..1. Ragged edges mislead outlines alone, slim parts mislead areas alone.
     pub(super) fn score(&self, params: &RankParams) -> f64 {
         let outline = (-self.outline_distance.0 / params.outline_tolerance.0).exp();
         (outline * self.overlap.unwrap_or(0.0)).sqrt()
     }
 }
 
-/// Single precision leaves some tenths of a millimetre of a part that is compared with itself; further off it tells.
+/// Recomputes the first placement in double precision: in single precision, a part compared with itself is a few
+/// tenths of a millimetre off.
 pub(super) fn refine_first(
     placements: &mut [ImagePlacement],
     query: &Query<'_>,
@@ -119,8 +121,8 @@ impl<'a> PlacementSearch<'a> {
     }
 }
 
-/// Half of the places for the best placement and its like, half for the best that is turned far from it: sorted by
-/// distance alone, the views of a near-symmetric part would fill the list with the same mistake.
+/// Keeps the best placement and those of similar orientation, and fills half of the list with the best at a very different
+/// orientation: sorted by distance alone, the views of a near-symmetric part could fill the list with the same error.
 fn both_ways_round(
     enrolled: &Reference,
     sorted: &[ImagePlacement],
@@ -134,7 +136,7 @@ fn both_ways_round(
     let Some(best) = sorted.first().map(attitude) else {
         return Vec::new();
     };
-    // Of unit quaternions the scalar product is the cosine of half the angle between them.
+    // The dot product of unit quaternions is the cosine of half the angle between them.
     let least_near = (FAR_TURN / 2.0).cos();
     let (near, far): (Vec<ImagePlacement>, Vec<ImagePlacement>) = sorted
         .iter()
@@ -146,12 +148,11 @@ fn both_ways_round(
         .collect()
 }
 
-/// The lag of the greatest value, and that of the greatest other peak at least a sixteenth of the circle away: a
+/// Returns the lag of the highest value, and that of the highest other peak at least a sixteenth of the circle away: a
 /// near-symmetric part fits almost as well half a turn off. `twice_around` is scratch memory.
 fn highest_apart(correlation: &[Complex<f32>], twice_around: &mut Vec<i32>) -> [Option<usize>; 2] {
     let n = correlation.len();
-    // The bits of floats that are not negative are in the order of the floats, and a maximum of whole numbers is
-    // taken by vectors.
+    // The bits of non-negative floats sort like the floats, and an integer maximum is vectorised.
     let strength = |c: &Complex<f32>| c.norm_sqr().to_bits() as i32;
     twice_around.clear();
     twice_around.extend(correlation.iter().map(strength));
@@ -174,7 +175,7 @@ fn highest_apart(correlation: &[Complex<f32>], twice_around: &mut Vec<i32>) -> [
 /// Spacing of the points at which two images are compared, metres.
 const OVERLAP_SPACING: f64 = 0.03;
 
-/// Set places of an image on a coarse grid, with the area that each stands for.
+/// Set pixels of an image on a coarse grid, with the area of each.
 struct SparsePixels {
     points: PointBlocks,
     area_each: f64,
@@ -197,13 +198,13 @@ fn thinned(plane: &PlaneImage) -> SparsePixels {
     }
 }
 
-/// Shared area over joint area of the scene's image and a view laid over it.
+/// Returns the shared area over the joint area of the scene's image and a view laid over it.
 fn overlap(
     scene: &SparsePixels,
     seen: &ReferenceView,
     scene_plane_from_view_plane: &Isometry2<f64>,
 ) -> f64 {
-    // Straight from scene plane to pixels of the view: this decides what ranking costs.
+    // Map directly from the scene plane to pixels of the view: this dominates the cost of ranking.
     let view_plane_from_scene = scene_plane_from_view_plane.inverse();
     let pixel = |x: f64, y: f64| {
         let plane = &seen.plane;

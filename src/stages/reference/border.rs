@@ -1,10 +1,10 @@
-//! The border of a part as oriented points, and the pairs of them by which a piece of it is found again.
+//! The border of a part as oriented points, and the point pairs used to locate a piece of it.
 //!
-//! Two points of a border with their directions and the surface's normals fix a pose, and their distance and the angles
-//! between fit few other pairs: after B. Drost, M. Ulrich, N. Navab and S. Ilic, "Model globally, match locally:
-//! efficient and robust 3D object recognition", CVPR 2010, with points of borders as in C. Choi, Y. Taguchi, O. Tuzel,
-//! M.-Y. Liu and S. Ramalingam, "Voting-based pose estimation for robotic assembly using a 3D sensor", ICRA 2012. The
-//! poses that pairs lead to are scored rather than voted for.
+//! Two border points with their directions and surface normals define a pose, and few other pairs have the same
+//! distance and angles: after B. Drost, M. Ulrich, N. Navab and S. Ilic, "Model globally, match locally: efficient and
+//! robust 3D object recognition", CVPR 2010, with border points as in C. Choi, Y. Taguchi, O. Tuzel, M.-Y. Liu and S.
+//! Ramalingam, "Voting-based pose estimation for robotic assembly using a 3D sensor", ICRA 2012. The poses from pairs
+//! are scored instead of voted for.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -13,64 +13,65 @@ use crate::geometry::nearest_field::NearestField;
 /// A point where the surface ends, or turns away from the viewer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BorderPoint {
-    /// Where.
+    /// Position.
     pub at: Point3<f32>,
-    /// Unit vector along the border, the surface to its left as seen from in front.
+    /// Unit vector along the border, with the surface to its left as seen from the front.
     pub along: Vector3<f32>,
     /// Unit normal of the surface, towards the viewer.
     pub normal: Vector3<f32>,
 }
 
-/// Two points of a border, in order.
+/// An ordered pair of border points.
 #[derive(Clone, Copy, Debug)]
 pub struct BorderPair {
-    /// Metres.
+    /// Distance between the points, metres.
     pub distance: f32,
-    /// Angles from the border to the other point, about the normal, radians, at each of the two.
+    /// At each point, the angle about the normal from the border's direction to the other point, radians.
     pub angles: [f32; 2],
     /// Indices of the two points.
     pub of: [u16; 2],
 }
 
-/// A pair of a reference's border that has a frame.
+/// A pair of a reference's border that defines a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferencePair {
     /// Distance, angles and points.
     pub pair: BorderPair,
-    /// Unit vector across the pair, towards the viewer: of its frame, what takes longest to compute.
+    /// Unit vector across the pair, towards the viewer; stored because it is the most expensive part of the frame.
     across: Vector3<f32>,
 }
 
 /// The border of a reference from one side.
 #[derive(Clone, Debug)]
 pub struct ReferenceBorder {
-    /// Evenly spread points.
+    /// Evenly distributed points.
     pub points: Vec<BorderPoint>,
-    /// All pairs that can be used, bin by bin.
+    /// All usable pairs, sorted by bin.
     pairs: Vec<ReferencePair>,
-    /// Where each bin of distance and angles begins among the pairs; one more than there are bins.
+    /// Start of each bin of distance and angles in `pairs`, and the end of the last one.
     bins: Vec<u32>,
-    /// The nearest point of all outlines from this side.
+    /// Nearest-point field of all outlines from this side.
     pub field: NearestField,
 }
 
-/// Points of a reference's border that are paired: one in some 4 cm of a door's.
+/// Number of points of a reference's border that are paired: about one per 4 cm for a door.
 const NUM_POINTS: usize = 128;
-/// Nearer pairs fix no pose, metres.
+/// Minimum distance of a pair, metres: closer pairs do not determine a pose.
 pub const LEAST_DISTANCE: f32 = 0.15;
-/// Distances beyond this share a bin, metres; the widths of bins, metres and number around.
+/// Distances beyond this share a bin, metres; followed by the width of the distance bins, metres, and the number of
+/// bins of the first angle.
 const FARTHEST: f32 = 2.4;
 const DISTANCE_BIN: f32 = 0.04;
 const NUM_ANGLES: usize = 24;
-/// Of the second angle, coarser, so that most bins hold a pair.
+/// Number of bins of the second angle; coarser, so that most bins hold a pair.
 const NUM_SECTORS: usize = 8;
-/// Cells of the field of nearest points and how far it answers, metres.
+/// Cell size of the nearest-point field and the distance up to which it answers, metres.
 const FIELD_CELL: f32 = 0.02;
 const FIELD_BAND: f32 = 0.06;
 
 impl ReferenceBorder {
-    /// Of the oriented points of one view's outline, part space. `outlines` are the points at which the surface ends or
-    /// turns away in this view or in another from the same side.
+    /// Creates the border from the oriented points of one view's outline, part space. `outlines` are the points at
+    /// which the surface ends or turns away in any view from the same side.
     pub fn new(all: &[BorderPoint], outlines: &[Point3<f32>]) -> Self {
         let step = all.len().div_ceil(NUM_POINTS).max(1);
         let points: Vec<BorderPoint> = all.iter().step_by(step).copied().collect();
@@ -102,7 +103,8 @@ impl ReferenceBorder {
         }
     }
 
-    /// The pairs whose distance and angles differ from those of a pair by less than these, metres and radians.
+    /// Iterates over the pairs whose distance and angles differ from `pair` by less than the given limits, metres
+    /// and radians.
     pub fn pairs_like(
         &self,
         pair: BorderPair,
@@ -132,13 +134,14 @@ impl ReferenceBorder {
             let is_as_far = (other.distance - pair.distance).abs() < distance_off;
             let [is_like_here, is_like_there] =
                 [0, 1].map(|end| angle_between(pair.angles[end], other.angles[end]) < angle_off);
-            // One branch, not three: each fails half of the time, and a branch guessed wrong costs more than they do.
+            // Combined into one branch instead of three: each condition fails half of the time, and a misprediction
+            // costs more than evaluating them.
             is_as_far & is_like_here & is_like_there
         })
     }
 }
 
-/// Width of a bin of angles, radians.
+/// Width of a bin of the first angle, radians.
 const BIN_ANGLE: f32 = std::f32::consts::TAU / NUM_ANGLES as f32;
 
 fn distance_bin(distance: f32) -> usize {
@@ -156,7 +159,7 @@ fn angle_between(a: f32, b: f32) -> f32 {
 }
 
 impl BorderPair {
-    /// `None` if the two are too close.
+    /// Creates a pair; `None` if the points are too close.
     pub fn of([a, b]: [&BorderPoint; 2], of: [u16; 2]) -> Option<Self> {
         let towards = b.at - a.at;
         let distance = towards.norm();
@@ -167,29 +170,29 @@ impl BorderPair {
         })
     }
 
-    /// Unit vector from the first of its points to the second.
+    /// Returns the unit vector from the first point to the second.
     fn along(&self, [a, b]: [&BorderPoint; 2]) -> Vector3<f32> {
         (b.at - a.at) / self.distance
     }
 
-    /// True if the two lie on one straight border, along which they could slide.
+    /// Returns true if both points lie on one straight border, along which they could slide.
     pub fn is_straight(&self) -> bool {
         self.angles.iter().all(|a| a.sin().abs() < STRAIGHT)
     }
 }
 
-/// Sine of the angle to a straight border below which a point lies on it.
+/// Sine of the angle to the border's direction below which a point lies on it.
 const STRAIGHT: f32 = 0.25;
 
 impl ReferencePair {
-    /// `None` if the two are too close, or face away from each other.
+    /// Creates a pair; `None` if the points are too close or face away from each other.
     fn of(ends: [&BorderPoint; 2], of: [u16; 2]) -> Option<Self> {
         let pair = BorderPair::of(ends, of)?;
         let across = across(ends, &pair.along(ends))?;
         Some(Self { pair, across })
     }
 
-    /// Middle and axes, to the bit as [`frame_of`] gives them; `ends` are the points that the pair is of.
+    /// Returns the middle and axes, bit-identical to [`frame_of`]; `ends` are the points of the pair.
     pub fn frame(&self, ends: [&BorderPoint; 2]) -> (Point3<f32>, Matrix3<f32>) {
         frame(ends, self.pair.along(ends), self.across)
     }
@@ -200,14 +203,14 @@ fn angle(from: &BorderPoint, towards: &Vector3<f32>) -> f32 {
     towards.dot(&inwards).atan2(towards.dot(&from.along))
 }
 
-/// Middle and axes of a pair: along it, and the mean normal across.
+/// Returns the middle and axes of a pair: x along it, z the mean normal across it.
 pub fn frame_of(ends: [&BorderPoint; 2]) -> Option<(Point3<f32>, Matrix3<f32>)> {
     let [a, b] = ends;
     let along = (b.at - a.at).try_normalize(1e-6)?;
     Some(frame(ends, along, across(ends, &along)?))
 }
 
-/// The mean normal of two points, as a unit vector across the line along which they lie.
+/// Returns the mean normal of two points, as a unit vector perpendicular to the line through them.
 fn across([a, b]: [&BorderPoint; 2], along: &Vector3<f32>) -> Option<Vector3<f32>> {
     let normal = a.normal + b.normal;
     (normal - along * normal.dot(along)).try_normalize(0.5)
@@ -226,7 +229,7 @@ fn frame(
 mod tests {
     use super::*;
 
-    /// A flat disc of half a metre, seen from in front, counter-clockwise.
+    /// A flat disc of 0.5 m, seen from the front, counter-clockwise.
     fn disc(num: usize) -> Vec<BorderPoint> {
         (0..num)
             .map(|i| {
@@ -272,7 +275,7 @@ mod tests {
 
     #[test]
     fn the_pairs_of_a_border_are_those_with_a_frame_and_keep_it_to_the_bit() {
-        // A ring whose surface turns over twice on the way around.
+        // A ring whose surface turns over twice along the way.
         let mut points = disc(60);
         for (i, point) in points.iter_mut().enumerate() {
             let (sin, cos) = (i as f32 * 0.2).sin_cos();
@@ -299,7 +302,7 @@ mod tests {
     fn the_angles_of_a_pair_on_a_circle_are_alike_and_the_surface_lies_to_the_left() {
         let points = disc(60);
         let pair = BorderPair::of([&points[0], &points[15]], [0, 15]).expect("far apart");
-        // A chord of a quarter meets the circle at an eighth of a turn on either side, inwards.
+        // A quarter chord meets the circle at an eighth of a turn on either side, inwards.
         assert!((pair.angles[0] - std::f32::consts::FRAC_PI_4).abs() < 1e-3);
         assert!((pair.angles[1] - 3.0 * std::f32::consts::FRAC_PI_4).abs() < 1e-3);
         assert!(!pair.is_straight());

@@ -1,4 +1,4 @@
-//! A reference as a camera would see it from one side.
+//! A reference as a virtual camera sees it from one side.
 
 use std::sync::OnceLock;
 
@@ -16,28 +16,28 @@ use crate::{
     units::Radians,
 };
 
-/// Side of a pixel of the packed image, metres: finer than the spacing of the points that are looked up in it, and a
-/// quarter of the memory that every inspection reads.
+/// Pixel size of the packed image, metres: finer than the spacing of the points looked up in it, at a quarter of the
+/// memory that every inspection reads.
 const PACKED_PIXEL: f64 = 0.01;
 
 /// The reference as seen from one side.
 #[derive(Clone, Debug)]
 pub struct ReferenceView {
-    /// Where from, part space.
+    /// Position of the virtual camera, part space.
     pub(super) viewpoint: Point3<f64>,
-    /// Takes part space into this view's plane space.
+    /// Transform from part space to this view's plane space.
     pub plane_from_part: RigidTransform,
-    /// The binary image.
+    /// The projection of the visible points.
     pub plane: PlaneImage,
-    /// Its pixels alone, no finer than a centimetre.
+    /// The image as packed bits, with pixels of about a centimetre.
     pub pixels: PackedImage,
-    /// Area of its set pixels, square metres.
+    /// Area of the set pixels, square metres.
     pub image_area: f64,
-    /// Its outline and openings.
+    /// Outline and openings.
     pub contour: Contour,
     /// The outline's signature.
     pub signature: FanSignature,
-    /// Outline and openings on the surface, part space; made when a pose is first tried from this view.
+    /// Outline and openings on the surface, part space; built when a pose is first tried from this view.
     pub(super) edges: OnceLock<EdgePoints>,
 }
 
@@ -70,7 +70,7 @@ impl ReferenceView {
     ) -> Option<Self> {
         let visible = visible_from(cloud, bounds, viewpoint);
         let points: Vec<Point3<f32>> = visible.iter().map(|v| cloud.points[v.0]).collect();
-        // The cloud is even on the surface; a camera sees a tilted surface with fewer pixels.
+        // The cloud is evenly spaced on the surface, but a camera sees a tilted surface with fewer pixels.
         let weight = |i: usize, _: &Point3<f32>| visible[i].1;
         let plane = project_weighted(&points, weight, viewpoint, &params.project).ok()?;
         let contour = find_contour(&plane, &params.contour).ok()?;
@@ -78,8 +78,8 @@ impl ReferenceView {
         Some(Self::new(*viewpoint, plane, contour, signature))
     }
 
-    /// The transform of view-plane space into a scene's plane space, in the plane, that turns by `turn` and carries
-    /// the view's centroid to the scene's.
+    /// Returns the transform, in the plane, from view-plane space to a scene's plane space that rotates by `turn` and
+    /// moves the view's centroid to the scene's.
     pub fn scene_plane_from_view_plane(
         &self,
         turn: Radians,

@@ -1,16 +1,16 @@
-//! Where the view that a reference was captured from cut the part off.
+//! The planes at which the field of view of the capture cuts off a reference.
 //!
-//! A door is larger than what a camera on a robot's flange sees of it. The border of such a reference is only partly the
-//! part's own; elsewhere the part goes on, and nothing beyond speaks against it. The borders of a field of view are
-//! straight, so each is a plane through the camera, the origin of part space.
+//! A door is larger than what a camera on a robot's flange sees of it. The border of such a reference is only partly
+//! the part's own; elsewhere the part continues, and points beyond it are no counter-evidence. The borders of a field
+//! of view are straight, so each is a plane through the camera, which is the origin of part space.
 //!
-//! Known limits: a border that something nearer made is taken for the part's own.
+//! Known limits: a border caused by a nearer object is taken for the part's own.
 
 use nalgebra::Point3;
 
 use crate::stages::{scene::SceneCloud, segment::SegmentedPart};
 
-/// Tangents x / z and y / z of the planes that cut the part off; `None` on a side where it ends by itself.
+/// Tangents x / z and y / z of the planes that cut off the part; `None` on a side where the part itself ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ViewCut {
     /// Towards negative x.
@@ -27,15 +27,15 @@ pub struct ViewCut {
     pub bottom: Option<f64>,
 }
 
-/// A part that comes so close to the border of the view is cut by it, pixels.
+/// Distance to the border of the view up to which a part is cut off by it, pixels.
 const AT_EDGE: u32 = 6;
-/// Shortest stretch of the border that cuts, share of the part's rows or columns.
+/// Shortest stretch of the border that counts as a cut, as a share of the part's rows or columns.
 const LEAST_STRETCH: f64 = 0.04;
-/// Rows or columns of such a stretch at least.
+/// Minimum number of rows or columns of such a stretch.
 const LEAST_LINES: usize = 6;
 
 impl ViewCut {
-    /// Of a part in a captured scene; nothing is cut where the scene is no picture.
+    /// Finds the cuts of a part in a captured scene; none if the scene is not organised.
     pub fn of(part: &SegmentedPart, scene: &SceneCloud) -> Self {
         let (Some(camera), Some(grid)) = (scene.intrinsics, scene.cloud.grid) else {
             return Self::default();
@@ -82,12 +82,13 @@ impl ViewCut {
         }
     }
 
-    /// True if the view cut nothing off.
+    /// Returns true if nothing was cut off.
     pub fn is_nothing(&self) -> bool {
         *self == Self::default()
     }
 
-    /// How far a point of part space lies within the planes, metres; below 0 beyond one of them.
+    /// Returns the distance of a point in part space to the planes, metres; below 0 beyond one of them, infinite
+    /// without cuts.
     pub fn depth_inside(&self, p: &Point3<f64>) -> f64 {
         let Self {
             left,
@@ -120,7 +121,7 @@ mod tests {
         stages::segment::{SegmentParams, segment},
     };
 
-    /// A front door hung so far to the right and down.
+    /// A front door, moved to the right and down.
     fn door_at(right: f64, down: f64) -> (ViewCut, SegmentedPart) {
         let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 3);
         setup.pose = PartPose::Fixed(RigidTransform::translation(right, down, 1.3));
@@ -151,7 +152,7 @@ mod tests {
             .iter()
             .map(|p| cut.depth_inside(&p.cast()));
         let least = depths.fold(f64::INFINITY, f64::min);
-        // A pixel is some 2.5 mm there.
+        // A pixel is about 2.5 mm there.
         assert!(least > -0.03 && least < 0.005, "{least}");
         assert!(cut.depth_inside(&Point3::new(2.0, 0.0, 1.3)) < -0.5);
     }

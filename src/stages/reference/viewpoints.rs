@@ -1,12 +1,12 @@
-//! From where a reference is looked at, and what of it is seen from there.
+//! The viewpoints of a reference, and what is visible from them.
 
 use nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
 
 use super::Coverage;
 use crate::geometry::{cloud::PointCloud, principal::principal_axes};
 
-/// Turns of the viewpoint about the part's long and short axis, degrees. The first is the standard view; the rest
-/// cover ±30° by ±20° so that no scene is further than about 15° from a view.
+/// Rotations of the viewpoint about the part's short and long axis, degrees. The first is the standard view; together
+/// they cover ±30° by ±20°, so that no scene is more than about 15° from a view.
 const TURNS: [[f64; 2]; 9] = [
     [0.0, 0.0],
     [25.0, 0.0],
@@ -19,10 +19,10 @@ const TURNS: [[f64; 2]; 9] = [
     [-20.0, -16.0],
 ];
 
-/// Distance of a virtual camera from the part's centre; nearly parallel rays, as for a part that fills the picture.
+/// Distance of a virtual camera from the part's centre, metres; nearly parallel rays, as for a part that fills the picture.
 pub(super) const VIEW_DISTANCE: f64 = 1.3;
 
-/// Places from which the part is looked at.
+/// Returns the viewpoints for a cloud, part space.
 pub(super) fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<Point3<f64>>> {
     let principal = principal_axes(cloud.finite().map(|(_, p)| (p.cast(), 1.0)))?;
     let (long, short, across) = (
@@ -52,24 +52,24 @@ pub(super) fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<P
     Some(fronts.iter().flat_map(around).collect())
 }
 
-/// Directions that are tried, evenly over the sphere: some 7° apart.
+/// Number of directions to try, evenly distributed over the sphere: about 7° apart.
 const NUM_DIRECTIONS: usize = 800;
-/// Normals that a direction is judged by.
+/// Number of normals used to rate a direction.
 const NUM_NORMALS: usize = 2000;
-/// A part is looked at from where it shows at least this share of the most that it shows from anywhere.
+/// Minimum area visible from a viewpoint, as a share of the largest visible from any direction.
 const LEAST_SHOWN: f64 = 0.55;
-/// Views are at least this far apart: no scene is then further than about 15° from one.
+/// Minimum angle between views, radians: no scene is then more than about 15° from one.
 const VIEWS_APART: f64 = 0.40;
-/// Most views of a scan.
+/// Maximum number of views of a scan.
 const MAX_VIEWS: usize = 24;
 
-/// Directions from which much of a surface is seen whose normals point to the cameras that saw it; the first shows most
-/// of it.
+/// Returns the directions that show much of the surface, whose normals point to the cameras that saw it; the first
+/// shows the most.
 fn seen_directions(cloud: &PointCloud) -> Vec<Vector3<f64>> {
     let normals = cloud.normals.as_deref().unwrap_or_default();
     let step = (normals.len() / NUM_NORMALS).max(1);
     let normals: Vec<Vector3<f32>> = normals.iter().step_by(step).copied().collect();
-    // A Fibonacci spiral is even on the sphere.
+    // A Fibonacci spiral samples the sphere evenly.
     let direction = |i: usize| {
         let z = 1.0 - (2.0 * i as f64 + 1.0) / NUM_DIRECTIONS as f64;
         let turn = i as f64 * std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
@@ -101,7 +101,7 @@ fn seen_directions(cloud: &PointCloud) -> Vec<Vector3<f64>> {
     kept
 }
 
-/// The places that views are taken from, each with the part of the cloud that a camera sees from there.
+/// Returns the viewpoints, each with the points visible from there.
 pub fn seen_around(cloud: &PointCloud, coverage: Coverage) -> Vec<(Point3<f64>, PointCloud)> {
     let Some(bounds) = cloud.bounds() else {
         return Vec::new();
@@ -120,20 +120,20 @@ pub fn seen_around(cloud: &PointCloud, coverage: Coverage) -> Vec<(Point3<f64>, 
     places.into_iter().map(seen_from).collect()
 }
 
-/// Side of a cell of the view's depth buffer, metres: wider than the spacing of a reference cloud.
+/// Cell size of the view's depth buffer, metres: larger than the spacing of a reference cloud.
 const CELL: f32 = 0.015;
-/// How far behind the nearest surface of a cell a point may lie and still be seen, metres.
+/// Depth behind the nearest surface of a cell up to which a point is still visible, metres.
 const CELL_DEPTH: f32 = 0.04;
 
-/// Indices of the points that a camera at `viewpoint` sees, each with the cosine of the angle it is seen at.
+/// Returns the indices of the points visible to a camera at `viewpoint`, each with the cosine of its viewing angle.
 ///
-/// `bounds` are those of the cloud.
+/// `bounds` are the bounds of the cloud.
 pub(super) fn visible_from(
     cloud: &PointCloud,
     (low, high): (Point3<f32>, Point3<f32>),
     viewpoint: &Point3<f64>,
 ) -> Vec<(usize, f64)> {
-    // In f32: all is within metres, and a cell is centimetres.
+    // In f32: everything is within metres, and a cell is centimetres.
     let viewpoint: Point3<f32> = viewpoint.cast();
     let centre = nalgebra::center(&low, &high);
     let forward = (centre - viewpoint).normalize();
@@ -147,7 +147,7 @@ pub(super) fn visible_from(
     let radius = (high - low).norm() / 2.0 + CELL;
     let side = (2.0 * radius / CELL).ceil() as usize + 1;
     let mut nearest = vec![f32::INFINITY; side * side];
-    // Closer than 80° to grazing a depth camera reads next to nothing.
+    // A depth camera gets almost no readings from surfaces tilted by more than 80°.
     let is_seen = |i: usize, towards: &Vector3<f32>| {
         let facing = cloud
             .normals

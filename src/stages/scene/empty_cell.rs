@@ -1,8 +1,8 @@
-//! The empty cell: what the same camera saw with no part in it.
+//! The empty cell: a capture by the same camera without a part.
 //!
-//! Whatever is as far away as it was then is background: wall and floor, and also what stands there always, such as a
-//! stand, a bench or a rail, which no plane describes. A plane of the scene that was not there then is no background,
-//! so a large flat part is never taken for a wall.
+//! Everything at the depth of the empty cell is background: wall and floor, and also fixed objects that no plane
+//! describes, such as a stand, a bench or a rail. A plane that was not there in the empty cell is not background, so a
+//! large flat part is never taken for a wall.
 
 use nalgebra::Point3;
 
@@ -13,26 +13,25 @@ use crate::{
     stages::field_of_view::FieldOfView,
 };
 
-/// Pixels around one in which the nearest reading counts: the edge of a thing wanders by about that from frame to
-/// frame.
+/// Radius in pixels over which the nearest reading counts: object edges move by about that much from frame to frame.
 const REACH: usize = 2;
 
-/// The depth of the empty cell, pixel by pixel.
+/// The depth of the empty cell per pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EmptyCell {
     grid: Grid,
-    /// The nearest depth around each pixel, metres; infinite where nothing was read: nothing there is known.
+    /// Nearest depth around each pixel, metres; infinite where there was no reading.
     nearest: Vec<f32>,
     field_of_view: FieldOfView,
 }
 
-/// Why a capture cannot be the empty cell.
+/// Reason why a capture cannot be the empty cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EmptyCellError {
-    /// It has no rows and columns.
+    /// The capture has no rows and columns.
     #[error("the capture of the empty cell is no picture: its points have no rows and columns")]
     NoPicture,
-    /// It is of another camera than the scene.
+    /// The capture has other rows and columns than the scene, so it is from another camera.
     #[error("the empty cell was captured with other rows and columns, and is left aside")]
     OtherPicture,
 }
@@ -44,18 +43,18 @@ impl Advice for EmptyCellError {
 }
 
 impl EmptyCell {
-    /// Of a capture with nothing but the cell in it.
+    /// Creates the empty cell from a capture without a part.
     pub fn of(scene: &SceneCloud) -> Result<Self, EmptyCellError> {
         let grid = scene.cloud.grid.ok_or(EmptyCellError::NoPicture)?;
         let depths: Vec<f32> = scene.cloud.points.iter().map(depth_of).collect();
-        // Rows first, then columns: the least of a square.
+        // The minimum over a square: rows first, then columns.
         let along = least_around(&depths, grid.width, 1, grid.width);
         let nearest = least_around(&along, grid.height, grid.width, 1);
         Ok(Self::new(grid, nearest))
     }
 
-    /// What is known of it as a cloud, to be written and read back by [`of_cloud`](Self::of_cloud): rows and columns, and
-    /// the nearest depth around each pixel, metres; no reading where nothing is known.
+    /// Returns the empty cell as a cloud for storage, to be read back by [`of_cloud`](Self::of_cloud): rows and
+    /// columns, and the nearest depth around each pixel as z, metres; NaN where it is unknown.
     pub fn to_cloud(&self) -> PointCloud {
         let point = |z: &f32| {
             if z.is_finite() {
@@ -71,7 +70,7 @@ impl EmptyCell {
         }
     }
 
-    /// The cell that [`to_cloud`](Self::to_cloud) told of; `None` if the cloud has no rows and columns.
+    /// Restores the empty cell from [`to_cloud`](Self::to_cloud); `None` if the cloud has no rows and columns.
     pub fn of_cloud(cloud: &PointCloud) -> Option<Self> {
         let grid = cloud.grid?;
         let nearest: Vec<f32> = cloud.points.iter().map(depth_of).collect();
@@ -87,23 +86,23 @@ impl EmptyCell {
         }
     }
 
-    /// Where in the picture the camera could deliver readings.
+    /// Returns the field of view of the capture.
     pub fn field_of_view(&self) -> &FieldOfView {
         &self.field_of_view
     }
 
-    /// True if a scene has the same rows and columns, as every frame of one camera has.
+    /// Returns true if the scene has the same rows and columns.
     pub fn fits(&self, scene: &SceneCloud) -> bool {
         scene.cloud.grid == Some(self.grid)
     }
 
-    /// The nearest depth around a pixel, metres; infinite where nothing is known.
+    /// Returns the nearest depth around a pixel, metres; infinite where it is unknown.
     pub(in crate::stages) fn nearest(&self, pixel: usize) -> f32 {
         self.nearest[pixel]
     }
 }
 
-/// A point's depth; without a reading infinite.
+/// Returns a point's depth; infinite without a reading.
 fn depth_of(point: &Point3<f32>) -> f32 {
     if point.z.is_finite() {
         point.z
@@ -112,8 +111,8 @@ fn depth_of(point: &Point3<f32>) -> f32 {
     }
 }
 
-/// The least value within reach along one direction: `length` values `step` apart, in runs that begin `apart` from
-/// one another.
+/// Returns the minimum within [`REACH`] along one direction: runs of `length` values `step` apart, with the starts of
+/// the runs `apart` from one another.
 fn least_around(values: &[f32], length: usize, step: usize, apart: usize) -> Vec<f32> {
     let mut least = values.to_vec();
     for run in 0..values.len() / length.max(1) {

@@ -1,4 +1,4 @@
-//! The camera of points that came without one.
+//! Reconstructs the picture and the camera of unorganised points.
 
 use nalgebra::Point3;
 
@@ -9,27 +9,27 @@ use crate::geometry::{
     distortion::Distortion,
 };
 
-/// Fewer points than this are no picture.
+/// Minimum number of points for a picture.
 const MIN_PICTURE_POINTS: usize = 1000;
-/// Nearer than this no depth camera reads, metres.
+/// Minimum range of a depth camera, metres.
 const NEAREST_READING: f32 = 0.05;
-/// Width or height of the picture over its distance: 120° of view.
+/// Limit for the picture's width and height at unit distance: a view of about 120°.
 const WIDEST_VIEW: f64 = 3.5;
-/// A picture has more pixels than this along each side.
+/// Minimum number of pixels along each side.
 const LEAST_SIDE: f64 = 7.0;
-/// Points per pixel of the picture that they are put back onto. A capture exported as bare points has lost at most
-/// its pixels without a reading; with about one point and a half per pixel few pixels stay empty.
+/// Points per pixel of the reconstructed picture. A capture exported as bare points lacks only pixels without a
+/// reading, so at 1.4 points per pixel few pixels stay empty.
 const POINTS_PER_PIXEL: f64 = 1.4;
-/// Share of the points that may lie behind another in the same pixel, by more than [`SAME_SURFACE`]: more means that
-/// no single camera saw them.
+/// Maximum share of points whose depth differs from that of another in the same pixel by more than [`SAME_SURFACE`];
+/// more means that no single camera saw them.
 const MAX_HIDDEN_SHARE: f64 = 0.02;
-/// Share of the pixels that are filled at least: a part cut out of its scene leaves the corners of its picture empty,
-/// and the edge of such a picture is no edge of the camera's view.
+/// Minimum share of filled pixels: a part cut out of its scene leaves the corners empty, and the edge of such a picture
+/// is not the edge of the camera's view.
 const MIN_FILLED_SHARE: f64 = 0.75;
-/// Difference in depth, relative to the depth, up to which two points of a pixel are of one surface.
+/// Maximum difference in depth, relative to the depth, between two points of one surface.
 const SAME_SURFACE: f32 = 0.05;
 
-/// Puts points back onto the picture of a camera at the origin; `None` if no such camera saw them all.
+/// Arranges points into the picture of a camera at the origin; `None` if no such camera saw them all.
 pub(super) fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
     let ratios = |p: &Point3<f32>| [p.x / p.z, p.y / p.z];
     let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
@@ -44,7 +44,7 @@ pub(super) fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
             high[axis] = high[axis].max(ratio);
         }
     }
-    // The area of a sliver is no f32 any more.
+    // In f64, because the area of a sliver underflows in f32.
     let [across, down] = [0, 1].map(|axis| f64::from(high[axis] - low[axis]));
     let is_picture = across > 0.0 && down > 0.0 && across.max(down) < WIDEST_VIEW;
     if num_points < MIN_PICTURE_POINTS || !is_picture {
@@ -52,7 +52,7 @@ pub(super) fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
     }
     let focal = (num_points as f64 / POINTS_PER_PIXEL / (across * down)).sqrt();
     let sides = [across, down].map(|x| x * focal);
-    // Above it the other side has fewer pixels than there are points.
+    // This also keeps the number of pixels along the other side below the number of points.
     if !sides.iter().all(|&side| side >= LEAST_SIDE) {
         return None;
     }
@@ -88,7 +88,7 @@ pub(super) fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
             surplus_bytes: cloud.surplus_bytes,
             ..PointCloud::default()
         },
-        // A ratio falls into the pixel whose centre is half a pixel further.
+        // A ratio is truncated to the pixel whose centre is half a pixel further.
         intrinsics: Some(Intrinsics {
             width,
             height,

@@ -1,7 +1,7 @@
-//! Connected surfaces: neighbours that lie close together belong to the same one.
+//! Connected surfaces: groups of neighbouring points that lie close together.
 //!
-//! On an organised cloud neighbours are pixels, runs of them are joined row by row with a union-find, and a few
-//! pixels without a reading are bridged. An unorganised cloud is cut into voxels, and voxels that touch are joined.
+//! On an organised cloud, neighbours are pixels; runs of them are joined row by row with a union-find, bridging a few
+//! pixels without a reading. An unorganised cloud is divided into voxels, and adjacent voxels are joined.
 
 use std::collections::HashMap;
 
@@ -14,19 +14,19 @@ use crate::{
     units::Metres,
 };
 
-/// One connected surface.
+/// A connected surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cluster {
-    /// Points in it.
+    /// Number of points.
     pub num_points: usize,
-    /// Its surface as seen from the camera, square metres.
+    /// Area as seen from the camera, square metres.
     pub area: f64,
     /// True if it reaches the border of the field of view.
     pub touches_edge: bool,
-    /// Share of its border to other surfaces along which it is the nearer one, 0..1: all of a part that nothing hides,
-    /// hardly any of a wall. 1 if it borders on none, or without a picture.
+    /// Share of its border to other surfaces along which it is the nearer one, 0..1: near 1 for an unoccluded part,
+    /// near 0 for a wall. 1 if it borders on none, or without a picture.
     pub in_front: f64,
-    /// Sides of the view on which it is cut off, 0..4; 0 without a picture.
+    /// Number of sides of the view that cut it off, 0..4; 0 without a picture.
     pub sides_cut: usize,
 }
 
@@ -36,12 +36,12 @@ pub(super) struct Members {
     pub(super) indices: Vec<u32>,
 }
 
-/// Pixels without a reading that a surface is followed across: dropouts are rarely wider.
+/// Maximum number of pixels without a reading that a surface may span: dropouts are rarely wider.
 const BRIDGED_PIXELS: usize = 4;
-/// Clusters below this many points are specks and are not listed.
+/// Smaller clusters are specks and are not listed, points.
 const MIN_CLUSTER_POINTS: usize = 50;
 
-/// The connected surfaces among the points labelled `Rest`, largest area first.
+/// Returns the connected surfaces among the points labelled `Rest`, largest area first.
 pub(super) fn connect(
     scene: &SceneCloud,
     labels: &[PointLabel],
@@ -86,7 +86,7 @@ impl Link {
             pixel: scene
                 .intrinsics
                 .map_or(0.0, |camera| 1.0 / camera.fx as f32),
-            // The difference of two noisy depths has √2 of their deviation; four deviations hold all but strays.
+            // The difference of two noisy depths has √2 times their deviation; four deviations include all but outliers.
             noise: (4.0 * std::f64::consts::SQRT_2 * noise_at_1m.0) as f32,
         }
     }
@@ -133,20 +133,20 @@ fn connect_pixels(
     grid: Grid,
     link: Link,
 ) -> Vec<Vec<u32>> {
-    /// Rows of pixels whose runs can still meet those of a new row, and that row.
+    /// Number of rows whose runs can still meet: the current row and those above it within the bridged distance.
     const ROWS: usize = BRIDGED_PIXELS + 2;
     let Grid { width, height } = grid;
-    // A row comes again ROWS rows later: that little stays in the processor's nearest memory.
+    // A circular buffer of ROWS rows, small enough for the processor's fastest cache.
     let mut run_of = vec![NO_RUN; ROWS * width];
     let mut forest = UnionFind {
         parents: Vec::new(),
     };
-    // Enough for all pixels, of which only what is written costs time: growing copies it again and again.
+    // Reserve for all pixels: only the memory written costs time, and growing would copy repeatedly.
     let mut rest: Vec<u32> = Vec::with_capacity(labels.len());
     let mut runs: Vec<u32> = Vec::with_capacity(labels.len());
     for row in 0..height {
         let start = row * width;
-        // Where this row and those above it begin among the runs.
+        // Start of this row and of those above it in `run_of`.
         let begins: [usize; ROWS] = std::array::from_fn(|up| (row + ROWS - up) % ROWS * width);
         let num_above = (BRIDGED_PIXELS + 1).min(row);
         run_of[begins[0]..][..width].fill(NO_RUN);
@@ -164,12 +164,12 @@ fn connect_pixels(
             run_of[begins[0] + i - start] = run;
             runs.push(run);
             previous = Some(i);
-            // The nearest reading above, bridging lost rows.
+            // The nearest reading above, bridging rows without one.
             let above = (1..=num_above)
                 .map(|rows| (i - rows * width, run_of[begins[rows] + i - start]))
                 .find(|(_, above)| *above != NO_RUN);
             if let Some((pixel, above)) = above {
-                // Along a surface the same two runs meet pixel after pixel: one meeting is enough.
+                // Along a surface the same two runs meet at pixel after pixel; joining them once is enough.
                 let meeting = (above, run);
                 if meeting != last_meeting
                     && meeting.0 != run
@@ -215,7 +215,7 @@ fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel]) -> Vec<Vec<u32>
         });
         members[id as usize].push(i as u32);
     }
-    // Through `members`, whose order is that of the points: the map's order must not matter.
+    // Iterate over `members`, which is in the order of the points: the map's order must not matter.
     for (id, group) in members.iter().enumerate() {
         let [x, y, z] = voxel_of(&points[group[0] as usize]);
         for step in 0..27 {
@@ -243,7 +243,7 @@ fn describe(scene: &SceneCloud, indices: &[u32], border: Border) -> Cluster {
         let depths = indices.iter().map(|&i| f64::from(points[i as usize].z));
         depths.map(|z| z * z).sum::<f64>() / (camera.fx * camera.fy)
     } else {
-        // Without a camera: as many squares as the cluster fills voxels.
+        // Without a camera: one square per occupied voxel.
         let mut voxels: Vec<[i64; 3]> = indices
             .iter()
             .map(|&i| points[i as usize])
@@ -262,20 +262,20 @@ fn describe(scene: &SceneCloud, indices: &[u32], border: Border) -> Cluster {
     }
 }
 
-/// Every so many rows and columns are looked along for borders between surfaces.
+/// Step between the rows and columns that are searched for borders between surfaces, pixels.
 const LINE_STEP: usize = 4;
-/// Pixels without a reading across which two surfaces border on each other: the shadow of one on the other.
+/// Maximum number of pixels without a reading between two surfaces that border on each other: the shadow of one on the other.
 const SHADOW: usize = 40;
-/// Marks readings that are of no surface: pixels that mix the depths of two.
+/// Marks readings that belong to no surface: pixels that mix the depths of two.
 const NO_GROUP: u32 = u32::MAX;
 
-/// A reading this close to the end of the view is at it, pixels.
+/// Distance to the end of the view up to which a reading counts as being at it, pixels.
 const MARGIN: u32 = 2;
 
-/// Lines that end with the view from which on a surface is cut off on that side: some 20 pixels.
+/// Minimum number of searched lines that end with the view for a surface to be cut off on that side: about 20 pixels.
 const LEAST_CUT: f64 = 5.0;
 
-/// What the border of a surface is like.
+/// Properties of a surface's border.
 #[derive(Clone, Copy)]
 struct Border {
     /// See [`Cluster::in_front`].
@@ -291,15 +291,15 @@ impl Border {
     };
 }
 
-/// What borders on what in a scene's picture: `group_of` gives the surface of each point, below `num_groups`.
+/// Examines the borders in a scene's picture; `group_of` gives the surface of each point, below `num_groups`.
 fn borders_of(scene: &SceneCloud, group_of: &[u32], num_groups: usize, link: Link) -> Vec<Border> {
     let Some(Grid { width, height }) = scene.cloud.grid else {
         return vec![Border::UNKNOWN; num_groups];
     };
     let points = &scene.cloud.points;
     let view = scene.field_of_view();
-    // Of each group how much of its border is nearer and farther, and how much ends with the view on the left, on the
-    // right, at the top and at the bottom.
+    // Per group: the border length where it is nearer and where it is farther, and the number of lines that end with
+    // the view on the left, on the right, at the top and at the bottom.
     let mut all = vec![[0.0_f64; 6]; num_groups];
     let mut walk = |sides: [usize; 2], pixels: &mut dyn Iterator<Item = usize>| {
         let mut before: Option<(usize, usize)> = None;
@@ -347,7 +347,7 @@ fn borders_of(scene: &SceneCloud, group_of: &[u32], num_groups: usize, link: Lin
         .collect()
 }
 
-/// The surface of each point: its place in `groups`, the number of those for the background.
+/// Returns the surface of each point as an index into `groups`; `groups.len()` stands for the background.
 fn groups_of_points(labels: &[PointLabel], groups: &[Vec<u32>]) -> Vec<u32> {
     let of_label = |label: &PointLabel| match label {
         PointLabel::Background(_) => groups.len() as u32,
@@ -362,7 +362,7 @@ fn groups_of_points(labels: &[PointLabel], groups: &[Vec<u32>]) -> Vec<u32> {
     group_of
 }
 
-/// The figures of some points of a scene, all others taken for other surfaces.
+/// Returns the figures of some points of a scene; all others count as one other surface.
 pub(super) fn figures_of(
     scene: &SceneCloud,
     indices: &[u32],
@@ -378,9 +378,9 @@ pub(super) fn figures_of(
     describe(scene, indices, border)
 }
 
-/// True if these points reach the border of the field of view.
+/// Returns true if the points reach the border of the field of view.
 pub(super) fn touches_edge(scene: &SceneCloud, indices: &[u32]) -> bool {
-    // A handful of stray pixels at the edge does not count.
+    // A few stray pixels at the edge do not count.
     const LEAST: usize = 10;
     let view = scene.cloud.grid.zip(scene.field_of_view());
     view.is_some_and(|(Grid { width, .. }, view)| {

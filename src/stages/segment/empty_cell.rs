@@ -1,4 +1,4 @@
-//! Taking away what stood in the empty cell.
+//! Removes what was there in the empty cell.
 
 use nalgebra::Point3;
 
@@ -9,16 +9,16 @@ use crate::{
     units::Metres,
 };
 
-/// A plane of the scene is one of the cell's if at least this share of its points is no nearer than before.
+/// Minimum share of a plane's points that must be no nearer than the empty cell for the plane to belong to the cell.
 const LEAST_KNOWN: f64 = 0.5;
 
 impl EmptyCell {
-    /// True if a reading is as far away as the cell was there.
+    /// Returns true if a reading is no nearer than the empty cell at that pixel, within the tolerance.
     fn holds(&self, pixel: usize, z: f32, base: f32, noise: f32) -> bool {
         z > self.nearest(pixel) - base - noise * z * z
     }
 
-    /// True if a plane of the scene was there before the part came.
+    /// Returns true if a plane of the scene was there in the empty cell.
     pub(super) fn knows(
         &self,
         plane: &Plane,
@@ -26,7 +26,7 @@ impl EmptyCell {
         noise_at_1m: Metres,
         params: &SegmentParams,
     ) -> bool {
-        /// Every so many readings one is looked at.
+        /// Step between the readings that are tested.
         const STEP: usize = 37;
         let (base, noise) = reach(noise_at_1m, params);
         let on_plane = scene.cloud.finite().step_by(STEP).filter(|(_, p)| {
@@ -41,7 +41,7 @@ impl EmptyCell {
         num_known >= LEAST_KNOWN * num
     }
 
-    /// Marks what was there before the part came; `label` says so.
+    /// Labels the points that were there in the empty cell with `label`.
     pub(super) fn mark(
         &self,
         points: &[Point3<f32>],
@@ -59,7 +59,7 @@ impl EmptyCell {
     }
 }
 
-/// How much nearer a reading may be and still be of the cell: both captures are noisy.
+/// Returns the tolerance for a reading nearer than the empty cell: a base and a noise term. Both captures are noisy.
 fn reach(noise_at_1m: Metres, params: &SegmentParams) -> (f32, f32) {
     let noise = params.noise_factor * noise_at_1m.0 * std::f64::consts::SQRT_2;
     (params.plane_distance.0 as f32, noise as f32)
@@ -80,7 +80,7 @@ mod tests {
         let mut setup = CellSetup::with_part(PartKind::Grille, Side::Left, 0, 4);
         setup.clutter = Clutter::OnFloor;
         let shot = frame(&setup);
-        // The same cell without the part: what showed the part then shows nothing.
+        // The same cell without the part: pixels that showed the part have no reading.
         setup.noise = SensorNoise::kinect(99);
         let mut empty = frame(&setup);
         for (depth, label) in empty.frame.depth.iter_mut().zip(&empty.truth.labels) {

@@ -1,17 +1,17 @@
-//! Segmentation: takes the background planes away and keeps the one connected surface that is the part.
+//! Segmentation: removes the background planes and selects the connected surface that is the part.
 //!
-//! Planes are found by RANSAC (Fischler and Bolles, Communications of the ACM 24(6), 1981) with the number of
-//! samples from the paper's eq. 1, then fitted by least squares. We depart from the paper in three ways, because a
-//! large flat part would otherwise be taken for a third wall, and because a depth camera's noise grows with depth²:
-//! - a plane is background only if (nearly) everything else lies in front of it and it runs out of the picture;
-//! - a point belongs to a plane within a distance that follows the noise, which is measured on the largest plane;
-//! - of what is left, one connected surface is the part, not all of it: the one that fills most of the view, those first
-//!   that lie inside it and in front of others. Bars of a stand that touch it are taken off it.
+//! Planes are found by RANSAC (Fischler and Bolles, Communications of the ACM 24(6), 1981) with the number of samples
+//! from the paper's eq. 1, then fitted by least squares. We deviate from the paper in three ways, because a large flat
+//! part would otherwise be taken for a third wall, and because a depth camera's noise grows with depth²:
+//! - a plane is background only if (nearly) everything else lies in front of it and it extends beyond the picture;
+//! - the distance within which a point belongs to a plane follows the noise, which is measured on the largest plane;
+//! - of the rest, one connected surface is the part, not all of it: the one that fills most of the view, preferring
+//!   surfaces that lie inside it and in front of others. Bars of a stand that touch it are removed.
 //!
-//! The noise is measured on the picture before a plane is known, so that a wall is found at any noise. A capture of the
-//! [`EmptyCell`](super::scene::EmptyCell) fixes wall, floor and whatever else always stands there.
+//! Before a plane is known the noise is estimated from the picture, so that a wall is found at any noise. A capture of
+//! the [`EmptyCell`](super::scene::EmptyCell) defines wall, floor and everything else that is always there.
 //!
-//! Known limits: whatever touches the part, was not there in the empty cell and is no bar joins it.
+//! Known limits: an object that touches the part, was not in the empty cell and is not a bar becomes part of it.
 
 mod clusters;
 mod empty_cell;
@@ -32,27 +32,27 @@ pub use self::{
 };
 use crate::{error::Advice, stages::scene::SceneCloud, units::Metres};
 
-/// Parameters of [`segment`]. The defaults work untouched for a Kinect-like camera.
+/// Parameters of [`segment`]. The defaults suit a Kinect-like camera.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct SegmentParams {
     /// The paper's `d_t`: a point closer than this (plus the noise) to a background plane belongs to it, 1..50 mm.
-    /// Raising it eats what is near the wall.
+    /// Raising it removes points of objects near the wall.
     pub plane_distance: Metres,
-    /// Least standard deviation of the depth at 1 m to reckon with, 0..20 mm; it grows with depth². Used until the
-    /// picture and then a plane show the real one.
+    /// Minimum standard deviation of the depth at 1 m, 0..20 mm; it grows with depth². The picture may raise it, and
+    /// the first background plane replaces it by the measured value.
     pub noise_at_1m: Metres,
-    /// How many standard deviations of noise still belong to a plane, 2..6. Raising it eats what is near the wall,
-    /// lowering it leaves specks of the wall.
+    /// Number of standard deviations of noise within which a point belongs to a plane, 2..6. Raising it removes points
+    /// of objects near the wall, lowering it leaves specks of the wall.
     pub noise_factor: f64,
     /// The paper's p in eq. 1: the probability that at least one sample is good, 0.9..0.9999. Raising it costs time.
     pub good_sample_probability: f64,
-    /// Most planes to take away, 0..4: wall, floor and one more.
+    /// Maximum number of planes to remove, 0..4: wall, floor and one more by default.
     pub max_planes: usize,
-    /// Neighbouring points further apart than this (plus a pixel and the noise) are not connected, 5..100 mm. Raising it joins
-    /// what hangs or stands close to the part, lowering it tears a part that is seen at a flat angle.
+    /// Neighbouring points farther apart than this (plus a pixel and the noise) are not connected, 5..100 mm. Raising
+    /// it joins nearby objects to the part, lowering it splits a part that is seen at a flat angle.
     pub link_distance: Metres,
-    /// Less surface than this, seen from the camera, is no part, square metres, 0.001..1.
+    /// Minimum area of a part as seen from the camera, square metres, 0.001..1.
     pub min_part_area: f64,
     /// Seed of the random samples, 0..999 999.
     pub seed: u64,
@@ -73,12 +73,12 @@ impl Default for SegmentParams {
     }
 }
 
-/// What a point of the scene was taken for.
+/// Classification of a point of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PointLabel {
-    /// The camera had no reading here.
+    /// No reading here.
     NoReading,
-    /// On (or behind) the background plane of this number; one more than the last of them: what stood in the empty cell.
+    /// On or behind the background plane of this index; the number of planes stands for the empty cell.
     Background(u8),
     /// Neither background nor part.
     Rest,
@@ -86,54 +86,55 @@ pub enum PointLabel {
     Part,
 }
 
-/// Everything that segmentation found.
+/// Result of the segmentation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segmentation {
     /// One label per point of the scene.
     pub labels: Vec<PointLabel>,
-    /// The planes taken away, in the order found.
+    /// The removed planes, in the order found.
     pub planes: Vec<BackgroundPlane>,
-    /// The connected surfaces left, largest first, each with the stand that touches it.
+    /// The remaining connected surfaces, largest first, including a stand that touches them.
     pub clusters: Vec<Cluster>,
-    /// Standard deviation of the depth at 1 m, measured on the largest plane, else as given in the parameters.
+    /// Standard deviation of the depth at 1 m, measured on the first background plane; without one, the larger of
+    /// the picture's and the parameter's.
     pub noise_at_1m: Metres,
-    /// The part, or why there is none.
+    /// The part, or the reason why there is none.
     pub part: Result<SegmentedPart, NoPart>,
 }
 
-/// Why no part was found.
+/// Reason why no part was found.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum NoPart {
-    /// The scene holds too few points for anything.
+    /// The scene has too few points.
     #[error("the scene has {found} readings, at least {needed} are needed")]
     TooFewPoints {
-        /// Finite points of the scene.
+        /// Number of finite points in the scene.
         found: usize,
-        /// Least number of points.
+        /// Minimum number of points.
         needed: usize,
     },
-    /// Far larger than any cell.
+    /// The scene is far larger than any cell.
     #[error("the scene spans {extent:.0} m and holds nothing the size of a part")]
     TooWide {
         /// Largest extent, metres.
         #[serde(rename = "extent_m")]
         extent: f64,
     },
-    /// Nothing of a part's size is left once the background is gone.
+    /// Nothing of a part's size remains without the background.
     #[error(
         "nothing the size of a part stands in front of the background ({planes} planes removed, largest rest {found:.3} m², needed {needed:.3} m²)"
     )]
     OnlyBackground {
-        /// Planes taken away.
+        /// Number of planes removed.
         planes: usize,
-        /// Largest connected surface left, square metres.
+        /// Area of the likeliest remaining surface, square metres.
         #[serde(rename = "found_m2")]
         found: f64,
-        /// Least surface of a part, square metres.
+        /// Minimum area of a part, square metres.
         #[serde(rename = "needed_m2")]
         needed: f64,
-        /// True if what stood in the empty cell is background too.
+        /// True if there is a capture of the empty cell.
         knows_cell: bool,
     },
 }
@@ -159,12 +160,12 @@ impl Advice for NoPart {
     }
 }
 
-/// Fewer readings than this cannot show a part: a hand-sized patch at 2 m already gives more.
+/// Minimum number of readings: a hand-sized patch at 2 m already gives more.
 const MIN_POINTS: usize = 200;
 
-/// Finds the background planes and the part before them.
+/// Finds the background planes and the part in front of them.
 pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
-    // The rest need not be counted.
+    // Counting to the minimum is enough.
     let found = scene.cloud.finite().take(MIN_POINTS).count();
     if found < MIN_POINTS {
         return Segmentation {
@@ -205,7 +206,7 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
 }
 
 impl Segmentation {
-    /// Takes another surface for the part.
+    /// Replaces the part by another surface.
     pub fn take(&mut self, part: SegmentedPart) {
         for label in &mut self.labels {
             if *label == PointLabel::Part {
@@ -221,7 +222,7 @@ impl Segmentation {
     }
 }
 
-/// A scene wider than this is no cell: a file in millimetres reads as a thousand times as wide, metres.
+/// Maximum extent of a scene, metres; a file in millimetres appears a thousand times as large.
 const WIDEST_SCENE: f64 = 200.0;
 
 fn too_wide(scene: &SceneCloud) -> Option<NoPart> {

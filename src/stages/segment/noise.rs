@@ -1,27 +1,27 @@
-//! The depth's noise, from the picture itself: no plane need be known yet.
+//! Estimates the noise of the depth from the picture itself, before any plane is known.
 //!
 //! The reciprocal of depth is linear over the picture of a plane, however it is tilted, and the error of a
-//! structured-light sensor is one of the disparity, so equal in 1/z at all depths. The second difference of 1/z over
-//! three readings in a row is therefore six times the noise's variance wherever a surface is flat; jumps and curved
-//! places are the large ones, and are trimmed off.
+//! structured-light sensor is one of the disparity, so it is constant in 1/z at all depths. Where a surface is flat,
+//! the mean square of the second difference of 1/z over three readings in a row is therefore six times the noise's
+//! variance; jumps and curved places give the largest values, which are trimmed.
 
 use crate::{stages::scene::SceneCloud, units::Metres};
 
-/// Noise that is believed, metres at 1 m: a perfect (rendered) or warped scene neither switches the tolerance off nor
-/// opens it wide.
+/// Limits of the estimate, metres at 1 m: a perfect (rendered) scene must not disable the tolerance, nor a warped
+/// one open it wide.
 pub(super) const NOISE_RANGE: [f64; 2] = [0.0003, 0.008];
-/// Pixels between the three readings: the noise of neighbours is the same noise.
+/// Pixels between the three readings: neighbouring pixels share the same noise.
 const STEP: usize = 8;
-/// Every so many pixels, both ways, a second difference is taken; with the two directions about 2 400 of a Kinect's.
+/// Step between samples in both directions, pixels; with the two directions about 2 400 samples for a Kinect.
 const EVERY: usize = 16;
-/// Fewer second differences than this tell nothing.
+/// Minimum number of second differences.
 const LEAST: usize = 200;
 /// Share of the second differences that is kept, the smallest.
 const KEPT: f64 = 0.7;
 /// Mean square of the smallest 70 % of a normal distribution of variance 1, by magnitude.
 const KEPT_VARIANCE: f64 = 0.310;
 
-/// Standard deviation of the depth at 1 m; `None` if the scene is no picture or nearly empty.
+/// Returns the standard deviation of the depth at 1 m; `None` if the scene is not organised or nearly empty.
 pub fn noise_of_picture(scene: &SceneCloud) -> Option<Metres> {
     let grid = scene.cloud.grid?;
     let points = &scene.cloud.points;

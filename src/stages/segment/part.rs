@@ -1,4 +1,4 @@
-//! Which of the connected surfaces is the part, and the part's points alone.
+//! Selects the connected surface that is the part, and extracts its points.
 
 use super::{
     BackgroundPlane, Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation,
@@ -14,58 +14,58 @@ use crate::{
     units::Metres,
 };
 
-/// The points of the part alone.
+/// The points of the part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SegmentedPart {
     /// The part's points, metres, camera space, unorganised, in the scene's order.
     pub cloud: PointCloud,
-    /// For each of them its index in the scene, ascending.
+    /// Index of each point in the scene, ascending.
     pub indices: Vec<u32>,
-    /// The places in the scene, ascending, of what touches the part and was taken for a stand's; not among the points.
+    /// Indices in the scene, ascending, of points that touch the part but belong to a stand; not among its points.
     pub stand: Vec<u32>,
     /// Standard deviation of a point's depth at 1 m; it grows with depth².
     pub noise_at_1m: Metres,
-    /// True if the part reaches the edge of the picture, so that some of it may be missing.
+    /// True if the part reaches the edge of the view, so that some of it may be missing.
     pub touches_edge: bool,
-    /// True if it is to be looked for as a piece, whatever its outline: a clamp on it, or a hole in it, changes that.
+    /// True if the part is to be searched for as a piece regardless of its outline, which a clamp or a hole changes.
     pub is_piece: bool,
-    /// What is known of the surface; `None` of a cloud that holds nothing but the part.
+    /// Figures of the surface; `None` if the cloud holds only the part.
     pub surface: Option<Cluster>,
 }
 
-/// Why a surface is more likely background than a part.
+/// Reason why a surface is more likely background than a part.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum BackgroundSign {
-    /// Others stand before it.
+    /// Other surfaces are in front of it.
     #[error("it lies behind other surfaces along {:.0} % of its border", share * 100.0)]
     Behind {
         /// Share of its border to other surfaces along which those are nearer, 0..1.
         share: f64,
     },
-    /// It runs out of the view on most sides.
+    /// The view cuts it off on most sides.
     #[error("the view cuts it off on {sides} sides")]
     Cut {
-        /// Sides of the view that it reaches.
+        /// Number of sides of the view that it reaches.
         sides: usize,
     },
-    /// It is as flat as a wall, and large.
+    /// It is large and as flat as a wall.
     #[error("it is a flat surface of {area:.2} m²")]
     Flat {
-        /// Its area, square metres.
+        /// Area, square metres.
         area: f64,
     },
 }
 
-/// A surface that is cut off on as many sides is as likely a wall.
+/// Number of sides cut off from which a surface is as likely a wall.
 const MOST_CUT: usize = 3;
-/// A flat surface of at least this is as likely a wall, square metres.
+/// Area from which a flat surface is as likely a wall, square metres.
 const LARGE: f64 = 0.4;
-/// What a flat surface is out of plane by, beyond the noise, metres (standard deviation): a sheet of a car is pressed
-/// into a curve of centimetres.
+/// Maximum deviation of a flat surface from its plane, beyond the noise, metres (standard deviation): car body
+/// sheets are curved by centimetres.
 const FLAT: f64 = 0.003;
 
 impl SegmentedPart {
-    /// Why it is more likely background than a part, if there is a sign of that.
+    /// Returns the reason why the part is more likely background, if there is one.
     pub fn background_sign(&self) -> Option<BackgroundSign> {
         let surface = self.surface?;
         if surface.in_front < IN_FRONT {
@@ -89,13 +89,13 @@ impl SegmentedPart {
         principal.is_some_and(|principal| principal.variances[2].sqrt() < FLAT + noise)
     }
 
-    /// A cloud that holds nothing but the part.
+    /// Creates a part from a cloud that holds nothing else.
     pub fn whole(cloud: &PointCloud) -> Self {
         let indices: Vec<u32> = cloud.finite().map(|(i, _)| i as u32).collect();
         Self::of(cloud, indices, SegmentParams::default().noise_at_1m, false)
     }
 
-    /// The readings of a scene at these places, ascending.
+    /// Selects the readings of a scene at the given indices, which must be ascending.
     pub fn selected(scene: &SceneCloud, indices: &[u32], params: &SegmentParams) -> Self {
         let is_reading = |i: &u32| {
             let point = scene.cloud.points.get(*i as usize);
@@ -115,7 +115,7 @@ impl SegmentedPart {
         }
     }
 
-    /// The same part in the mirrored scene.
+    /// Returns the same part in the mirrored scene.
     #[must_use]
     pub fn mirrored(&self, mirrored_scene: &SceneCloud) -> Self {
         let mut indices = self.indices.clone();
@@ -161,7 +161,7 @@ impl SegmentedPart {
         }
     }
 
-    /// A connected surface without the stand that touches it.
+    /// Creates a part from a connected surface, without the stand that touches it.
     fn of_surface(
         scene: &SceneCloud,
         members: Vec<u32>,
@@ -178,7 +178,7 @@ impl SegmentedPart {
         }
     }
 
-    /// The first of its points, or of its stand's: the first of the connected surface that it is of.
+    /// Returns the lowest index among the part and its stand, which is the first index of its connected surface.
     fn first_of_surface(&self) -> Option<&u32> {
         self.indices
             .first()
@@ -188,8 +188,7 @@ impl SegmentedPart {
     }
 }
 
-/// The places in the scene of the points of every connected surface, ascending; in the order of
-/// [`Segmentation::clusters`].
+/// Returns the indices of the points of every connected surface, ascending; in the order of [`Segmentation::clusters`].
 pub fn surfaces(
     scene: &SceneCloud,
     segmentation: &Segmentation,
@@ -203,16 +202,16 @@ pub fn surfaces(
     connected(scene, &labels, segmentation.noise_at_1m, params)
 }
 
-/// The places of the points of every connected surface of a scene that is all part, largest first.
+/// Returns the point indices of every connected surface of a scene without background, largest first.
 pub fn pieces(scene: &SceneCloud, params: &SegmentParams) -> Vec<Vec<u32>> {
     let labels = label_readings(&scene.cloud.points);
     connected(scene, &labels, params.noise_at_1m, params)
 }
 
-/// A surface smaller than this share of the largest one is not looked at as a part.
+/// Minimum area of another surface, as a share of the largest.
 const LEAST_SHARE: f64 = 0.1;
 
-/// The surfaces beside the one that was taken for the part, the likeliest first, at most `limit`.
+/// Returns up to `limit` surfaces other than the selected part, the likeliest first.
 pub fn other_segments(
     scene: &SceneCloud,
     segmentation: &Segmentation,
@@ -256,13 +255,13 @@ pub fn other_segments(
         .collect()
 }
 
-/// A surface that is the nearer one along less than this share of its border lies behind others.
+/// Minimum share of its border along which a surface is the nearer one; below it, the surface lies behind others.
 const IN_FRONT: f64 = 0.5;
 
-/// Fewer points than this share more on bars make no other part.
+/// Minimum share of the part's points that removing its bars must take off.
 const LEAST_ON_BARS: f64 = 0.05;
 
-/// The part without these bars, its stand's or its own; `None` where that takes nothing more off.
+/// Removes bars from the part and its stand; `None` if that removes hardly any more points.
 pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart, bars: Bars) -> Option<SegmentedPart> {
     let mut members = part.indices.clone();
     members.extend(&part.stand);
@@ -273,8 +272,8 @@ pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart, bars: Bars) -> Opt
     (num_taken > least && bare.indices.len() >= MIN_POINTS).then_some(bare)
 }
 
-/// How likely a surface is the part: the more of the view it fills, the more, since the camera looks at the part. But what
-/// runs out of the view is more often a strip of floor or a neighbour, and what lies behind others is a wall.
+/// Rates how likely a surface is the part: the more of the view it fills, the more likely, since the camera looks at the
+/// part. A surface cut off by the view is more often a strip of floor or a neighbour, and one behind others is a wall.
 fn part_prior(cluster: &Cluster) -> f64 {
     let in_front = (cluster.in_front / IN_FRONT).min(1.0).powi(2);
     cluster.num_points as f64 * in_front * if cluster.touches_edge { 0.4 } else { 1.0 }

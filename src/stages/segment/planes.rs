@@ -1,4 +1,4 @@
-//! The background: wall, floor and at most one more plane, found by RANSAC on a subset of the scene.
+//! The background: wall, floor and at most one more plane by default, found by RANSAC on a subset of the scene.
 
 use nalgebra::{Point3, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -15,7 +15,7 @@ use crate::{
     units::Metres,
 };
 
-/// A plane that was taken away.
+/// A background plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BackgroundPlane {
     /// The plane in camera space, its normal towards the camera.
@@ -29,20 +29,19 @@ pub(super) struct Background {
     pub(super) noise_at_1m: Metres,
 }
 
-/// A plane that holds less of the scene than this is not searched for: a floor seen as a strip along the lower edge
-/// of the picture holds a few per cent.
+/// Minimum share of the scene on a plane: a floor seen as a strip along the lower edge of the picture holds a few per cent.
 const MIN_INLIER_SHARE: f64 = 0.012;
-/// Chance that both neighbours of a point lie on the same surface as the point itself, used for local samples.
-/// Measured on simulated frames as 0.6 to 0.9; the low end costs time only.
+/// Probability that both neighbours of a point lie on the same surface as the point, used for local samples. Measured
+/// on simulated frames as 0.6 to 0.9; a lower value only costs time.
 const SAME_SURFACE: f64 = 0.5;
-/// At most this share of everything else may lie behind a background plane (reflections, an open door).
+/// Maximum share of all other points behind a background plane (reflections, an open door).
 const MAX_BEHIND_SHARE: f64 = 0.04;
-/// Share of the border of the field of view that a background plane covers at least: a floor seen only along the lower edge
-/// covers a quarter, a part that hangs inside the picture nothing.
+/// Minimum share of the border of the field of view covered by a background plane: a floor seen only along the lower
+/// edge covers a quarter, a part that hangs inside the picture nothing.
 const MIN_EDGE_SHARE: f64 = 0.08;
-/// Share of the points that lie before a background plane at least, where the picture ends with the points.
+/// Minimum share of the points off a background plane if the picture ends with the points.
 const LEAST_FOREGROUND: f64 = 0.03;
-/// Planes looked at before giving up, so that a faceted part costs bounded time.
+/// Maximum number of planes examined, so that a faceted part takes bounded time.
 const MAX_CANDIDATES: usize = 6;
 
 pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Background {
@@ -51,9 +50,9 @@ pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Bac
     let subset = Subset::new(scene, params, noise_at_1m);
     let mut rng = Pcg64::seed_from_u64(params.seed);
     let mut planes: Vec<BackgroundPlane> = Vec::new();
-    // Points that no plane has claimed yet, background or not.
+    // Points not yet assigned to a plane, background or not.
     let mut unclaimed: Vec<u32> = (0..subset.len() as u32).collect();
-    // Points on no background plane: what a further background plane must lie behind.
+    // Points on no background plane; further background planes must lie behind them.
     let mut foreground = vec![true; subset.len()];
     for _ in 0..MAX_CANDIDATES {
         let too_few = (unclaimed.len() as f64) < MIN_INLIER_SHARE * subset.len() as f64;
@@ -67,7 +66,7 @@ pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Bac
             break;
         };
         let is_alone = inliers.len() as f64 > (1.0 - LEAST_FOREGROUND) * subset.len() as f64;
-        // Without a view around it a plane that is alone may as well be a flat part.
+        // Without a view around it, a plane on its own may be a flat part.
         let may_be_part = is_alone && scene.edge == PictureEdge::Points;
         if !may_be_part && is_background(&subset, &plane, &inliers, &foreground) {
             if planes.is_empty() {
@@ -89,7 +88,7 @@ pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Bac
     }
 }
 
-/// Marks what lies on or behind a background plane.
+/// Labels the points on or behind a background plane.
 pub(super) fn label_background(
     points: &[Point3<f32>],
     planes: &[BackgroundPlane],
@@ -111,8 +110,8 @@ pub(super) fn label_background(
         }
         for (k, (n, offset)) in planes.iter().enumerate() {
             let along_normal = n[0] * p.x + n[1] * p.y + n[2] * p.z;
-            // Depth noise of n·z² moves the point along its ray by that much per metre of depth, and so along the
-            // normal by noise · z² · (normal · ray): little for a floor seen at a grazing angle.
+            // Depth noise of `noise · z²` moves the point along its ray, and so along the normal by `noise · z² ·
+            // (normal · ray)` for a ray with z = 1: little for a floor seen at a grazing angle.
             if along_normal + offset < base + noise * p.z.abs() * along_normal.abs() {
                 return PointLabel::Background(k as u8);
             }
@@ -122,13 +121,13 @@ pub(super) fn label_background(
     points.iter().map(label).collect()
 }
 
-/// The number of samples after which a good one was drawn with probability `p` (eq. 1), for a share of good samples
-/// of `good_share` (the paper's (1 - ε)^s).
+/// Returns the number of samples that contain a good one with probability `p` (eq. 1), for a share of good samples of
+/// `good_share` (the paper's (1 - ε)^s).
 fn num_samples(p: f64, good_share: f64) -> usize {
     ((1.0 - p).ln() / (1.0 - good_share.clamp(1e-6, 1.0 - 1e-9)).ln()).ceil() as usize
 }
 
-/// RANSAC: the plane through three points that most unclaimed points lie on.
+/// RANSAC: finds the plane through three points that contains most unclaimed points.
 fn best_plane(
     subset: &Subset,
     unclaimed: &[u32],
@@ -192,7 +191,7 @@ fn count_inliers(x: &[f32], y: &[f32], z: &[f32], reach: &[f32], plane: &Plane) 
     count
 }
 
-/// Least squares over the inliers, twice, each weighted by the inverse variance of its depth.
+/// Fits the plane to its inliers twice by least squares, weighted by the inverse variance of the depth.
 fn refine(subset: &Subset, unclaimed: &[u32], plane: Plane) -> Option<(Plane, Vec<u32>)> {
     let mut plane = plane;
     for _ in 0..2 {
@@ -204,7 +203,7 @@ fn refine(subset: &Subset, unclaimed: &[u32], plane: Plane) -> Option<(Plane, Ve
             .map(|(p, _)| (p, p.z.powi(-4)));
         plane = Plane::fit(inliers)?;
     }
-    // The camera is at the origin of its own space.
+    // The camera is at the origin of camera space.
     let plane = plane.facing(&Point3::origin());
     let inliers = unclaimed
         .iter()
@@ -216,7 +215,7 @@ fn refine(subset: &Subset, unclaimed: &[u32], plane: Plane) -> Option<(Plane, Ve
     Some((plane, inliers))
 }
 
-/// True when (nearly) all of the foreground lies in front of the plane and the plane runs out of the picture.
+/// Returns true if (nearly) all of the foreground is in front of the plane and the plane extends beyond the picture.
 fn is_background(subset: &Subset, plane: &Plane, inliers: &[u32], foreground: &[bool]) -> bool {
     let (mut behind, mut total) = (0.0, 0.0_f64);
     for i in (0..subset.len() as u32).filter(|&i| foreground[i as usize]) {
@@ -244,7 +243,7 @@ fn runs_out_of_the_picture(subset: &Subset, plane: &Plane, inliers: &[u32]) -> b
     }
 }
 
-/// Without a picture: the plane's points reach further than all others, along at least one direction of the plane.
+/// Without a picture: returns true if the plane's points extend farther than all others along a direction of the plane.
 fn spreads_wider_than_the_rest(subset: &Subset, plane: &Plane, inliers: &[u32]) -> bool {
     let across = plane.normal.cross(&Vector3::x());
     let across = if across.norm() > 0.1 {
@@ -267,13 +266,13 @@ fn spreads_wider_than_the_rest(subset: &Subset, plane: &Plane, inliers: &[u32]) 
             &mut (0..subset.len() as u32).filter(|i| inliers.binary_search(i).is_err()),
             direction,
         );
-        // Without anything else the cloud is the plane itself: an isolated flat part.
+        // If there is nothing else, the cloud is the plane itself: an isolated flat part.
         others.is_finite() && own > 1.2 * others
     })
 }
 
-/// Standard deviation of depth at 1 m from the points' distances to a plane, by their median; `None` when the plane
-/// is seen at too flat an angle to tell.
+/// Estimates the standard deviation of depth at 1 m from the points' median distance to a plane; `None` if too few
+/// points see the plane at a steep enough angle.
 fn measured_noise(subset: &Subset, plane: &Plane, inliers: &[u32]) -> Option<Metres> {
     let mut deviations: Vec<f64> = inliers
         .iter()
@@ -289,7 +288,7 @@ fn measured_noise(subset: &Subset, plane: &Plane, inliers: &[u32]) -> Option<Met
     }
     let middle = deviations.len() / 2;
     let (_, median, _) = deviations.select_nth_unstable_by(middle, f64::total_cmp);
-    // 1.4826 turns the median absolute deviation of a normal distribution into its standard deviation.
+    // 1.4826 converts the median absolute deviation of a normal distribution into its standard deviation.
     Some(Metres(
         (1.4826 * *median).clamp(NOISE_RANGE[0], NOISE_RANGE[1]),
     ))

@@ -1,11 +1,11 @@
-//! Stands and hangers that touch the part: bars that do not go on from its surface are taken off it.
+//! Removes stands and hangers that touch the part: bars that are not a continuation of its surface.
 //!
-//! An opening of the part's picture (J. Serra, "Image Analysis and Mathematical Morphology", 1982) leaves what is wider
-//! than a tube. Of what it takes away, corners and tips come back, and so does a bar that begins in the surface it
-//! touches, such as the frame of a window. A bar that begins a centimetre before or behind that surface is a stand's.
+//! A morphological opening of the part's picture (J. Serra, "Image Analysis and Mathematical Morphology", 1982) keeps
+//! everything wider than a tube. Of the rest, corners and tips are restored, and so are bars that begin in the surface they
+//! touch, such as a window frame. A bar that begins a centimetre in front of or behind that surface belongs to a stand.
 //!
-//! Known limits: of a part that is bars all over nothing is taken off. A tube that lies in the surface beside the part, or
-//! is wider than 56 mm, stays; a thin tip that is bent by a centimetre goes.
+//! Known limits: nothing is removed from a part that consists only of bars. A tube that lies in the surface beside the
+//! part, or is wider than 56 mm, stays; a thin tip that is bent by a centimetre is removed.
 
 use nalgebra::{Point3, Vector3};
 
@@ -14,41 +14,41 @@ use crate::{
     stages::{field_of_view::FieldOfView, scene::SceneCloud},
 };
 
-/// Half the width from which on a bar is no tube, metres: stands are made of tubes of 20 to 50 mm.
+/// Maximum half width of a tube, metres: stands are made of tubes of 20 to 50 mm.
 const RADIUS: f32 = 0.028;
-/// Half the width of the gaps that are closed where an opening leaves too little, metres: the slots of a grille.
+/// Half width of the gaps that are closed if an opening leaves too little, metres: the slots of a grille.
 const CLOSED: f32 = 0.016;
-/// Share of the part that an opening leaves, at least.
+/// Minimum share of the part that an opening must leave.
 const LEAST_LEFT: f64 = 0.55;
-/// The same where all bars are taken off, and how much wider those may be: two tubes beside each other, or one and its clamp.
+/// The same if all bars are removed, and the factor by which those may be wider: two tubes side by side, or a tube
+/// and its clamp.
 const LEAST_BARE: f64 = 0.25;
 const WIDE: f32 = 1.6;
-/// Smaller pieces that an opening leaves, shares of the largest, are feet and joints of the stand.
+/// Pieces left by an opening that are smaller than this share of the largest are feet and joints of the stand.
 const LEAST_PIECE: f64 = 0.2;
-/// What ends this close to the body is a corner or a tip of it, metres.
+/// A bar that ends within this distance of the body's core is a corner or a tip, metres.
 const TIP: f32 = 0.085;
-/// How far from the place where a bar begins its own surface and that of the body are compared, metres.
+/// Distance from the start of a bar within which its surface and that of the body are compared, metres.
 const NEAR: f32 = 0.06;
-/// A bar that begins this far from the surface it touches is a stand's, metres.
+/// Minimum offset of a bar from the surface it touches to belong to a stand, metres.
 const STEP: f64 = 0.0095;
-/// A strip that begins along this many times its depth is the folded edge of a sheet.
+/// A strip attached along more than this many times its reach is the folded edge of a sheet.
 const FOLD: f32 = 2.5;
-/// Pixels of the scene per cell of the mask, each way.
+/// Pixels of the scene per cell of the mask, in each direction.
 const CELL: usize = 2;
 
-/// Which bars are taken off a surface.
+/// The bars to remove from a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bars {
-    /// Those that do not go on from the surface they touch.
+    /// Bars that are not a continuation of the surface they touch.
     OffSurface,
-    /// All, even where little is left: whether they are the part's is for the references to say.
+    /// All bars, even if little is left; the references decide whether they belong to the part.
     All,
-    /// All but those between narrow slots: the slats of a grille.
+    /// All bars except those between narrow slots: the slats of a grille.
     AllButSlats,
 }
 
-/// Divides a connected surface, by its points' places in the scene in ascending order, into the part and what belongs to
-/// a stand.
+/// Divides a connected surface into the part and its stand; all three are ascending indices in the scene.
 pub(super) fn remove_stand(
     scene: &SceneCloud,
     surface: Vec<u32>,
@@ -69,19 +69,19 @@ pub(super) fn remove_stand(
 struct Mask {
     grid: Grid,
     camera: Intrinsics,
-    /// First cell, column and row.
+    /// Column and row of the first cell.
     first: [usize; 2],
     width: usize,
     height: usize,
-    /// Whether the surface is there.
+    /// True where the surface is.
     is_set: Vec<bool>,
-    /// Whether the camera cannot see there: the surface may go on.
+    /// True where the camera cannot see, so that the surface may continue.
     is_beyond: Vec<bool>,
-    /// Depth of the surface, its mean where it is not, metres.
+    /// Depth of the surface, metres; its mean depth where there is no surface.
     depth: Vec<f32>,
 }
 
-/// Cells around the surface.
+/// Number of cells around the surface.
 const MARGIN: usize = 4;
 
 impl Mask {
@@ -102,7 +102,7 @@ impl Mask {
             sum += f64::from(scene.cloud.points[i as usize].z);
         }
         let mean = (sum / surface.len() as f64) as f32;
-        // Nothing is a tube where a tube is hardly a cell wide, or where the whole surface is not wider than one.
+        // Give up if half a tube's width is less than a cell.
         let radius = RADIUS * camera.fx as f32 / mean / CELL as f32;
         if surface.is_empty() || !(radius >= 1.0) {
             return None;
@@ -144,7 +144,7 @@ impl Mask {
         (v / CELL - self.first[1]) * self.width + u / CELL - self.first[0]
     }
 
-    /// The first pixel of a cell.
+    /// Returns the first pixel of a cell.
     fn pixel_of(&self, cell: usize) -> [usize; 2] {
         let (column, row) = (cell % self.width, cell / self.width);
         [
@@ -153,7 +153,7 @@ impl Mask {
         ]
     }
 
-    /// Side of a cell on the surface, metres.
+    /// Returns the side of a cell on the surface, metres.
     fn size(&self, cell: usize) -> f32 {
         self.depth[cell] / self.camera.fx as f32 * CELL as f32
     }
@@ -164,7 +164,7 @@ impl Mask {
             .point_at(u as f64, v as f64, f64::from(self.depth[cell]))
     }
 
-    /// Which cells are a stand's; `None` if none is.
+    /// Returns the cells that belong to a stand; `None` if there are none.
     fn stand(&self, bars: Bars) -> Option<Vec<bool>> {
         let (half_width, tip, least_left) = match bars {
             Bars::OffSurface => (RADIUS, TIP, LEAST_LEFT),
@@ -209,12 +209,12 @@ impl Mask {
         stand.contains(&true).then_some(stand)
     }
 
-    /// True if a bar does not go on from the surface of the body that it touches.
+    /// Returns true if a bar is not a continuation of the surface of the body that it touches.
     fn is_of_a_stand(&self, bar: &[usize], off: &[bool], body: &[bool], reach: f32) -> bool {
         let is_beside = |cell: &usize| self.neighbours(*cell).any(|beside| body[beside]);
         let touching: Vec<usize> = bar.iter().copied().filter(is_beside).collect();
         let Some(&first) = touching.first() else {
-            // Held by single pixels.
+            // Connected only across pixels without a reading.
             return true;
         };
         let size = self.size(first);
@@ -232,21 +232,21 @@ impl Mask {
         surface.signed_distance(&middle).abs() > STEP
     }
 
-    /// The cells that are wider than a tube, and those of the surface that lie around them.
+    /// Returns the cells of the core, which is wider than a tube, and the cells of the surface around them.
     fn opened(&self, filled: &[bool], half_width: f32) -> (Vec<bool>, Vec<bool>) {
         let is_gap = |i: usize| !filled[i] && !self.is_beyond[i];
         let from_gap = self.distances(&(0..filled.len()).map(is_gap).collect::<Vec<_>>());
         let is_core = |i: usize| filled[i] && from_gap[i] * self.size(i) > half_width;
         let core: Vec<bool> = (0..filled.len()).map(is_core).collect();
         let from_core = self.distances(&core);
-        // A cell more than the radius: distances are taken between the middles of cells.
+        // One cell more than the radius, because distances are measured between cell centres.
         let is_left =
             |i: usize| self.is_set[i] && (from_core[i] - 1.0) * self.size(i) <= half_width;
         let left = (0..filled.len()).map(is_left).collect();
         (core, left)
     }
 
-    /// The surface with its narrow gaps filled.
+    /// Returns the surface with its narrow gaps filled.
     fn closed(&self) -> Vec<bool> {
         let from_set = self.distances(&self.is_set);
         let is_far = |i: usize| from_set[i] * self.size(i) > CLOSED;
@@ -256,13 +256,13 @@ impl Mask {
         (0..from_far.len()).map(is_filled).collect()
     }
 
-    /// Distance of each cell to the nearest true one, in cells: chamfer 3-4 (G. Borgefors, "Distance transformations in
-    /// digital images", Computer Vision, Graphics, and Image Processing 34(3), 1986).
+    /// Returns the distance of each cell to the nearest true one, in cells: chamfer 3-4 (G. Borgefors, "Distance
+    /// transformations in digital images", Computer Vision, Graphics, and Image Processing 34(3), 1986).
     fn distances(&self, to: &[bool]) -> Vec<f32> {
         const FAR: i32 = 1 << 20;
         let (width, height) = (self.width, self.height);
         let mut third: Vec<i32> = to.iter().map(|is| if *is { 0 } else { FAR }).collect();
-        // The outermost cells are margin and have no neighbours on all sides.
+        // The outermost cells are margin and lack some neighbours.
         for row in 1..height {
             for i in row * width + 1..(row + 1) * width - 1 {
                 let above = third[i - width] + 3;
@@ -298,7 +298,7 @@ impl Mask {
         .map(|beside| beside as usize)
     }
 
-    /// The connected pieces of a set of cells.
+    /// Returns the connected components of a set of cells.
     fn components(&self, cells: &[bool]) -> Vec<Vec<usize>> {
         let mut left = cells.to_vec();
         let mut pieces = Vec::new();
@@ -317,7 +317,7 @@ impl Mask {
         pieces
     }
 
-    /// The cells of a set that lie so many steps from some cells, walking within the set.
+    /// Returns the cells of a set within `num_steps` steps of the start cells, moving only inside the set.
     fn around(&self, start: &[usize], cells: &[bool], num_steps: usize) -> Vec<usize> {
         let mut is_new = cells.to_vec();
         let mut found: Vec<usize> = Vec::new();
@@ -342,8 +342,8 @@ mod tests {
 
     const CAMERA: Intrinsics = Intrinsics::KINECT;
 
-    /// What a camera sees of a sheet of 0.6 m by 0.4 m with the frame of a window above it, and of a tube of 40 mm that
-    /// begins so far behind the sheet's lower edge and goes down; true where it is the tube's.
+    /// Simulates a sheet of 0.6 m by 0.4 m with a window frame above it, and a tube of 40 mm that begins at the
+    /// distance `behind` behind the sheet's lower edge and goes down; the flags are true on the tube.
     fn on_a_stand(behind: f64) -> (SceneCloud, Vec<bool>) {
         let mut is_tube = Vec::new();
         let points = (0..CAMERA.width * CAMERA.height).map(|i| {
@@ -355,7 +355,7 @@ mod tests {
             is_tube.push(on_tube);
             let z = match (on_sheet || in_frame && !in_window, on_tube) {
                 (true, _) => 1.2,
-                // It leans away from the sheet.
+                // The tube leans away from the sheet.
                 (_, true) => 1.2 + behind + (at.y - 0.3) * 0.3,
                 _ => f64::NAN,
             };

@@ -1,4 +1,4 @@
-//! The scene thinned to a few thousand points, on which planes are searched.
+//! A few thousand points of the scene, on which planes are searched.
 
 use nalgebra::Point3;
 use rand::RngExt as _;
@@ -11,41 +11,41 @@ use crate::{
     units::Metres,
 };
 
-/// Points that planes are searched on; 5 000 fix a wall to a fraction of a millimetre and fit in the cache.
+/// Number of points on which planes are searched: 5 000 fix a wall to a fraction of a millimetre and fit in the cache.
 const SUBSET_SIZE: usize = 5_000;
-/// A thinned-out scene in columns, so that counting inliers runs over plain arrays.
+/// A thinned-out scene, stored as arrays per coordinate for fast inlier counting.
 pub(super) struct Subset {
     pub(super) x: Vec<f32>,
     pub(super) y: Vec<f32>,
     pub(super) z: Vec<f32>,
-    /// Largest distance at which the point still belongs to a plane seen square on.
+    /// Maximum distance to a plane at perpendicular view for the point to belong to it, metres.
     pub(super) reach: Vec<f32>,
-    /// Position among `columns` × `rows` cells if the scene is organised.
+    /// Grid of the subset if the scene is organised.
     pub(super) cells: Option<Cells>,
 }
 
-/// Where the companions of a point are drawn from.
+/// Shape of the region from which a sample's other points are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Neighbourhood {
-    /// As far across as down.
+    /// As wide as it is high.
     Round,
-    /// Far across, hardly down.
+    /// Wide and low.
     Strip,
 }
 
 pub(super) struct Cells {
     pub(super) columns: usize,
     pub(super) rows: usize,
-    /// For each cell the index of its point in the subset.
+    /// Index in the subset of each cell's point.
     point_in: Vec<Option<u32>>,
-    /// For each point of the subset its cell.
+    /// Cell of each point of the subset.
     cell_of: Vec<u32>,
-    /// Whether the camera could deliver a reading in a cell.
+    /// True if the camera can deliver a reading in the cell.
     is_in_view: Vec<bool>,
 }
 
 impl Subset {
-    /// `noise_at_1m` is the depth's standard deviation there.
+    /// Thins a scene; `noise_at_1m` is the depth's standard deviation at 1 m.
     pub(super) fn new(scene: &SceneCloud, params: &SegmentParams, noise_at_1m: Metres) -> Self {
         let points = &scene.cloud.points;
         let mut subset = Self {
@@ -113,9 +113,9 @@ impl Subset {
         Point3::new(self.x[i], self.y[i], self.z[i]).cast()
     }
 
-    /// Two more points for a sample that begins with `first`: on a grid from its neighbourhood, where they most
-    /// likely lie on the same surface, otherwise from anywhere. Every second neighbourhood is wide and low: a floor is
-    /// often seen as a strip along the lower edge.
+    /// Draws two more points for a sample that begins with `first`: on a grid from its neighbourhood, where they most
+    /// likely lie on the same surface, otherwise from anywhere. Every second neighbourhood is wide and low, because a
+    /// floor is often seen as a strip along the lower edge.
     pub(super) fn sample_neighbours(
         &self,
         first: u32,
@@ -126,7 +126,7 @@ impl Subset {
         let Some(cells) = &self.cells else {
             return Some([0; 2].map(|_: u32| unclaimed[rng.random_range(0..unclaimed.len())]));
         };
-        // A tenth of the picture: wide enough to fix the direction, narrow enough to stay on one surface.
+        // A tenth of the picture: wide enough to determine the direction, narrow enough to stay on one surface.
         let (across, down) = match shape {
             Neighbourhood::Round => (cells.columns / 10, cells.columns / 10),
             Neighbourhood::Strip => (cells.columns / 3, cells.columns / 25),
@@ -149,12 +149,12 @@ impl Subset {
 }
 
 impl Cells {
-    /// The outermost reading of each row and column, where it lies close to the border of the field of view: sensors
-    /// lose a few columns there. Beside them how many ends of rows and columns there are.
+    /// Returns the outermost reading of each row and column if it lies close to the border of the field of view, where
+    /// sensors lose a few columns, and the number of row and column ends.
     pub(super) fn edge_points(&self) -> (Vec<u32>, usize) {
         let Self { columns, rows, .. } = *self;
-        // The first reading on a walk inwards from the border, no further than a sixteenth of the picture; the outer
-        // `None` if no cell of the line is in view.
+        // The first reading inwards from the border, within a sixteenth of the picture; the outer `None` if no cell
+        // of the line is in view.
         let first = |from: usize, step: isize, length: usize| {
             let walk = (0..length as isize).map(|i| from.wrapping_add_signed(i * step));
             let mut inwards = walk.skip_while(|cell| !self.is_in_view[*cell]).peekable();

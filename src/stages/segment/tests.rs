@@ -14,7 +14,7 @@ fn segmented(frame: &SimulatedFrame) -> Segmentation {
     segment(&scene_from_frame(&frame.frame), &SegmentParams::default())
 }
 
-/// Share of the truly seen part that was kept, and share of what was kept that is the part.
+/// Returns the share of the visible part that was kept, and the share of the kept points that belong to the part.
 fn recall_and_precision(frame: &SimulatedFrame, found: &Segmentation) -> (f64, f64) {
     let (mut kept, mut seen, mut both) = (0.0_f64, 0.0_f64, 0.0_f64);
     for (label, truth) in found.labels.iter().zip(&frame.truth.labels) {
@@ -144,14 +144,14 @@ fn poison_gives_a_named_reason_and_no_panic() {
         let found = segment(&scene_from_cloud(cloud), &SegmentParams::default());
         assert!(found.part.is_err(), "{what}: {:?}", found.clusters);
     }
-    // A bare plane without a picture around it may be a flat part: it is kept.
+    // A plane with no picture around it may be a flat part, so it is kept.
     let plane = points(&|i| Point3::new((i % 70) as f32 * 0.01, (i / 70) as f32 * 0.01, 1.0));
     assert!(
         segment(&scene_from_cloud(plane), &SegmentParams::default())
             .part
             .is_ok()
     );
-    // Far and huge coordinates.
+    // Huge coordinates, far away.
     let huge = points(&|i| Point3::new(i as f32 * 1e6, -1e9, 1e12));
     let _ = segment(&scene_from_cloud(huge), &SegmentParams::default());
 }

@@ -1,4 +1,4 @@
-//! Where a nozzle's ray meets a surface of points with normals.
+//! Intersects a nozzle's ray with a surface of points with normals.
 
 use nalgebra::{Point3, Vector3};
 
@@ -14,15 +14,15 @@ use crate::{
     units::Metres,
 };
 
-/// How far to either side of the expected distance the surface is looked for, metres.
+/// Search range on either side of the expected distance, metres.
 const REACH: f32 = 0.4;
-/// Steps along a ray, metres: the side of a cell of the field.
+/// Step along a ray, metres: the side of a cell of the nearest-point field.
 const STEP: f32 = 0.02;
-/// Cosine of the flattest angle at which a ray meets a surface: 80°.
+/// Minimum cosine between ray and reversed normal: 80°.
 const LEAST_FACING: f32 = 0.17;
-/// How far beside a point of the cloud the surface still is, metres.
+/// Maximum distance from the surface to the nearest point of the cloud, metres.
 const BESIDE: f32 = 1.5 * SPACING as f32;
-/// What a camera sees is thinned to the spacing of a reference; its normals are those of this much around a point.
+/// Radius for estimating the normals of a captured part, which is thinned to the spacing of a reference.
 const SEEN_RADIUS: Metres = Metres(4.0 * SPACING);
 
 /// A surface of points with unit normals, evenly spaced.
@@ -30,12 +30,12 @@ pub(crate) struct ReferenceSurface<'a> {
     points: &'a [Point3<f32>],
     normals: &'a [Vector3<f32>],
     tree: &'a KdTree,
-    /// Quicker than the tree, where there is one.
+    /// Faster than the tree, if available.
     field: Option<&'a NearestField>,
 }
 
 impl<'a> ReferenceSurface<'a> {
-    /// The surface of an enrolled part, part space; `None` without normals.
+    /// Returns the surface of an enrolled part, in part space; `None` without normals.
     pub(crate) fn of(reference: &'a Reference) -> Option<Self> {
         Some(Self {
             points: &reference.cloud.points,
@@ -53,7 +53,7 @@ impl<'a> ReferenceSurface<'a> {
     }
 }
 
-/// What a camera at the origin saw of a part, as a surface; camera space.
+/// The surface of a part as seen by a camera at the origin; camera space.
 pub(crate) struct SeenSurface {
     points: Vec<Point3<f32>>,
     normals: Vec<Vector3<f32>>,
@@ -82,7 +82,7 @@ impl SeenSurface {
     }
 }
 
-/// A nozzle and the way it points, in the surface's space.
+/// A nozzle position and direction, in the surface's space.
 pub(crate) struct Ray {
     pub(crate) mouth: Point3<f32>,
     /// Unit length.
@@ -94,7 +94,7 @@ impl Ray {
         self.mouth + self.direction * t
     }
 
-    /// Where the ray goes through the face of the surface, nearest to `expected`: how far along, and the normal there.
+    /// Returns the distance along the ray and the normal where it enters the surface, nearest to `expected`.
     pub(crate) fn intersect(
         &self,
         surface: &ReferenceSurface<'_>,
@@ -122,7 +122,7 @@ impl Ray {
         best
     }
 
-    /// Height above the surface near the point at `t`, if that surface faces the nozzle.
+    /// Returns the height above the surface near the point at `t`, if that surface faces the nozzle.
     fn height(&self, surface: &ReferenceSurface<'_>, t: f32) -> Option<f32> {
         let at = self.at(t);
         let nearest = surface.near(&at)?;
@@ -131,10 +131,10 @@ impl Ray {
         faces.then(|| normal.dot(&(at - surface.points[nearest.index])))
     }
 
-    /// The crossing about `t` by the points that are truly nearest; `None` where the surface ends before it.
+    /// Refines the crossing near `t` with the exact nearest points; `None` where the surface ends before it.
     fn settled(&self, surface: &ReferenceSurface<'_>, mut t: f32) -> Option<(f32, Vector3<f32>)> {
         let mut normal = Vector3::zeros();
-        // The first step reaches the plane of the nearest point, the second that of the point nearest to there.
+        // The first step reaches the plane of the nearest point, the second that of the point nearest to the result.
         for _ in 0..2 {
             let nearest = surface.tree.nearest(&self.at(t), f32::INFINITY)?;
             normal = *surface.normals.get(nearest.index)?;
