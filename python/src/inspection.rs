@@ -11,7 +11,6 @@ use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*};
 
 use crate::{
     arrays::{matrix_of, points_of, shape_of},
-    error::refused,
     interrupt::SignalWatch,
     library::Library,
     recipe::Recipe,
@@ -41,13 +40,7 @@ pub(crate) fn inspect(
     library: &Library,
     recipe: Option<&Recipe>,
 ) -> PyResult<Inspection> {
-    let recipe = recipe.map_or(&library.recipe, |given| &given.recipe);
-    if recipe.reference_params() != library.recipe.reference_params() {
-        return Err(refused(
-            "the library was prepared by other parameters of projection, contour or signature than the recipe's",
-            "Open the library with the recipe: Library.open(path, recipe=recipe)",
-        ));
-    }
+    let recipe = library.recipe_or(recipe)?;
     let loaded = library.loaded();
     let cloud = &scene.scene;
     let found = py.detach(|| {

@@ -7,6 +7,7 @@
 mod alignment;
 mod arrays;
 mod error;
+mod evaluation;
 mod inspection;
 mod interrupt;
 mod library;
@@ -20,6 +21,7 @@ mod _partsight {
     use crate::{
         alignment::{Alignment, align, read_points},
         error::PartsightError,
+        evaluation::{KeptCases, evaluation_report, judge_cases},
         inspection::{Inspection, Pose, inspect},
         library::Library,
         recipe::Recipe,

@@ -39,6 +39,18 @@ impl Library {
         self.lock().clone()
     }
 
+    /// The recipe to inspect with: the one given, if the references fit it, else its own.
+    pub(crate) fn recipe_or<'a>(&'a self, given: Option<&'a Recipe>) -> PyResult<&'a NamedRecipe> {
+        let recipe = given.map_or(&self.recipe, |given| &given.recipe);
+        if recipe.reference_params() != self.recipe.reference_params() {
+            return Err(refused(
+                "the library was prepared by other parameters of projection, contour or signature than the recipe's",
+                "Open the library with the recipe: Library.open(path, recipe=recipe)",
+            ));
+        }
+        Ok(recipe)
+    }
+
     fn lock(&self) -> MutexGuard<'_, Arc<LibraryLoad>> {
         // It is only ever replaced whole.
         self.loaded.lock().unwrap_or_else(PoisonError::into_inner)
@@ -97,6 +109,12 @@ impl Library {
     #[getter]
     fn path(&self) -> Option<PathBuf> {
         self.place.folder().map(|folder| folder.path().to_owned())
+    }
+
+    /// Eight hexadecimal digits, the same for the same parts with the same clouds, wherever they lie.
+    #[getter]
+    fn identity(&self) -> String {
+        self.loaded().identity()
     }
 
     /// The names of the parts that an inspection may find, in order.

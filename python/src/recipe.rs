@@ -8,7 +8,7 @@ use partsight::{
 };
 use pyo3::{
     IntoPyObjectExt as _,
-    exceptions::PyKeyError,
+    exceptions::{PyKeyError, PyValueError},
     prelude::*,
     types::{PyAny, PyDict},
 };
@@ -89,6 +89,31 @@ impl Recipe {
             Kind::Number(_) => parameter.value(&self.recipe).into_bound_py_any(py),
             Kind::Choice(_) => parameter.text(&self.recipe).into_bound_py_any(py),
         }
+    }
+
+    /// For `pickle`: the same parameters to the bit, under the same name.
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, (String, bool, String))> {
+        let RecipeLabel { name, is_changed } = self.recipe.label.clone();
+        let parameters: &partsight::Recipe = &self.recipe;
+        let json = serde_json::to_string(parameters);
+        let json = json.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let restore = py.get_type::<Self>().getattr("_restore")?;
+        Ok((restore, (name, is_changed, json)))
+    }
+
+    /// The recipe that was pickled.
+    #[staticmethod]
+    fn _restore(name: String, is_changed: bool, json: &str) -> PyResult<Self> {
+        let recipe: partsight::Recipe =
+            serde_json::from_str(json).map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let recipe = NamedRecipe {
+            label: RecipeLabel { name, is_changed },
+            parameters: Arc::new(recipe),
+        };
+        Ok(Self { recipe })
     }
 
     fn __repr__(&self) -> String {

@@ -1,5 +1,6 @@
 """What several tests use: the shipped parts, a simulated frame, and skips that a variable turns into failures."""
 
+import importlib.util
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,6 +17,12 @@ def skip(variable: str, why: str) -> None:
     if os.environ.get(variable) == "1":
         pytest.fail(f"{variable}=1, and {why}")
     pytest.skip(why)
+
+
+def require(package: str) -> None:
+    """Skips the test where a package is missing."""
+    if importlib.util.find_spec(package) is None:
+        skip("PARTSIGHT_REQUIRE_PYTHON_PACKAGES", f"{package} is not installed")
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import skip
+from conftest import require
 
 import partsight
 
@@ -20,11 +20,6 @@ def run(*command: object) -> str:
     return ran.stdout
 
 
-def require(package: str) -> None:
-    if importlib.util.find_spec(package) is None:
-        skip("PARTSIGHT_REQUIRE_PYTHON_PACKAGES", f"{package} is not installed")
-
-
 def test_the_types_are_those_of_the_package() -> None:
     require("mypy")
     run("-m", "mypy.stubtest", "partsight")
@@ -32,7 +27,8 @@ def test_the_types_are_those_of_the_package() -> None:
 
 def test_examples_and_tests_keep_the_types() -> None:
     require("mypy")
-    run("-m", "mypy", "tests", "examples/inspect_frame.py")
+    run("-m", "mypy", "tests", "examples/inspect_frame.py", "examples/evaluate_on_ray.py")
+    run("-m", "mypy", "package/partsight/evaluate.py")
 
 
 def test_everything_has_a_text_for_help() -> None:

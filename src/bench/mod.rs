@@ -5,6 +5,7 @@
 
 pub mod bounds;
 pub mod calibration;
+mod evaluation;
 mod history;
 pub mod paint;
 mod process_usage;
@@ -17,6 +18,7 @@ pub mod systems;
 pub mod table1;
 
 pub use self::{
+    evaluation::EvaluationReport,
     history::{HistoryTime, history_times},
     process_usage::ProcessUsage,
     processor_time::{ProcessorWatch, cpu_wait_seconds, process_seconds},

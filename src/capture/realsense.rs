@@ -160,16 +160,13 @@ impl Realsense {
     fn open(spec: &RealsenseSpec) -> Result<Self, RealsenseError> {
         let context = start(spec.library.as_deref())?;
         let file = spec.file().map(Path::to_path_buf);
-        let (device, title) = match &file {
-            Some(path) => {
-                let title = SourceSpec::Realsense(spec.clone()).title();
-                (open_file(&context, path)?, title)
-            }
-            None => {
-                let device = open_camera(&context, spec.device.as_deref())?;
-                let title = title(&device);
-                (device, title)
-            }
+        let (device, title) = if let Some(path) = &file {
+            let title = SourceSpec::Realsense(spec.clone()).title();
+            (open_file(&context, path)?, title)
+        } else {
+            let device = open_camera(&context, spec.device.as_deref())?;
+            let title = title(&device);
+            (device, title)
         };
         let no_depth = || RealsenseError::NoDepth {
             title: title.clone(),

@@ -51,6 +51,11 @@ impl<'a> CaseJudge<'a> {
         watch: &dyn ProgressObserver,
     ) -> Result<CaseResult, Cancelled> {
         let inspection = pipeline::run(scene, self.library, self.recipe, watch)?;
+        Ok(self.compare(case, &inspection))
+    }
+
+    /// Compares an inspection of a case's scene, by this library, with its truth.
+    pub fn compare(&self, case: &KeptCase, inspection: &Inspection) -> CaseResult {
         let about = &case.meta.about;
         let mut result = CaseResult {
             name: case.name.clone(),
@@ -61,9 +66,16 @@ impl<'a> CaseJudge<'a> {
             timings: inspection.timings,
         };
         if result.is_guess_right() == Some(true) {
-            result.pose_error = self.pose_error(case, &inspection);
+            result.pose_error = self.pose_error(case, inspection);
         }
-        Ok(result)
+        result
+    }
+
+    /// Summarises results of this judge.
+    pub fn summarise(&self, results: Vec<CaseResult>, problems: Vec<CaseError>) -> Evaluation {
+        let references = self.library.references.iter();
+        let order: Vec<String> = references.map(|r| r.name.clone()).collect();
+        Evaluation::of(results, problems, &order)
     }
 
     fn pose_error(&self, case: &KeptCase, inspection: &Inspection) -> Option<PoseDelta> {
@@ -156,9 +168,7 @@ pub fn evaluate(
             Err(problem) => problems.push(problem),
         }
     }
-    let references = judge.library.references.iter();
-    let order: Vec<String> = references.map(|r| r.name.clone()).collect();
-    Evaluation::of(results, problems, &order)
+    judge.summarise(results, problems)
 }
 
 #[cfg(test)]

@@ -64,6 +64,23 @@ impl FoundVerdict {
             _ => CaseAnswer::NotAccepted,
         }
     }
+
+    /// In English, with the reason of a refusal.
+    pub fn words(&self) -> String {
+        let guess = match (&self.part, self.score) {
+            (Some(part), Some(score)) if self.accepted => {
+                return format!("accepted as {part} at {score:.2}");
+            }
+            (Some(part), Some(score)) => Some(format!("best guess {part} at {score:.2}")),
+            _ => None,
+        };
+        // A high score alone does not say why it is refused.
+        let words: Vec<String> = guess.into_iter().chain(self.reason.clone()).collect();
+        if words.is_empty() {
+            return "nothing found".into();
+        }
+        words.join(": ")
+    }
 }
 
 /// An accepted part, or a refusal.

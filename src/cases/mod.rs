@@ -87,6 +87,6 @@ pub use self::{
         CaseRecord, EarlierRun, EvaluationRecord, PoseErrors, PoseOff, RECORD_SCHEMA, RecipeRecord,
         RecordError,
     },
-    store::{CaseFolder, CaseList, KeptCase},
+    store::{CaseFolder, CaseList, KeptCase, PackedCase},
     trade_off::{ThresholdCounts, TradeOff},
 };

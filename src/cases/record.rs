@@ -12,7 +12,7 @@
 //!  "times_ms":[{"stage":"segment","median_ms":1.9,"p95_ms":2.4,"budget_ms":2.5}],
 //!  "cases":[{"name":"fender_placed_1","difficulty":"placed","truth":{…},"found":{"part":"fender","score":0.97,
 //!            "margin":0.4,"accepted":true},"judgement":"right","rotation_error_deg":0.2,"shift_error_mm":1.1,"total_ms":9.0}],
-//!  "damaged":["the kept case door is damaged and set aside: scene.pcd does not have its checksum"]}
+//!  "damaged":["the kept case door is damaged and set aside: scene.pcd: the kept frame is damaged: it does not have its checksum"]}
 //! ```
 //!
 //! `changed` lists other parameters that were not at their default. `accepted_as` is null where nothing was accepted.
@@ -32,7 +32,10 @@ use super::{
 use crate::{
     error::Advice,
     files::{FileError, read_bytes},
-    pipeline::RecipeBlock,
+    pipeline::{
+        NamedRecipe, Recipe, RecipeBlock,
+        parameters::{Parameter, changed_settings},
+    },
 };
 
 /// The version that is written; newer ones are refused.
@@ -43,7 +46,7 @@ pub const RECORD_SCHEMA: u32 = 1;
 pub struct EvaluationRecord<'a, T> {
     schema: u32,
     #[serde(flatten)]
-    recipe: RecipeRecord<'a>,
+    recipe: &'a RecipeRecord,
     num_threads: usize,
     tally: Tally,
     by_truth: Vec<TruthTally<'a>>,
@@ -58,17 +61,35 @@ pub struct EvaluationRecord<'a, T> {
 }
 
 /// The recipe of a run.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct RecipeRecord<'a> {
+#[derive(Clone, Debug, Serialize)]
+pub struct RecipeRecord {
     /// Name and identity.
-    pub recipe: &'a RecipeBlock,
+    pub recipe: RecipeBlock,
     /// As `--matcher` takes it.
-    pub matcher: &'a str,
+    pub matcher: String,
     /// As `--pose` takes it.
-    pub pose: &'a str,
+    pub pose: String,
     /// Other parameters that were not at their default, as `NAME=VALUE`.
-    #[serde(skip_serializing_if = "<[String]>::is_empty")]
-    pub changed: &'a [String],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub changed: Vec<String>,
+}
+
+impl RecipeRecord {
+    /// Describes this recipe.
+    pub fn of(recipe: &NamedRecipe) -> Self {
+        let keys = ["rank.matcher", "pose"];
+        let parameters: &Recipe = recipe;
+        let [matcher, pose] = keys.map(|key| {
+            let parameter = Parameter::of_key(key).expect("a parameter of the recipe");
+            parameter.text(parameters).to_lowercase()
+        });
+        Self {
+            recipe: RecipeBlock::from(recipe),
+            matcher,
+            pose,
+            changed: changed_settings(parameters, &keys),
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -178,7 +199,7 @@ impl<'a, T> EvaluationRecord<'a, T> {
     /// Describes an evaluation with this recipe on `num_threads` threads.
     pub fn of(
         evaluation: &'a Evaluation,
-        recipe: RecipeRecord<'a>,
+        recipe: &'a RecipeRecord,
         num_threads: usize,
         times_ms: T,
     ) -> Self {

@@ -14,10 +14,10 @@ use super::{
 };
 use crate::{
     files::{
-        disk, in_counting_order, lock_exclusively, new_folder, open_regular, sync_folder,
-        user_folders, words_of, write_file,
+        FileError, disk, in_counting_order, lock_exclusively, new_folder, open_regular, read_bytes,
+        sync_folder, user_folders, words_of, write_file,
     },
-    history::{FrameRecord, read_frame, write_frame},
+    history::{FrameRecord, read_frame_by, write_frame},
     stages::scene::SceneCloud,
 };
 
@@ -114,10 +114,29 @@ impl CaseFolder {
 
     /// Reads the scene of a case, bit for bit as it was kept.
     pub fn read_scene(&self, case: &KeptCase) -> Result<SceneCloud, CaseError> {
-        let read = read_frame(&self.path.join(&case.name), &case.meta.scene);
-        read.map_err(|error| CaseError::Damaged {
+        let folder = self.path.join(&case.name);
+        case.scene(&|file| read_bytes(&folder.join(file)))
+    }
+
+    /// Reads all that an inspection of the case needs. What is damaged shows when it is unpacked.
+    pub fn pack(&self, case: &KeptCase) -> Result<PackedCase, CaseError> {
+        let folder = self.path.join(&case.name);
+        let content = |file: &str| {
+            let read = read_bytes(&folder.join(file));
+            read.map_err(|error| case.damaged(&error))
+        };
+        let FrameRecord {
+            file, empty_cell, ..
+        } = &case.meta.scene;
+        let empty_cell = empty_cell.as_deref().map(|file| {
+            // A damaged scene is reported before a missing cell.
+            content(file).or_else(|error| self.read_scene(case).and(Err(error)))
+        });
+        Ok(PackedCase {
             name: case.name.clone(),
-            what: error.to_string(),
+            case_toml: toml::to_string(&case.meta).map_err(|error| case.damaged(&error))?,
+            scene: content(file)?,
+            empty_cell: empty_cell.transpose()?,
         })
     }
 
@@ -201,10 +220,6 @@ impl CaseFolder {
 
     /// `None` for a folder that is no case.
     fn read_meta(&self, name: &str) -> Result<Option<CaseMeta>, CaseError> {
-        #[derive(serde::Deserialize)]
-        struct Versioned {
-            schema_version: u32,
-        }
         let folder = self.path.join(name);
         let damaged = |what: String| CaseError::Damaged {
             name: name.to_owned(),
@@ -229,20 +244,8 @@ impl CaseFolder {
         let text = open_regular(&meta)
             .and_then(io::read_to_string)
             .map_err(unreadable)?;
-        let bad = |error: toml::de::Error| damaged(format!("{META}: {}", error.message()));
-        let Versioned { schema_version } = toml::from_str(&text).map_err(bad)?;
-        if schema_version > SCHEMA_VERSION {
-            return Err(CaseError::Newer {
-                name: name.to_owned(),
-                found: schema_version,
-                known: SCHEMA_VERSION,
-            });
-        }
-        let meta: CaseMeta = toml::from_str(&text).map_err(bad)?;
+        let meta = parse_meta(name, &text)?;
         let FrameRecord { file, bytes, .. } = &meta.scene;
-        if !is_plain(file) {
-            return Err(damaged(format!("{META} names no file of its own")));
-        }
         let found = fs::metadata(folder.join(file)).map(|scene| scene.len());
         match found {
             Ok(found) if found == *bytes => Ok(Some(meta)),
@@ -278,6 +281,85 @@ impl CaseFolder {
         let _lock = lock_exclusively(&self.path.join(LOCK))?;
         change()
     }
+}
+
+impl KeptCase {
+    /// Its scene, with the content of each of its files from `content`. Errors name a file without its folder, so that
+    /// they are the same wherever the case lies.
+    fn scene(
+        &self,
+        content: &dyn Fn(&Path) -> Result<Vec<u8>, FileError>,
+    ) -> Result<SceneCloud, CaseError> {
+        let read = read_frame_by(Path::new(""), &self.meta.scene, content);
+        read.map_err(|error| self.damaged(&error))
+    }
+
+    fn damaged(&self, what: &dyn std::fmt::Display) -> CaseError {
+        CaseError::Damaged {
+            name: self.name.clone(),
+            what: what.to_string(),
+        }
+    }
+}
+
+/// A case in memory, which another computer can inspect.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PackedCase {
+    /// Name of its folder.
+    pub name: String,
+    /// The text of its `case.toml`.
+    pub case_toml: String,
+    /// The file of its scene.
+    pub scene: Vec<u8>,
+    /// The file of its empty cell, if one was known.
+    pub empty_cell: Option<Vec<u8>>,
+}
+
+impl PackedCase {
+    /// The case and its scene, bit for bit as [`CaseFolder::read_scene`] reads it.
+    pub fn unpack(self) -> Result<(KeptCase, SceneCloud), CaseError> {
+        let case = KeptCase {
+            meta: parse_meta(&self.name, &self.case_toml)?,
+            name: self.name,
+        };
+        let scene = case.scene(&|file| {
+            let packed = if file == Path::new(&case.meta.scene.file) {
+                Some(&self.scene)
+            } else {
+                self.empty_cell.as_ref()
+            };
+            let path = file.to_owned();
+            packed.cloned().ok_or(FileError::NotFound { path })
+        })?;
+        Ok((case, scene))
+    }
+}
+
+/// Reads the text of a `case.toml`.
+fn parse_meta(name: &str, text: &str) -> Result<CaseMeta, CaseError> {
+    #[derive(serde::Deserialize)]
+    struct Versioned {
+        schema_version: u32,
+    }
+    let damaged = |what: String| CaseError::Damaged {
+        name: name.to_owned(),
+        what,
+    };
+    let bad = |error: toml::de::Error| damaged(format!("{META}: {}", error.message()));
+    let Versioned { schema_version } = toml::from_str(text).map_err(bad)?;
+    if schema_version > SCHEMA_VERSION {
+        return Err(CaseError::Newer {
+            name: name.to_owned(),
+            found: schema_version,
+            known: SCHEMA_VERSION,
+        });
+    }
+    let meta: CaseMeta = toml::from_str(text).map_err(bad)?;
+    let cell = meta.scene.empty_cell.as_deref();
+    if !is_plain(&meta.scene.file) || cell.is_some_and(|file| !is_plain(file)) {
+        return Err(damaged(format!("{META} names no file of its own")));
+    }
+    Ok(meta)
 }
 
 /// `name`, `name_2`, `name_3` and so on.

@@ -8,6 +8,7 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
+pub(super) use crate::report::TextTable as Table;
 use crate::{error::Advice, files::visible};
 
 /// Both outputs of a call. Nothing that stands in a file or in its name reaches the terminal as a command to it.
@@ -219,40 +220,10 @@ pub(super) fn in_columns(numbers: &[f64]) -> String {
     cells.collect::<Vec<_>>().join(" ")
 }
 
-/// Lines of cells under a heading, each column as wide as its widest cell.
-#[derive(Default)]
-pub(super) struct Table {
-    rows: Vec<Vec<String>>,
-}
-
 impl Table {
-    pub(super) fn new(heading: &[&str]) -> Self {
-        let mut table = Self::default();
-        table.row(heading.iter().map(ToString::to_string));
-        table
-    }
-
-    pub(super) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
-        let shown = cells.into_iter().map(|cell| visible(&cell).into_owned());
-        self.rows.push(shown.collect());
-    }
-
     pub(super) fn show(&self, console: &mut Console) {
-        let num_columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-        let widths: Vec<usize> = (0..num_columns)
-            .map(|column| {
-                let cells = self.rows.iter().filter_map(|row| row.get(column));
-                cells.map(|c| c.chars().count()).max().unwrap_or(0)
-            })
-            .collect();
-        for row in &self.rows {
-            let padded: Vec<String> = row
-                .iter()
-                .zip(&widths)
-                .map(|(cell, width)| format!("{cell:<width$}"))
-                .collect();
-            let line = padded.join("  ");
-            console.line(&line.trim_end());
+        for line in self.lines() {
+            console.line(&line);
         }
     }
 }

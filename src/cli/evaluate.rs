@@ -1,7 +1,5 @@
 //! `partsight evaluate`: how often right, on recorded cases whose truth is known, and what changed since an earlier run.
 
-mod tables;
-
 use std::path::PathBuf;
 
 use anyhow::Context as _;
@@ -10,17 +8,16 @@ use clap::Args;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
-    recipe::{NAMED, RecipeChoice, changed_parameters, matcher_and_pose},
+    recipe::RecipeChoice,
 };
 use crate::{
-    bench::stage_times,
+    bench::EvaluationReport,
     cases::{
-        CaseFolder, CaseJudge, Changes, EarlierRun, Evaluation, EvaluationRecord, RecipeRecord,
-        evaluate,
+        CaseChange, CaseFolder, CaseJudge, CaseOutcome, Changes, EarlierRun, Evaluation,
+        FoundVerdict, RecipeRecord, evaluate,
     },
     files::write_atomically,
     geometry::parallel::num_cores,
-    pipeline::{RecipeBlock, Timings},
     report::{evaluation_picture, write_png},
 };
 
@@ -106,24 +103,17 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
         console.warn(problem, problem);
     }
     let changes = earlier.map(|earlier| Changes::between(&earlier, &evaluation.results));
-    let timings: Vec<Timings> = evaluation.results.iter().map(|r| r.timings).collect();
-    let times = stage_times(&timings);
-    tables::show(&evaluation, &times, num_threads, console);
-    if let Some(changes) = &changes {
-        tables::show_changes(changes, console);
+    let described = RecipeRecord::of(&recipe);
+    let report = EvaluationReport::of(&evaluation, &described, num_threads);
+    for line in report.lines() {
+        console.line(&line);
     }
-    let [matcher, pose] = matcher_and_pose(&recipe);
-    let changed = changed_parameters(&recipe, &NAMED);
+    if let Some(changes) = &changes {
+        show_changes(changes, console);
+    }
     if let Some(path) = &args.json {
-        let recipe = RecipeRecord {
-            recipe: &RecipeBlock::from(&recipe),
-            matcher: &matcher,
-            pose: &pose,
-            changed: &changed,
-        };
-        let record = EvaluationRecord::of(&evaluation, recipe, num_threads, times);
         write_atomically(path, |writer| {
-            serde_json::to_writer_pretty(&mut *writer, &record)?;
+            serde_json::to_writer_pretty(&mut *writer, &report.record())?;
             writeln!(writer)
         })
         .advised()
@@ -132,11 +122,17 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
     }
     if let Some(path) = &args.report {
         let label = &recipe.label;
+        let RecipeRecord {
+            matcher,
+            pose,
+            changed,
+            ..
+        } = &described;
         let mut title = format!(
             "{}, recipe {label}, matcher {matcher}, pose {pose}",
             args.folder.display()
         );
-        for change in &changed {
+        for change in changed {
             title.push_str(", ");
             title.push_str(change);
         }
@@ -157,5 +153,69 @@ fn outcome(evaluation: &Evaluation, changes: Option<&Changes>) -> Outcome {
         Outcome::NotAccepted
     } else {
         Outcome::Accepted
+    }
+}
+
+/// Scores listed; more are counted.
+const MOST_LISTED: usize = 20;
+
+/// What differs from an earlier run.
+fn show_changes(changes: &Changes, console: &mut Console) {
+    let Changes {
+        regressions,
+        mends,
+        rescored,
+        num_common,
+        added,
+        gone,
+    } = changes;
+    console.line(&"");
+    console.line(&format_args!(
+        "Against the earlier run, {num_common} cases of both: {} worse, {} better, {} with another score or guess",
+        regressions.len(),
+        mends.len(),
+        rescored.len()
+    ));
+    for (word, list) in [("worse", regressions), ("better", mends)] {
+        for change in list {
+            let [was, is] = change.judgements.map(CaseOutcome::words);
+            console.line(&format_args!(
+                "  {word}: {}, it is {}: {was} before ({}), {is} now ({})",
+                change.name,
+                change.truth.name(),
+                change.before.words(),
+                change.now.words()
+            ));
+        }
+    }
+    let score = |found: &FoundVerdict| {
+        found
+            .score
+            .map_or_else(|| "-".into(), |s| format!("{s:.3}"))
+    };
+    let other = |change: &CaseChange| {
+        let (before, now) = (&change.before.part, &change.now.part);
+        match (before == now, now) {
+            (true, _) => String::new(),
+            (false, Some(now)) => format!(", now taken for {now}"),
+            (false, None) => ", now without a guess".into(),
+        }
+    };
+    for change in rescored.iter().take(MOST_LISTED) {
+        console.line(&format_args!(
+            "  {}: {} before, {} now{}",
+            change.name,
+            score(&change.before),
+            score(&change.now),
+            other(change)
+        ));
+    }
+    if rescored.len() > MOST_LISTED {
+        console.line(&format_args!("  and {} more", rescored.len() - MOST_LISTED));
+    }
+    for (words, names) in [("not in the earlier run", added), ("not in this run", gone)] {
+        if !names.is_empty() {
+            console.line(&format_args!("  {words}: {}", names.join(", ")));
+        }
     }
 }

@@ -10,7 +10,7 @@ use crate::{
     pipeline::{
         BUILT_IN, NamedRecipe, PoseChoice, Recipe, RecipeFile, RecipeFolder, RecipeLabel,
         open_recipe,
-        parameters::{Parameter, Parameters, Setting, changed},
+        parameters::{Parameters, Setting},
     },
     stages::{pose::PoseMethod, rank::Matcher},
 };
@@ -147,22 +147,3 @@ pub(super) fn parse_setting<R: Parameters>(text: &str) -> Result<Setting<R>, Str
     let setting = text.parse::<Setting<R>>();
     setting.map_err(|error| format!("{error}\n  to do: {}", error.advice()))
 }
-
-/// The parameters that differ from the default, but for these, as `--set` takes them.
-pub(super) fn changed_parameters(recipe: &Recipe, left_out: &[&str]) -> Vec<String> {
-    let listed = changed(recipe).filter(|parameter| !left_out.contains(&parameter.key));
-    listed
-        .map(|parameter| format!("{}={}", parameter.key, parameter.setting_text(recipe)))
-        .collect()
-}
-
-/// Matcher and pose, as `--matcher` and `--pose` take them.
-pub(super) fn matcher_and_pose(recipe: &Recipe) -> [String; 2] {
-    NAMED.map(|key| {
-        let parameter = Parameter::of_key(key).expect("a parameter of the recipe");
-        parameter.text(recipe).to_lowercase()
-    })
-}
-
-/// Parameters with an option of their own.
-pub(super) const NAMED: [&str; 2] = ["rank.matcher", "pose"];

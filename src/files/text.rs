@@ -1,8 +1,6 @@
 //! Text files that people write: whole in memory, with a limit. And text of files, to be shown.
 
-use std::path::Path;
-#[cfg(any(feature = "cli", test))]
-use std::{borrow::Cow, fmt::Write as _};
+use std::{borrow::Cow, fmt::Write as _, path::Path};
 
 use super::{FileError, read_limited};
 
@@ -25,7 +23,6 @@ pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
 /// A text from a file, or a file's name, for a terminal: control characters, which could move the cursor or recolour what
 /// stands before, and marks that turn the direction of writing are shown as `\u001b`, which JSON reads as the same
 /// character.
-#[cfg(any(feature = "cli", test))]
 pub(crate) fn visible(text: &str) -> Cow<'_, str> {
     let is_hidden = |c: char| {
         c.is_control()

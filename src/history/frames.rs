@@ -268,12 +268,21 @@ fn write_cell(folder: &Path, cell: &EmptyCell) -> Result<(String, u32), FrameErr
 
 /// The scene of a kept frame, as it was inspected.
 pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, FrameError> {
+    read_by(folder, frame, &read_bytes)
+}
+
+/// As [`read`], with the content of each file from `content`. Errors name the files by their paths in `folder`.
+pub fn read_by(
+    folder: &Path,
+    frame: &FrameRecord,
+    content: &dyn Fn(&Path) -> Result<Vec<u8>, FileError>,
+) -> Result<SceneCloud, FrameError> {
     let path = folder.join(&frame.file);
     let damaged = |what: &str| FrameError::Damaged {
         path: path.clone(),
         what: what.to_owned(),
     };
-    let bytes = read_bytes(&path)?;
+    let bytes = content(&path)?;
     if crc32(&bytes) != frame.crc32 {
         return Err(damaged("it does not have its checksum"));
     }
@@ -299,7 +308,8 @@ pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, FrameError
     };
     scene.edge = frame.edge;
     if let Some(file) = &frame.empty_cell {
-        let cell = read_cell(&folder.join(file), frame.empty_cell_crc32)?;
+        let path = folder.join(file);
+        let cell = cell_of(&path, &content(&path)?, frame.empty_cell_crc32)?;
         scene.empty_cell = Some(Arc::new(cell));
     }
     Ok(scene)
@@ -315,16 +325,15 @@ fn cloud_of(path: &Path, bytes: &[u8]) -> Result<PointCloud, FrameError> {
     }
 }
 
-fn read_cell(path: &Path, checksum: Option<u32>) -> Result<EmptyCell, FrameError> {
+fn cell_of(path: &Path, bytes: &[u8], checksum: Option<u32>) -> Result<EmptyCell, FrameError> {
     let damaged = |what: &str| FrameError::Damaged {
         path: path.to_owned(),
         what: what.to_owned(),
     };
-    let bytes = read_bytes(path)?;
-    if checksum.is_some_and(|checksum| checksum != crc32(&bytes)) {
+    if checksum.is_some_and(|checksum| checksum != crc32(bytes)) {
         return Err(damaged("it does not have its checksum"));
     }
-    let cell = EmptyCell::of_cloud(&cloud_of(path, &bytes)?);
+    let cell = EmptyCell::of_cloud(&cloud_of(path, bytes)?);
     cell.ok_or_else(|| damaged("the empty cell has no rows and columns"))
 }
 

@@ -49,7 +49,10 @@ pub use self::{
     },
     error::HistoryError,
     filter::Filter,
-    frames::{FrameError, FrameRecord, read as read_frame, write_as as write_frame},
+    frames::{
+        FrameError, FrameRecord, read as read_frame, read_by as read_frame_by,
+        write_as as write_frame,
+    },
     hung::{HungId, HungRows},
     news::HistoryEvent,
     open::{FILE, OnlyRead, OpenedHistory, SetAside, users_folder},

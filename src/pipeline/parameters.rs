@@ -332,7 +332,15 @@ pub fn changed<R: Parameters>(recipe: &R) -> impl Iterator<Item = &'static Param
     R::ALL.iter().filter(move |p| p.differs(recipe, &default))
 }
 
-/// How many they are.
+/// The parameters of [`changed`] but those of these keys, as `--set` takes them.
+pub fn changed_settings(recipe: &Recipe, left_out: &[&str]) -> Vec<String> {
+    let listed = changed(recipe).filter(|parameter| !left_out.contains(&parameter.key));
+    listed
+        .map(|parameter| format!("{}={}", parameter.key, parameter.setting_text(recipe)))
+        .collect()
+}
+
+/// How many there are.
 pub fn num_changed<R: Parameters>(recipe: &R) -> usize {
     changed(recipe).count()
 }

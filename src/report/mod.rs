@@ -1,6 +1,6 @@
 //! What an inspection leaves behind: a line of JSON for machines, pictures of its stages and the pose report for people.
 //!
-//! The library alone has the line; pictures and reports need the feature `cli`.
+//! The library alone has the line and tables of text; pictures and reports need the feature `cli`.
 
 #[cfg(feature = "cli")]
 mod canvas;
@@ -25,8 +25,8 @@ mod runner_up_picture;
 mod scaling;
 #[cfg(feature = "cli")]
 mod score_plots;
+mod text_table;
 
-pub use self::line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine};
 #[cfg(feature = "cli")]
 pub use self::{
     evaluation::evaluation_picture,
@@ -35,4 +35,8 @@ pub use self::{
     pictures::{Picture, binary_picture, segmentation_picture, stage_pictures, strip, write_png},
     runner_up_picture::runner_up_picture,
     scaling::{TimeCurve, scaling_picture, stacked},
+};
+pub use self::{
+    line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
+    text_table::TextTable,
 };

@@ -1,6 +1,6 @@
 import os
-from collections.abc import Mapping
-from typing import Literal, final
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, final
 
 import numpy as np
 import numpy.typing as npt
@@ -8,6 +8,7 @@ import numpy.typing as npt
 __all__ = [
     "Alignment",
     "Inspection",
+    "KeptCases",
     "Library",
     "PartsightError",
     "Pose",
@@ -15,7 +16,9 @@ __all__ = [
     "Scene",
     "SimulatedFrame",
     "align",
+    "evaluation_report",
     "inspect",
+    "judge_cases",
     "read_points",
     "simulate_frame",
 ]
@@ -85,6 +88,8 @@ class Library:
     @property
     def path(self) -> os.PathLike[str] | None: ...
     @property
+    def identity(self) -> str: ...
+    @property
     def parts(self) -> list[str]: ...
     @property
     def titles(self) -> dict[str, str]: ...
@@ -150,6 +155,12 @@ class Inspection:
     def to_json(self) -> str: ...
 
 @final
+class KeptCases:
+    def __new__(cls, folder: _Path) -> KeptCases: ...
+    def row(self, number: int) -> dict[str, Any]: ...
+    def __len__(self) -> int: ...
+
+@final
 class Alignment:
     @property
     def target_from_source(self) -> npt.NDArray[np.float64]: ...
@@ -171,6 +182,14 @@ class Alignment:
     def advice(self) -> str | None: ...
 
 def inspect(scene: Scene, library: Library, recipe: Recipe | None = None) -> Inspection: ...
+def judge_cases(rows: Sequence[Mapping[str, Any]], library: Library, recipe: Recipe | None = None) -> list[dict[str, Any]]: ...
+def evaluation_report(
+    results: Sequence[Mapping[str, Any]],
+    library: Library,
+    recipe: Recipe | None = None,
+    *,
+    num_threads: int = 1,
+) -> tuple[str, str]: ...
 def align(
     source: npt.ArrayLike,
     target: npt.ArrayLike,

@@ -524,7 +524,7 @@ impl Sensor {
         functions.checked(|error| {
             // SAFETY: the sensor lives, and is a container of options.
             unsafe {
-                (functions.rs2_set_option)(self.object.handle(), VISUAL_PRESET, number, error)
+                (functions.rs2_set_option)(self.object.handle(), VISUAL_PRESET, number, error);
             }
         })
     }

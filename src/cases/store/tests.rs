@@ -257,6 +257,49 @@ fn a_case_of_the_first_version_is_read_with_its_empty_cell() {
     cases.read_scene(&list.cases[0]).expect_err("another cell");
 }
 
+#[test]
+fn a_packed_case_is_the_same_without_its_folder_and_its_damage_is_reported_the_same() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = CaseFolder::at(folder.path());
+    let mut scene = facing_part(PartKind::FrontDoor, Side::Left, 4);
+    let cell = EmptyCell::of(&scene).expect("a picture");
+    scene.empty_cell = Some(Arc::new(cell));
+    let kept = cases.keep(&scene, about("door")).expect("kept");
+    let packed = cases.pack(&kept).expect("packed");
+    let (case, again) = packed.clone().unpack().expect("unpacked");
+    assert_eq!(case, kept);
+    assert_eq!(bits(&again), bits(&scene));
+    assert!(again.empty_cell.is_some() && again.empty_cell == scene.empty_cell);
+
+    let mut damaged = packed.clone();
+    damaged.scene[9000] ^= 1;
+    fs::write(folder.path().join("door/scene.png"), &damaged.scene).expect("written");
+    let of_folder = cases.read_scene(&kept).expect_err("damaged").to_string();
+    let of_packed = damaged.unpack().expect_err("damaged").to_string();
+    assert_eq!(of_folder, of_packed);
+    assert!(of_folder.contains("set aside: scene.png: "), "{of_folder}");
+    // The empty cell is missing too; the scene is named first, as it is read.
+    let cell = kept.meta.scene.empty_cell.as_deref().expect("a cell");
+    fs::remove_file(folder.path().join("door").join(cell)).expect("removed");
+    let refused = cases.pack(&kept).expect_err("damaged").to_string();
+    assert_eq!(refused, of_folder);
+
+    let newer = packed
+        .case_toml
+        .replace("schema_version = 2", "schema_version = 3");
+    let newer = PackedCase {
+        case_toml: newer,
+        ..packed.clone()
+    };
+    assert!(matches!(newer.unpack(), Err(CaseError::Newer { .. })));
+    let outside = packed.case_toml.replace(cell, "../other.pcd");
+    let outside = PackedCase {
+        case_toml: outside,
+        ..packed
+    };
+    assert!(matches!(outside.unpack(), Err(CaseError::Damaged { .. })));
+}
+
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_a_case_is_kept_whole_or_not_at_all() {

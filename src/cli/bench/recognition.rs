@@ -18,10 +18,10 @@ use crate::{
     cli::{
         Outcome,
         console::{Advised as _, Console, Table},
-        recipe::{changed_parameters, show_recipe},
+        recipe::show_recipe,
     },
     library::EnrolParams,
-    pipeline::{Inspection, Recipe, RecipeBlock, Unwatched},
+    pipeline::{Inspection, Recipe, RecipeBlock, Unwatched, parameters::changed_settings},
     stages::scene::SceneCloud,
 };
 
@@ -131,7 +131,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         "Simulated: {}, one thread. Of what must not be accepted, right is not accepted.",
         frames.words()
     ));
-    let changed = changed_parameters(&recipe, &[]);
+    let changed = changed_settings(&recipe, &[]);
     show_recipe(&recipe, console);
     if !changed.is_empty() {
         console.line(&format_args!("Changed: {}", changed.join(", ")));

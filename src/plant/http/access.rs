@@ -10,7 +10,7 @@ use axum::http::{
 use subtle::{Choice, ConstantTimeEq as _};
 
 use super::{error::HttpError, refusal::Refusal};
-use crate::files::read_limited;
+use crate::files::{FileError, read_limited};
 
 /// Letters that a token has at least: too many to be guessed over the network.
 const MIN_LETTERS: usize = 16;
@@ -27,7 +27,10 @@ pub struct Tokens(Vec<Vec<u8>>);
 impl Tokens {
     /// Of a file with one on each line; empty lines do not count.
     pub fn load(path: &Path) -> Result<Self, HttpError> {
-        let text = read_limited(path, MAX_FILE_BYTES)?;
+        let text = match read_limited(path, MAX_FILE_BYTES) {
+            Err(FileError::Empty { .. }) => Vec::new(),
+            text => text?,
+        };
         let mut tokens = Vec::new();
         for (i, line) in text.split(|byte| *byte == b'\n').enumerate() {
             let token = line.trim_ascii();

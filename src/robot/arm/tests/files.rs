@@ -4,24 +4,27 @@ use nalgebra::Unit;
 
 use super::*;
 
-#[test]
-fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
+const TEXT: &str = "name = \"Cell 3\"\n\
+    lengths_mm = [150, -200, 0, 505, 760, 795, 100]\n\
+    offsets_deg = [0, 0, -90, 0, 0, 180]\n\
+    signs = [1, 1, -1, -1, -1, -1]\n\
+    limits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]\n\
+    speeds_deg_s = [210, 210, 265, 420, 420, 885]\n\
+    base_height_mm = 505\n\
+    radii_mm = [140, 125, 80]\n";
+const RAIL: &str = "[rail]\ndirection = [0, 2, 0]\nfrom_mm = -2000\nto_mm = 1500\n";
+
+fn read(text: &str) -> Result<Arm, ArmError> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("arm.toml");
-    let text = "name = \"Cell 3\"\n\
-        lengths_mm = [150, -200, 0, 505, 760, 795, 100]\n\
-        offsets_deg = [0, 0, -90, 0, 0, 180]\n\
-        signs = [1, 1, -1, -1, -1, -1]\n\
-        limits_deg = [[-180, 180], [-105, 155], [-86, 160], [-200, 200], [-155, 150], [-455, 455]]\n\
-        speeds_deg_s = [210, 210, 265, 420, 420, 885]\n\
-        base_height_mm = 505\n\
-        radii_mm = [140, 125, 80]\n";
-    let read = |text: &str| {
-        std::fs::write(&path, text).expect("written");
-        Arm::named(path.to_str().expect("a path"))
-    };
+    std::fs::write(&path, text).expect("written");
+    Arm::named(path.to_str().expect("a path"))
+}
+
+#[test]
+fn an_arm_of_a_file_is_the_same() {
     let listed = Arm::named("gp25").expect("listed");
-    let found = read(text).expect("an arm");
+    let found = read(TEXT).expect("an arm");
     // Nobody says whose controller counts its joints.
     assert_eq!(found.maker(), None);
     assert_eq!(
@@ -33,12 +36,15 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
         listed
     );
     // Without radii those of the reach count: 0.76 m and 0.795 m with a step of 0.2 m.
-    let bare = read(&text.replace("radii_mm = [140, 125, 80]\n", "")).expect("an arm");
+    let bare = read(&TEXT.replace("radii_mm = [140, 125, 80]\n", "")).expect("an arm");
     let wanted = [0.158, 0.1422, 0.0948];
     let off = bare.radii.iter().zip(wanted).map(|(a, b)| (a - b).abs());
     assert!(off.fold(0.0, f64::max) < 1e-3, "{:?}", bare.radii);
-    let rail = "[rail]\ndirection = [0, 2, 0]\nfrom_mm = -2000\nto_mm = 1500\n";
-    let found = read(&format!("{text}{rail}")).expect("an arm").rail;
+}
+
+#[test]
+fn a_rail_is_read_from_files_and_options() {
+    let found = read(&format!("{TEXT}{RAIL}")).expect("an arm").rail;
     let wanted = Rail {
         direction: Vector3::y_axis(),
         range: [-2.0, 1.5],
@@ -56,8 +62,8 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
     };
     let found: Rail = " -x, -2000, 1500, 800 ".parse().expect("a rail");
     assert_eq!(found, moving);
-    let text_of = rail.replace("[0, 2, 0]", "[-3, 0, 0]");
-    let found = read(&format!("{text}{text_of}speed_mm_s = 800\n"));
+    let text_of = RAIL.replace("[0, 2, 0]", "[-3, 0, 0]");
+    let found = read(&format!("{TEXT}{text_of}speed_mm_s = 800\n"));
     assert_eq!(found.expect("an arm").rail, Some(moving));
     let strong = Rail {
         acceleration: Some(2.5),
@@ -66,7 +72,7 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
     let found: Rail = "-x,-2000,1500,800,2500".parse().expect("a rail");
     assert_eq!(found, strong);
     let numbers = "speed_mm_s = 800\nacceleration_mm_s2 = 2500\n";
-    let found = read(&format!("{text}{text_of}{numbers}"));
+    let found = read(&format!("{TEXT}{text_of}{numbers}"));
     assert_eq!(found.expect("an arm").rail, Some(strong));
     for (option, wanted) in [
         ("", "no rail"),
@@ -94,6 +100,10 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
         assert!(!error.advice().is_empty());
         assert!(error.to_string().contains(wanted), "{option}: {error}");
     }
+}
+
+#[test]
+fn wrong_numbers_of_an_arm_and_its_rail_are_named() {
     for (old, new, wanted) in [
         ("[-86, 160]", "[160, -86]", "joint 3"),
         ("210, 210", "210, 0", "speed of joint 2"),
@@ -106,22 +116,22 @@ fn an_arm_of_a_file_is_the_same_and_wrong_numbers_are_named() {
         ("140, 125", "nan, 125", "radius of the upper arm"),
         ("[150, ", "[", "7"),
     ] {
-        let error = read(&text.replace(old, new)).expect_err(new);
+        let error = read(&TEXT.replace(old, new)).expect_err(new);
         assert!(error.to_string().contains(wanted), "{new}: {error}");
         assert!(!error.advice().is_empty());
     }
     for rail in [
-        rail.replace("2000", "nan"),
-        rail.replace("-2000", "3000"),
-        rail.replace("2, 0", "0, 0"),
-        rail.replace("2, 0", "1e200, 0"),
-        rail.replace("1500", "150000"),
-        format!("{rail}speed_mm_s = 0\n"),
-        format!("{rail}speed_mm_s = nan\n"),
-        format!("{rail}speed_mm_s = 800\nacceleration_mm_s2 = 0\n"),
-        format!("{rail}acceleration_mm_s2 = 2500\n"),
+        RAIL.replace("2000", "nan"),
+        RAIL.replace("-2000", "3000"),
+        RAIL.replace("2, 0", "0, 0"),
+        RAIL.replace("2, 0", "1e200, 0"),
+        RAIL.replace("1500", "150000"),
+        format!("{RAIL}speed_mm_s = 0\n"),
+        format!("{RAIL}speed_mm_s = nan\n"),
+        format!("{RAIL}speed_mm_s = 800\nacceleration_mm_s2 = 0\n"),
+        format!("{RAIL}acceleration_mm_s2 = 2500\n"),
     ] {
-        let error = read(&format!("{text}{rail}")).expect_err("no rail");
+        let error = read(&format!("{TEXT}{rail}")).expect_err("no rail");
         assert!(error.to_string().contains("rail"), "{error}");
     }
 }
