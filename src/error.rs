@@ -1,4 +1,4 @@
-//! What every error of the product can do beside naming itself: say what to do next. And the error of the program itself.
+//! The [`Advice`] that every error gives, panics as errors, and locks.
 
 use std::{
     any::Any,
@@ -6,16 +6,16 @@ use std::{
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
-/// One imperative sentence for the person at the machine, kept apart from the error's own message.
+/// Tells the user what to do about an error; kept apart from the error's message.
 ///
-/// The message says what was found and what was expected; the advice says what to do about it,
+/// The message says what was found and what was expected; the advice is one imperative sentence,
 /// for example "Clear the table and capture again".
 pub trait Advice {
-    /// What to do next, as one sentence without a line break.
+    /// Returns what to do next, as one sentence without a line break.
     fn advice(&self) -> String;
 }
 
-/// A panic: a mistake in the program, met while it worked on one input.
+/// A panic, which is a bug in the program, while working on one input.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize)]
 #[error("the program itself failed here: {message}")]
 pub struct Fault {
@@ -40,15 +40,16 @@ impl Advice for Fault {
     }
 }
 
-/// Runs `work`, and turns a panic in it into an error, so that one input never ends what goes on to the next.
+/// Runs `work` and turns a panic in it into an error, so that one bad input does not stop the following ones.
 ///
-/// What `work` shares with others must still be of use after it broke off: frames and libraries are only ever read or
-/// replaced whole.
+/// Anything that `work` shares with others must stay usable if it breaks off half-way: frames and libraries are only
+/// ever read or replaced whole.
 pub(crate) fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, Fault> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| Fault::of(panic.as_ref()))
 }
 
-/// A lock whose value is whole whatever panicked while it was held: it is only ever replaced whole or added to.
+/// Locks a mutex and ignores poisoning. Use it only for values that are replaced whole or appended to: these stay valid
+/// if a thread panics while it holds the lock.
 pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

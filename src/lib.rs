@@ -22,8 +22,8 @@
 //! # }
 //! ```
 //!
-//! What this page lists is the library. The modules behind it are public for the program and its tests; they change
-//! without notice.
+//! The items on this page are the library. The modules behind it are public for the program and its tests only, and
+//! change without notice.
 //!
 //! Features, both on by default: `cli`, the command line, pictures and reports; `window`, the window. Without them only
 //! the algorithms build. Off by default: `plant`, HTTP and MQTT beside the protocols of the server, and

@@ -1,5 +1,5 @@
-//! Where the library of a camera is looked for, where a setting says, else where the system keeps libraries; and its
-//! functions once it is found.
+//! Finds and loads a camera's library, at the place of a setting or else where the system keeps libraries, and looks up its
+//! functions.
 
 use std::{
     env,
@@ -9,33 +9,33 @@ use std::{
 
 /// The library of one kind of camera.
 pub(super) struct DriverNames<'a> {
-    /// The variable that names its file or folder; the source's own setting goes before it.
+    /// Environment variable with the library's file or folder; the source's own setting takes precedence.
     pub(super) variable: &'static str,
-    /// Its file names, the one that is known to fit first.
+    /// File names to try, the best-tested version first.
     pub(super) names: &'a [&'a str],
 }
 
 /// Why no library was loaded.
 #[derive(Debug)]
 pub(super) enum NotLoaded {
-    /// The system has none of the names.
+    /// The system has no library of any of the names.
     Absent,
-    /// The place that a setting names has none.
+    /// The place in a setting has no such library.
     NotAt(PathBuf),
-    /// There is one and the system cannot load it.
+    /// A library was found, but the system cannot load it.
     Unusable {
-        /// Its name or path.
+        /// Name or path of the library.
         library: String,
-        /// The system's words.
+        /// The system's message.
         reason: String,
     },
 }
 
 impl DriverNames<'_> {
-    /// Loads the library with `load`, which gives the system's words where it cannot, and tells the name that it was
-    /// found by.
+    /// Loads the library with `load`, whose error is the system's message. Also returns the name by which the library was
+    /// found.
     ///
-    /// A place that is set and wrong is an error: another library than the one that was asked for is not taken.
+    /// A wrong place in a setting is an error: no other library than the requested one is loaded.
     pub(super) fn find<L>(
         &self,
         setting: Option<&Path>,
@@ -57,7 +57,7 @@ impl DriverNames<'_> {
         place: &Path,
         load: impl Fn(&OsStr) -> Result<L, String>,
     ) -> Result<(L, String), NotLoaded> {
-        // A bare name would be looked for in the system's folders.
+        // Make the path absolute: a bare name would be searched for in the system's folders.
         let path = absolute(place).unwrap_or_else(|_| place.to_path_buf());
         let files: Vec<PathBuf> = if path.is_dir() {
             self.names.iter().map(|name| path.join(name)).collect()
@@ -70,7 +70,7 @@ impl DriverNames<'_> {
     }
 }
 
-/// The first that is there; `None` if none is. One that is there and cannot be loaded is the answer, too.
+/// Loads the first library that exists; `None` if there is none. One that exists and cannot be loaded is an error.
 fn first_of<L>(
     names: impl IntoIterator<Item = OsString>,
     load: impl Fn(&OsStr) -> Result<L, String>,
@@ -88,15 +88,14 @@ fn first_of<L>(
     })
 }
 
-/// True if the system's words say that there is no such library, rather than that it, or one that it needs in turn,
+/// True if the system's message means that the library does not exist, rather than that it or one of its dependencies
 /// cannot be loaded.
 fn is_absent(name: &str, reason: &str) -> bool {
-    // Windows gives a code for either.
+    // On Windows the message is the same code in both cases.
     cfg!(windows) || (reason.contains(name) && reason.to_lowercase().contains("no such file"))
 }
 
-/// Makes `Functions`, the functions of a library by name with their types as its header has them, and `Library`, which loads
-/// it.
+/// Defines `Functions`, a library's functions with their types as in its header, and `Library`, which loads it.
 macro_rules! driver_functions {
     (
         $(#[$attribute:meta])*
@@ -118,14 +117,14 @@ macro_rules! driver_functions {
             }
         }
 
-        /// A loaded library. It stays so until the process ends.
+        /// A library, loaded until the process ends.
         pub(super) struct Library {
-            /// Or the first function that is missing.
+            /// The functions, or the name of the first missing one.
             functions: Result<Functions, &'static str>,
         }
 
         impl Library {
-            /// Loads the library of that name or path, or says why that cannot be done in the system's own words.
+            /// Loads the library of that name or path; the error is the system's message.
             pub(super) fn load(name: &std::ffi::OsStr) -> Result<&'static Self, String> {
                 static LOADED: std::sync::Mutex<Vec<(std::ffi::OsString, &'static Library)>> =
                     std::sync::Mutex::new(Vec::new());
@@ -133,8 +132,8 @@ macro_rules! driver_functions {
                 if let Some((_, library)) = loaded.iter().find(|(known, _)| known == name) {
                     return Ok(library);
                 }
-                // SAFETY: loading runs the library's initialisers, which only set up its own objects; a person who names
-                // another library by a setting runs that one's as if it had been started as a program.
+                // SAFETY: loading runs the library's initialisers, which only set up its own objects; if a setting
+                // names another library, that one's run as if the user had started it as a program.
                 let library = unsafe { libloading::Library::new(name) };
                 let library = library.map_err(|error| error.to_string())?;
                 let functions = Functions::look_up(Box::leak(Box::new(library)));

@@ -1,4 +1,4 @@
-//! Why there is no capture, what is odd about one, and what to do about it.
+//! Errors and warnings of sources, with advice.
 
 use std::{io, path::PathBuf};
 
@@ -15,63 +15,63 @@ use crate::{
     files::{FileError, FileWarning, advice_on, words_of},
 };
 
-/// Why a source cannot be opened, gives nothing more, or cannot be recorded.
+/// Why a source cannot be opened, delivers no more, or cannot be recorded.
 #[derive(Debug, Error)]
 pub enum CaptureError {
-    /// The folder of a recording, or one to watch, is not there.
+    /// The folder of a recording, or one to watch, does not exist.
     #[error("{}: the folder is not there", path.display())]
     FolderGone {
         /// The folder.
         path: PathBuf,
-        /// True if it may come: a network share, a stick.
+        /// True if it may appear later, as on a network share or a USB stick.
         may_come: bool,
     },
-    /// A folder that cannot be listed.
+    /// The folder cannot be listed.
     #[error("{}: cannot read the folder: {}", path.display(), words_of(source))]
     FolderUnreadable {
         /// The folder.
         path: PathBuf,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// One file of a source.
+    /// A file of a source cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A mesh is nothing that a camera saw.
+    /// The file is a mesh, not a capture of a camera.
     #[error("{}: a mesh, expected what a depth camera saw", path.display())]
     MeshIsNoCapture {
         /// The file.
         path: PathBuf,
     },
-    /// A Kinect.
+    /// A Kinect failed.
     #[error(transparent)]
     Kinect(#[from] KinectError),
-    /// A GenICam camera.
+    /// A GenICam camera failed.
     #[error(transparent)]
     Genicam(#[from] GenicamError),
-    /// An OpenNI camera, or a file of one.
+    /// An OpenNI camera, or a file of one, failed.
     #[error(transparent)]
     OpenNi(#[from] OpenNiError),
-    /// A RealSense camera, or a file of one.
+    /// A RealSense camera, or a file of one, failed.
     #[error(transparent)]
     Realsense(#[from] RealsenseError),
-    /// A folder without anything to replay.
+    /// The folder has nothing to replay.
     #[error("{}: no recording, and no file of a camera", path.display())]
     NoFrames {
         /// The folder.
         path: PathBuf,
     },
-    /// A recording made by a newer version.
+    /// The recording was made by a newer version.
     #[error("{}: made by a newer version: format {found}, this one reads up to {known}", path.display())]
     NewerRecording {
-        /// Its list of frames.
+        /// The recording's list of frames.
         path: PathBuf,
-        /// Its version.
+        /// Its format version.
         found: u32,
-        /// The newest that is read.
+        /// The newest version that can be read.
         known: u32,
     },
-    /// A recording that contradicts itself.
+    /// The recording contradicts itself.
     #[error("{}: damaged: {what}", path.display())]
     DamagedRecording {
         /// The file.
@@ -79,32 +79,32 @@ pub enum CaptureError {
         /// The contradiction.
         what: String,
     },
-    /// A recording would be mixed with what is there.
+    /// The folder to record to is not empty.
     #[error("{}: the folder is not empty", path.display())]
     FolderInUse {
         /// The folder.
         path: PathBuf,
     },
-    /// A recording cannot be written on.
+    /// The recording cannot be continued.
     #[error("{}: cannot record: {}; {} kept", path.display(), words_of(source), counted(*num_kept))]
     Unwritable {
-        /// The folder or the frame's file.
+        /// The folder, or the frame's file.
         path: PathBuf,
-        /// Whole frames that the recording has.
+        /// Number of complete frames in the recording.
         num_kept: u64,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// The system gives no thread for the camera.
+    /// The system refuses a thread for the camera.
     #[error("the camera's thread cannot be started: {source}")]
     NoThread {
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// Frames are asked for that nobody takes from the source now.
+    /// Frames are requested while the window does not follow its source.
     #[error("the window does not follow its source, so there are no frames")]
     NotFollowed,
-    /// The camera's thread ended by a fault of the program.
+    /// The camera's thread panicked.
     #[error("the camera's thread ended by a fault of the program")]
     Crashed,
 }
@@ -117,19 +117,19 @@ fn counted(num_frames: u64) -> String {
     }
 }
 
-/// What helps after an error of a source.
+/// How to recover from a source's error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Recovery {
-    /// Nothing by itself: somebody has to do something first.
+    /// Not automatically: a person has to act first.
     None,
-    /// Opening the source anew, after a while.
+    /// Open the source again after a while.
     Reopen,
-    /// Asking the same source again, after a while: it remembers what it has given.
+    /// Query the same source again after a while: it remembers what it has delivered.
     AskAgain,
 }
 
 impl CaptureError {
-    /// What helps.
+    /// How to recover from this error.
     pub fn recovery(&self) -> Recovery {
         match self {
             Self::FolderGone { may_come: true, .. } | Self::FolderUnreadable { .. } => {
@@ -201,7 +201,7 @@ impl Advice for CaptureError {
 /// Something odd about a capture that can be used nevertheless.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum CaptureWarning {
-    /// About the file it came from.
+    /// About the capture's file.
     #[error(transparent)]
     File(#[from] FileWarning),
     /// About a Kinect.
@@ -210,22 +210,22 @@ pub enum CaptureWarning {
     /// About a GenICam camera.
     #[error(transparent)]
     Genicam(#[from] GenicamWarning),
-    /// A recording whose end is missing.
+    /// The end of the recording is missing.
     #[error("the recording was cut off; its {num_frames} whole frames are replayed")]
     CutOff {
-        /// Frames that are whole.
+        /// Number of complete frames.
         num_frames: usize,
     },
-    /// A sequence that does not say its camera.
+    /// The sequence has no file with the camera's numbers.
     #[error("{} is not there: taken for a camera of 640×480 pixels, fx = fy = 525, with 5000 units to the metre", missing.display())]
     AssumedCamera {
-        /// Where the camera was looked for.
+        /// Where that file was expected.
         missing: PathBuf,
     },
 }
 
 impl CaptureWarning {
-    /// True if it is about the source, and so the same for its captures: told once, it is told.
+    /// True if it concerns the source and is thus the same for all its captures, so that showing it once is enough.
     pub fn is_about_source(&self) -> bool {
         !matches!(self, Self::File(_))
     }

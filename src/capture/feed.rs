@@ -1,4 +1,4 @@
-//! The camera's thread: opens a source, takes its captures, finds it again when it is lost, stops when told to.
+//! The camera's thread: opens a source, takes its captures, recovers it when it is lost, and stops on request.
 
 mod slot;
 #[cfg(test)]
@@ -18,23 +18,23 @@ use super::{
     spec::SourceSpec,
 };
 
-/// A source at work on a thread of its own. Dropped, it stops and waits for the thread.
+/// A source running on a thread of its own. Dropping it stops the thread and joins it.
 pub struct Feed {
     slot: Arc<Slot>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// What becomes of a capture that nobody has taken when the next one comes.
+/// What happens to a capture that nobody has taken when the next one arrives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BackpressurePolicy {
-    /// It is dropped and counted: what is looked at is never older than the camera's last frame.
+    /// It is dropped and counted: nobody gets a capture older than the camera's last frame.
     Newest,
-    /// The next one waits: every capture is looked at, in order.
+    /// The next one waits: every capture is delivered, in order.
     Every,
 }
 
 impl BackpressurePolicy {
-    /// What suits a source: a live camera's frames are dropped, those of recordings and files are not.
+    /// The policy for a source: a live camera's frames may be dropped, those of recordings and files may not.
     pub fn for_source(spec: &SourceSpec) -> Self {
         if spec.is_live() {
             Self::Newest
@@ -44,7 +44,7 @@ impl BackpressurePolicy {
     }
 }
 
-/// What a feed hands over.
+/// An item delivered by a feed.
 #[derive(Clone, Debug)]
 #[expect(
     clippy::large_enum_variant,
@@ -53,66 +53,66 @@ impl BackpressurePolicy {
 pub enum FeedItem {
     /// A capture.
     Captured(Captured),
-    /// Something that was meant to be a capture and cannot be read.
+    /// Something that should have been a capture and cannot be read.
     Skipped(SkippedCapture),
 }
 
-/// How a feed is.
+/// Status of a feed.
 #[derive(Clone, Debug)]
 pub struct FeedStatus {
-    /// What it does.
+    /// What the feed is doing.
     pub state: FeedState,
-    /// What a person calls the source, once it is open.
+    /// Title of the source, once it is open.
     pub title: Option<String>,
-    /// Whether what it gives is simulated, once it is open.
+    /// Whether its captures are simulated, once it is open.
     pub is_simulated: Option<bool>,
-    /// Captures that the source has given.
+    /// Number of captures that the source has delivered.
     pub num_captured: u64,
-    /// Captures among them that were dropped for a newer one.
+    /// Number of them that were dropped for a newer one.
     pub num_dropped: u64,
-    /// Things that could not be read.
+    /// Number of things that could not be read.
     pub num_skipped: u64,
-    /// Captures a second that the source gives now.
+    /// Captures per second at present.
     pub rate: Option<f64>,
 }
 
-/// What a feed does.
+/// State of a feed.
 #[derive(Clone, Debug)]
 pub enum FeedState {
     /// The source is being opened.
     Opening,
-    /// Captures come.
+    /// Captures arrive.
     Running,
-    /// The source was there, or may come; it is looked for again by itself.
+    /// The source was lost, or is not there yet; recovery is automatic.
     Lost {
-        /// Why there is nothing.
+        /// The underlying error.
         error: Arc<CaptureError>,
     },
-    /// The source has no more.
+    /// The source has no more captures.
     Ended,
-    /// The source cannot be used until somebody has done something about it.
+    /// The source cannot be used until a person intervenes.
     Failed(Arc<CaptureError>),
-    /// It was told to stop, and has.
+    /// The feed was told to stop, and has stopped.
     Stopped,
 }
 
 impl FeedState {
-    /// True once the thread will do nothing more. What was captured before can still be taken.
+    /// True once the thread will do nothing more. Earlier captures can still be taken.
     pub fn is_over(&self) -> bool {
         matches!(self, Self::Ended | Self::Failed(_) | Self::Stopped)
     }
 }
 
-/// A source waits so long for a capture before it is looked whether to stop.
+/// How long the thread waits for a capture before it checks whether to stop.
 const TURN: Duration = Duration::from_millis(50);
-/// The pause before the first retry; each following one is twice as long.
+/// Pause before the first retry; each further pause is twice as long.
 const FIRST_RETRY: Duration = Duration::from_millis(250);
-/// The longest pause: a camera that is plugged in again is there within this time.
+/// The longest pause: a camera that is plugged in again is back within this time.
 const LONGEST_RETRY: Duration = Duration::from_secs(4);
 
 impl Feed {
-    /// Opens a source on a thread of its own. `on_news` is called from there after every change of state and every
-    /// capture; it should do little, such as asking a window to draw.
+    /// Opens a source on a thread of its own. `on_news` is called on that thread after every change of state and every
+    /// capture; it should do little, such as requesting a repaint.
     pub fn start(
         spec: SourceSpec,
         delivery: BackpressurePolicy,
@@ -121,7 +121,7 @@ impl Feed {
         Self::start_with(move || open::open(&spec), delivery, on_news)
     }
 
-    /// As [`Feed::start`], with another way to open the source.
+    /// As [`Feed::start`], with a custom way to open the source.
     pub fn start_with(
         mut open: impl FnMut() -> Result<Box<dyn DepthSource>, CaptureError> + Send + 'static,
         delivery: BackpressurePolicy,
@@ -145,8 +145,8 @@ impl Feed {
         })
     }
 
-    /// Another feed of the same source, which takes nothing away from this one: of what comes from now on it keeps the
-    /// newest. It does not keep the source open, and is over once this one is.
+    /// Returns another feed of the same source that takes nothing from this one: it keeps the newest of the captures from
+    /// now on. It does not keep the source open, and ends with this feed.
     #[must_use]
     pub fn tap(&self) -> Self {
         Self {
@@ -155,7 +155,7 @@ impl Feed {
         }
     }
 
-    /// A feed that has failed for this reason.
+    /// A feed that has failed with this error.
     pub fn failed(error: CaptureError) -> Self {
         let slot = Slot::new(BackpressurePolicy::Newest, Box::new(|| ()));
         slot.set_state(FeedState::Failed(Arc::new(error)));
@@ -165,19 +165,18 @@ impl Feed {
         }
     }
 
-    /// What came since it was asked last, waiting for it; `None` after `at_most`, or as soon as nothing will come any
-    /// more.
+    /// Waits for the next item; `None` after `at_most`, or as soon as nothing more will come.
     pub fn wait(&self, at_most: Duration) -> Option<FeedItem> {
         self.slot.take(at_most)
     }
 
-    /// How it is.
+    /// The present status.
     pub fn status(&self) -> FeedStatus {
         self.slot.status()
     }
 
-    /// Tells it to stop; returns at once. [`FeedState::Stopped`] follows when the camera is closed, and dropping the
-    /// feed does not wait any more then.
+    /// Tells the feed to stop and returns at once. [`FeedState::Stopped`] follows when the camera is closed; after that,
+    /// dropping the feed does not block.
     pub fn stop(&self) {
         self.slot.stop();
     }
@@ -187,13 +186,13 @@ impl Drop for Feed {
     fn drop(&mut self) {
         self.slot.stop();
         if let Some(thread) = self.thread.take() {
-            // A fault of the thread has been reported as the state already.
+            // A panic of the thread is already reported as the state.
             let _ = thread.join();
         }
     }
 }
 
-/// What runs on the thread.
+/// The state of the thread.
 struct Camera<'a> {
     slot: &'a Slot,
     retry: Duration,
@@ -201,9 +200,9 @@ struct Camera<'a> {
 
 /// Why the thread leaves a source.
 enum StopReason {
-    /// For good.
+    /// The feed ends in this state.
     Over(FeedState),
-    /// To open it anew.
+    /// The source has to be opened again.
     ToReopen,
 }
 
@@ -228,7 +227,7 @@ impl Camera<'_> {
         }
     }
 
-    /// Takes what the source gives until it is lost, over, or no longer wanted.
+    /// Delivers what the source yields until it is lost, ended or told to stop.
     fn follow(&mut self, source: &mut dyn DepthSource) -> Option<StopReason> {
         while !self.slot.is_stopping() {
             match source.next(TURN) {
@@ -253,7 +252,7 @@ impl Camera<'_> {
         None
     }
 
-    /// Waits until it is time to try again; `None` if the same source can be asked.
+    /// Waits until it is time to retry; `None` if the same source can be queried again.
     fn pause(&mut self, error: CaptureError) -> Option<StopReason> {
         let recovery = error.recovery();
         let error = Arc::new(error);

@@ -1,11 +1,11 @@
 //! A GenICam camera (GigE Vision, USB3 Vision), through aravis.
 //!
-//! Depth comes as `Coord3D_C16`, points as `Coord3D_ABC32f`; what their values stand for is read from the camera
-//! (`scan3d`) or, of depth, from a file in the form of those beside depth images. `Mono16` is depth only if a
-//! person says so, because most cameras send grey values in it.
+//! Depth comes as `Coord3D_C16`, points as `Coord3D_ABC32f`. The meaning of their values is read from the camera (`scan3d`)
+//! or, for depth, from a file like those that accompany depth images. `Mono16` is used as depth only on request, because
+//! most cameras send grey values in it.
 //!
-//! Pixel format, acquisition mode and the selectors of what is read are set; exposure, region and all else stay as the
-//! camera has them.
+//! Only the pixel format, the acquisition mode and the selectors needed for reading are set; exposure, region and
+//! everything else stay as configured in the camera.
 
 mod aravis;
 mod error;
@@ -34,14 +34,14 @@ use super::{
 };
 use crate::files::DepthCamera;
 
-/// Names a file or a folder with aravis; the source's own setting goes before it.
+/// Environment variable with aravis' file or folder; the source's own setting takes precedence.
 const VARIABLE: &str = "PARTSIGHT_ARAVIS";
 
 const NAMES: &[&str] = if cfg!(target_os = "macos") {
     &[
         "libaravis-0.8.0.dylib",
         "libaravis-0.8.dylib",
-        // Homebrew's folder on Apple's own processors is none of those that the system looks into.
+        // Homebrew's folder on Apple silicon is not among those that the system searches.
         "/opt/homebrew/lib/libaravis-0.8.0.dylib",
     ]
 } else if cfg!(windows) {
@@ -50,30 +50,30 @@ const NAMES: &[&str] = if cfg!(target_os = "macos") {
     &["libaravis-0.8.so.0", "libaravis-0.8.so"]
 };
 
-/// A camera that sends nothing while it is waited for so long is lost. The library needs about 5 s to notice that a
-/// GigE camera is gone, which is the better message.
+/// A camera that sends nothing for this long is lost. It exceeds the 5 s or so after which the library notices that a GigE
+/// camera is gone, which gives the better message.
 const SILENCE: Duration = Duration::from_secs(8);
 
-/// An open camera whose stream runs. Dropped, it stops the stream and lets the camera go.
+/// An open camera whose stream runs. Dropping it stops the stream and closes the camera.
 pub(super) struct Genicam {
     /// `None` once it is lost.
     device: Option<Device>,
     title: String,
     format: GenicamFormat,
     decoder: Decoder,
-    /// Whole frames and others.
+    /// Number of frames, complete or not.
     num_frames: u64,
     silence: ReadTimeout,
     warnings: Vec<CaptureWarning>,
 }
 
-/// Opens the camera of that ID, or the first one that answers, and starts its stream.
+/// Opens the camera with the given ID, or the first that answers, and starts its stream.
 pub(super) fn open(spec: &GenicamSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
     Ok(Box::new(Genicam::open(spec)?))
 }
 
-/// The cameras that answer, or why there is none, with aravis where the environment or the system has it. Takes about
-/// a second, for which cameras may answer.
+/// Lists the cameras that answer, or why there are none, using the environment's or the system's aravis. Takes about a
+/// second, the time cameras have to answer.
 pub(super) fn list() -> Vec<SourceListing> {
     let found = library(&GenicamSpec::default()).and_then(|aravis| match &aravis.devices()[..] {
         [] => Err(GenicamError::NoDevice),
@@ -117,9 +117,9 @@ fn library(spec: &GenicamSpec) -> Result<Aravis, GenicamError> {
         })
 }
 
-/// The ID that opens the camera asked for, or the first one that answers.
+/// Returns the ID of the requested camera, or of the first that answers.
 fn find_device(aravis: Aravis, wanted: Option<&str>) -> Result<String, GenicamError> {
-    // Also where an address is known: the library keeps cameras that are gone until it searches again.
+    // Search even if an address is given: the library keeps cameras that are gone until the next search.
     let found = aravis.devices();
     let Some(wanted) = wanted else {
         let first = found.into_iter().next().ok_or(GenicamError::NoDevice)?;
@@ -130,7 +130,7 @@ fn find_device(aravis: Aravis, wanted: Option<&str>) -> Result<String, GenicamEr
         .find(|device| device.id == wanted || device.address.as_deref() == Some(wanted));
     match asked {
         Some(device) => Ok(device.id.clone()),
-        // The search does not reach behind a router, the camera may.
+        // A camera behind a router is not found by the search, but may be reachable.
         None if wanted.parse::<IpAddr>().is_ok() => Ok(wanted.to_owned()),
         None if found.is_empty() => Err(GenicamError::NoDevice),
         None => Err(GenicamError::NoSuchDevice {
@@ -140,7 +140,7 @@ fn find_device(aravis: Aravis, wanted: Option<&str>) -> Result<String, GenicamEr
     }
 }
 
-/// The pixel format to set: the one asked for, else depth whose numbers are known, else points.
+/// Chooses the pixel format: the requested one, else depth if its numbers are known, else points.
 fn choose(
     asked: Option<GenicamFormat>,
     offered: Vec<String>,
@@ -177,7 +177,7 @@ impl Genicam {
         if !device.has_control() {
             return Err(GenicamError::InUse.into());
         }
-        // Of a camera with several sensors or maps, formats are those of the selected one; others have no such node.
+        // A camera with several sensors or maps reports the formats of the selected one; others have no such node.
         let _ = device.set(c"ComponentSelector", c"Range");
         let offered = device.pixel_formats().map_err(not_opened)?;
         let knows_camera = file.is_some() || device.has(FOCAL_LENGTH).map_err(not_opened)?;
@@ -208,7 +208,7 @@ impl Genicam {
         })
     }
 
-    /// What one frame is: a capture, or a frame that is skipped and counted.
+    /// Converts a frame into a capture, or into a frame that is skipped and counted.
     fn next_of(&self, frame: &Frame<'_>) -> NextCapture {
         let name = format!("GenICam frame {}", self.num_frames);
         let part = || {
@@ -243,7 +243,7 @@ impl Genicam {
         }
     }
 
-    /// Lets the camera go.
+    /// Closes the camera.
     fn end(&mut self, reason: GenicamError) -> Result<NextCapture, CaptureError> {
         self.device = None;
         Err(reason.into())
@@ -280,7 +280,7 @@ impl DepthSource for Genicam {
         let Some(seconds) = timeout else {
             return Ok(NextCapture::NotYet);
         };
-        // One that is unplugged does not answer either.
+        // An unplugged camera does not answer either.
         let reason = match device.frame_bytes() {
             Ok(_) => GenicamError::Silent { seconds },
             Err(said) => GenicamError::Lost { said: Some(said) },

@@ -1,13 +1,13 @@
 //! A Kinect, through libfreenect.
 //!
-//! Depth is taken in the depth camera's own geometry and in millimetres, as the library makes them from the values
-//! that every Kinect keeps of itself; the focal length comes from the same values. The other mode in millimetres moves
-//! every reading to where the colour camera would see it, which leaves holes, and colour is not used here. Libraries
-//! that give only steps of disparity, such as those that play recorded sessions, are turned into millimetres with a
-//! usual Kinect's values, and every capture says so.
+//! Depth is read in the depth camera's own geometry and in millimetres, as computed by the library from the calibration
+//! stored in every Kinect; the focal length comes from the same calibration. The other mode in millimetres maps every
+//! reading to the colour camera's view, which leaves holes, and colour is not used here. Libraries that deliver only steps
+//! of disparity, such as those that play recorded sessions, are converted to millimetres with a typical Kinect's values,
+//! with a warning in every capture.
 //!
-//! Motor and LED are left alone. (libfreenect itself lights the LED of the later models, 1473 and Kinect for Windows,
-//! while it opens them.) One Kinect at a time can be open in a process.
+//! Motor and LED are not used. (libfreenect itself lights the LED of the later models, 1473 and Kinect for Windows, while
+//! it opens them.) Only one Kinect can be open in a process.
 
 mod claim;
 mod error;
@@ -44,7 +44,7 @@ use crate::geometry::{
     distortion::Distortion,
 };
 
-/// An open Kinect whose depth stream runs. Dropped, it stops the stream and lets the camera go.
+/// An open Kinect whose depth stream runs. Dropping it stops the stream and closes the camera.
 pub(super) struct Kinect {
     /// `None` once it is lost or the session has ended.
     device: Option<Device>,
@@ -52,26 +52,26 @@ pub(super) struct Kinect {
     camera: Intrinsics,
     units: Units,
     library: &'static Library,
-    /// Where it plays a recorded session, how long that is.
+    /// Number of entries of the recorded session, if the library plays one.
     num_entries: Option<usize>,
     num_frames: u64,
     silence: ReadTimeout,
     warnings: Vec<CaptureWarning>,
 }
 
-/// What a value of the library's frames stands for.
+/// Unit of the values in the library's frames.
 enum Units {
     Millimetres,
-    /// A step of disparity; the table holds its millimetres.
+    /// A step of disparity; the table converts steps to millimetres.
     Steps(Vec<u16>),
 }
 
-/// Opens the Kinect of that serial number, or the first one, and starts its depth stream.
+/// Opens the Kinect with the given serial number, or the first one, and starts its depth stream.
 pub(super) fn open(spec: &KinectSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
     Ok(Box::new(Kinect::open(spec)?))
 }
 
-/// The Kinects that are plugged in, or why there is none, with libfreenect where the environment or the system has it.
+/// Lists the Kinects that are plugged in, or why there are none, using the environment's or the system's libfreenect.
 pub(super) fn list() -> Vec<SourceListing> {
     found_devices().unwrap_or_else(|error| vec![cannot_be_opened(error)])
 }
@@ -124,8 +124,8 @@ fn title(spec: &KinectSpec, library: &LoadedDriver) -> String {
     }
 }
 
-/// Starts the library. A build that plays recorded sessions ends the program where it has none, so that is looked at
-/// before; its number of entries comes with the context.
+/// Starts the library. A build that plays recorded sessions terminates the program if there is no session, so check for it
+/// first. Returns the context and the session's number of entries.
 fn start(found: &LoadedDriver) -> Result<(Context, Option<usize>), KinectError> {
     let plays_session = found.library.plays_sessions();
     let num_entries = plays_session
@@ -191,7 +191,7 @@ impl Kinect {
         }
     }
 
-    /// Lets the camera go.
+    /// Closes the camera.
     fn end(&mut self, reason: KinectError) -> Result<NextCapture, CaptureError> {
         self.device = None;
         Err(reason.into())
@@ -211,7 +211,7 @@ impl DepthSource for Kinect {
         let start = Instant::now();
         let mut waited = Duration::ZERO;
         loop {
-            // Asked beyond its end, the library would also write about it among the program's own output.
+            // Stop before the end: beyond it, the library would also print a message to the program's output.
             if self
                 .num_entries
                 .is_some_and(|num| self.library.num_turns() >= num)
@@ -233,7 +233,7 @@ impl DepthSource for Kinect {
                         return self.end(KinectError::Silent { seconds });
                     }
                 }
-                // A session that is over and a camera that is gone have the same code.
+                // The end of a session and a lost camera have the same code.
                 Err(_) if self.num_entries.is_some() => {
                     self.device = None;
                     return Ok(NextCapture::End);
@@ -248,7 +248,7 @@ impl DepthSource for Kinect {
 }
 
 impl Units {
-    /// A frame in millimetres; 0 is no reading.
+    /// Converts a frame to millimetres; 0 means no reading.
     fn millimetres(&self, values: &[u16]) -> Vec<u16> {
         match self {
             Self::Millimetres => values
@@ -276,7 +276,7 @@ fn open_device(
         return context.open(None).map_err(KinectError::of_opening);
     };
     let found = context.serials().map_err(KinectError::of_opening)?;
-    // A session has one camera, and its number is not known.
+    // A session has one camera, whose serial number is unknown.
     if !plays_session && !found.iter().any(|one| one == serial) {
         if found.len() < num_devices {
             return Err(KinectError::no_permission());
@@ -292,15 +292,15 @@ fn open_device(
         .map_err(KinectError::of_opening)
 }
 
-/// Millimetres made by the library, else steps of disparity.
+/// Prefers millimetres computed by the library over steps of disparity.
 fn best_mode(modes: &[FrameMode]) -> Option<FrameMode> {
     let of_format = |format| modes.iter().find(|mode| mode.format == format).copied();
     of_format(DEPTH_MM).or_else(|| of_format(DEPTH_11BIT))
 }
 
-/// The camera that the library itself reckons with; `None` where it does not tell.
+/// The intrinsics that the library uses; `None` if it does not reveal them.
 fn camera_of(device: &Device, mode: &FrameMode) -> Option<Intrinsics> {
-    // Far enough away that whole millimetres are no limit, and within what a C int can hold.
+    // Far enough that rounding to whole millimetres does not matter, and within the range of a C int.
     let far_mm = 1_000_000;
     let (width, height) = (i32::from(mode.width), i32::from(mode.height));
     let (left, top) = device.point_mm(0, 0, far_mm)?;
@@ -318,7 +318,7 @@ fn camera_of(device: &Device, mode: &FrameMode) -> Option<Intrinsics> {
     })
 }
 
-/// The camera of a Kinect with the usual values.
+/// The intrinsics of a typical Kinect.
 fn usual_camera(mode: &FrameMode) -> Intrinsics {
     let (width, height) = (f64::from(mode.width), f64::from(mode.height));
     let focal = raw_depth::FOCAL_LENGTH * width / 640.0;
@@ -327,7 +327,7 @@ fn usual_camera(mode: &FrameMode) -> Intrinsics {
         height: usize::try_from(mode.height).unwrap_or(0),
         fx: focal,
         fy: focal,
-        // As libfreenect has it in `freenect_camera_to_world`.
+        // As in libfreenect's `freenect_camera_to_world`.
         cx: width / 2.0,
         cy: height / 2.0,
         distortion: Distortion::NONE,

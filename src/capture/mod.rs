@@ -1,4 +1,4 @@
-//! Where frames come from: the simulated cell, recordings, a watched folder, a Kinect, cameras of GenICam, OpenNI and
+//! Sources of frames: the simulated cell, recordings, a watched folder, a Kinect, and cameras through GenICam, OpenNI and
 //! RealSense.
 //!
 //! ```text
@@ -6,8 +6,8 @@
 //!  "kinect"             one at a time   a thread of its own, newest first, finds a lost source again
 //! ```
 //!
-//! A [`DepthSource`] is opened, used and dropped on one thread: some camera libraries want that. [`Feed`] is that
-//! thread; whoever can wait for frames on its own thread may also use a source directly.
+//! A [`DepthSource`] is opened, used and dropped on one thread, as some camera libraries require. [`Feed`] is that thread;
+//! a caller that can wait for frames on its own thread may also use a source directly.
 
 mod driver_search;
 mod error;

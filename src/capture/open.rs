@@ -1,4 +1,4 @@
-//! Which sources there are, and opening one.
+//! Lists and opens sources.
 
 use super::{
     error::CaptureError,
@@ -10,7 +10,7 @@ use super::{
     watched::WatchedFolder,
 };
 
-/// Opens a source. Call it on the thread that will use the source.
+/// Opens a source. Has to be called on the thread that will use the source.
 pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
     Ok(match spec {
         SourceSpec::Simulated(spec) => Box::new(SimulatedCell::new(spec.clone())),
@@ -23,19 +23,19 @@ pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
     })
 }
 
-/// A source that could be opened now, or a kind of source and why it cannot.
+/// A source that can be opened now, or a kind of source and why it cannot.
 #[derive(Debug)]
 pub struct SourceListing {
-    /// What a person calls it.
+    /// Title to show to the operator.
     pub title: String,
-    /// What to open; `None` where something has to be done first.
+    /// The source to open; `None` if a person has to act first.
     pub spec: Option<SourceSpec>,
-    /// Why it cannot be opened, with its advice.
+    /// Why it cannot be opened.
     pub trouble: Option<CaptureError>,
 }
 
-/// The sources that can be found without being told a folder: the simulated cell and every connected camera. Takes about
-/// a second, for which GenICam cameras may answer.
+/// Lists the sources that need no folder: the simulated cell and every connected camera. Takes about a second, the time
+/// GenICam cameras have to answer.
 pub fn list() -> Vec<SourceListing> {
     let simulated = SourceListing {
         title: "Simulated cell".into(),

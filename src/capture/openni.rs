@@ -1,13 +1,13 @@
-//! Cameras of OpenNI 2 (Asus Xtion, PrimeSense, Orbbec Astra) and the `.oni` files that it records, through libOpenNI2.
+//! OpenNI 2 cameras (Asus Xtion, PrimeSense, Orbbec Astra) and the `.oni` files that OpenNI records, through libOpenNI2.
 //!
-//! Depth is taken in the depth camera's own geometry, in the largest mode that is not slow. The camera is a pinhole with
-//! the field of view that OpenNI tells and its axis in the middle of the picture; OpenNI knows no distortion.
+//! Depth is read in the depth camera's own geometry, in the largest mode that is not slow. The camera is a pinhole with the
+//! field of view that OpenNI reports and its axis in the middle of the picture; OpenNI has no distortion.
 //!
-//! Drivers of OpenNI mirror the picture by default. That is switched off; where it cannot be, as in files, the picture is
-//! turned back. A device that does not tell whether it mirrors is refused, and so is a part of a picture.
+//! Drivers of OpenNI mirror the picture by default. Mirroring is switched off; where that is impossible, as in files, the
+//! picture is mirrored back. A device that does not report its mirroring is refused, and so are cropped pictures.
 //!
-//! Known limits: a file keeps the mirroring of its start only, so one during which it was switched is wrong from there on.
-//! libOpenNI2 reads files by itself; only whether one is whole is checked before.
+//! Known limits: a file stores only the mirroring at its start, so that if it was switched during the recording, all frames
+//! after that are wrong. libOpenNI2 reads files itself; we only check beforehand that a file is complete.
 
 mod answer;
 mod error;
@@ -46,22 +46,22 @@ use crate::geometry::{
     distortion::Distortion,
 };
 
-/// Modes with fewer frames a second are taken only where there is no other.
+/// Frame rate below which a mode is used only if there is no other, frames per second.
 const SLOW: i32 = 15;
-/// Bytes that OpenNI keeps of a file's path.
+/// Longest path of a file that OpenNI stores, bytes.
 const LONGEST_PATH: usize = 255;
-/// A camera is waited for so long at once; in between is looked whether it is still there.
+/// How long to wait for a camera before checking whether it is still there.
 const CAMERA_TURN: Duration = Duration::from_millis(50);
-/// As above, of a file. Each wait asks for a frame, and one that was given up too early would ask for two at once, of
-/// which OpenNI keeps the second only.
+/// The same for a file. Each wait requests a frame; giving up too early would request two at once, of which OpenNI keeps
+/// only the second.
 const FILE_TURN: Duration = Duration::from_secs(1);
 
-/// An open camera or file whose depth stream runs. Dropped, it stops the stream and lets the camera go.
+/// An open camera or file whose depth stream runs. Dropping it stops the stream and closes the camera.
 pub(super) struct OpenNi {
     /// `None` once it is lost or has ended.
     device: Option<Device>,
     title: String,
-    /// Where it plays a file.
+    /// Path of the file that is played, if any.
     file: Option<PathBuf>,
     mode: VideoMode,
     camera: Intrinsics,
@@ -91,7 +91,7 @@ pub(super) fn list() -> Vec<SourceListing> {
     }
 }
 
-/// The running library and at least one device.
+/// Starts the library and finds at least one device.
 fn found_devices(library: Option<&Path>) -> Result<(Context, Vec<FoundDevice>), OpenNiError> {
     let context = start(library)?;
     let devices = context
@@ -170,7 +170,7 @@ impl OpenNi {
         })
     }
 
-    /// Waits once.
+    /// Waits for a frame once.
     fn turn(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
         let Some(device) = &self.device else {
             return Ok(NextCapture::End);
@@ -178,7 +178,7 @@ impl OpenNi {
         if device.is_lost() {
             return self.end(OpenNiError::Lost { said: Vec::new() });
         }
-        // Asked before the wait: what a file had before its end has come by then.
+        // Query this before the wait: frames before the end of a file have then arrived.
         let is_at_end = device.is_at_end();
         let start = Instant::now();
         let received = device.receive(if is_at_end { Duration::ZERO } else { wait });
@@ -237,7 +237,7 @@ impl OpenNi {
         }
     }
 
-    /// Lets the camera go. What keeps a file from going on is damage.
+    /// Closes the camera. If a file cannot be played on, it is damaged.
     fn end(&mut self, reason: OpenNiError) -> Result<NextCapture, CaptureError> {
         self.device = None;
         let reason = match (&self.file, reason) {
@@ -295,7 +295,7 @@ fn open_file(path: &Path, library: Option<&Path>) -> Result<Device, OpenNiError>
     })
 }
 
-/// Opens the camera of that URI, or the first one, in its best mode. What it is called comes with it.
+/// Opens the camera with that URI, or the first one, in its best mode. Also returns its title.
 fn open_camera(uri: Option<&str>, library: Option<&Path>) -> Result<(Device, String), OpenNiError> {
     let (context, devices) = found_devices(library)?;
     let chosen = match uri {
@@ -310,7 +310,7 @@ fn open_camera(uri: Option<&str>, library: Option<&Path>) -> Result<(Device, Str
     };
     let device = open_device(context, &chosen.uri)
         .map_err(|Failed { said }| OpenNiError::NotOpened { said })?;
-    // Not every device has each of these settings, or needs it: what counts is what it tells of itself afterwards.
+    // Not every device has all these settings or needs them; what it reports afterwards is checked.
     if let Some(mode) = best_mode(&device.modes()) {
         let _ = device.set(STREAM_MODE, mode);
     }
@@ -321,14 +321,14 @@ fn open_camera(uri: Option<&str>, library: Option<&Path>) -> Result<(Device, Str
 }
 
 fn open_device(context: Context, uri: &str) -> Result<Device, Failed> {
-    // One with a 0 inside was refused before, as no file or device has such a name.
+    // URIs with a NUL inside were refused before, as no file or device has such a name.
     let uri = CString::new(uri).map_err(|error| Failed {
         said: vec![error.to_string()],
     })?;
     context.open(&uri)
 }
 
-/// The largest picture that is not slow; of several the one in millimetres, which reach farther than tenths.
+/// The largest mode that is not slow; of equal ones that in millimetres, which has a longer range than tenths.
 fn best_mode(modes: &[VideoMode]) -> Option<VideoMode> {
     let modes = modes.iter().filter(|mode| metres_per_unit(mode).is_some());
     let worth = |mode: &&VideoMode| {
@@ -339,7 +339,7 @@ fn best_mode(modes: &[VideoMode]) -> Option<VideoMode> {
     modes.max_by_key(worth).copied()
 }
 
-/// `None` if depth is neither in millimetres nor in tenths.
+/// `None` if depth is neither in millimetres nor in tenths of one.
 fn metres_per_unit(mode: &VideoMode) -> Option<f64> {
     match mode.format {
         DEPTH_1_MM => Some(0.001),
@@ -358,7 +358,7 @@ fn camera_of(device: &Device, mode: &VideoMode) -> Option<Intrinsics> {
     pinhole(mode, horizontal, vertical)
 }
 
-/// A camera with these fields of view, in radians from edge to edge; `None` if no camera has them.
+/// The pinhole camera with these fields of view, in radians from edge to edge; `None` if they are implausible.
 fn pinhole(mode: &VideoMode, horizontal: f32, vertical: f32) -> Option<Intrinsics> {
     let focal = |size: usize, view: f32| {
         let is_view = view > 0.05 && view < 3.0;
@@ -371,15 +371,14 @@ fn pinhole(mode: &VideoMode, horizontal: f32, vertical: f32) -> Option<Intrinsic
         height,
         fx: focal(width, horizontal)?,
         fy: focal(height, vertical)?,
-        // Pixel centres are at whole numbers. So the picture in a mirror has the same camera.
+        // Pixel centres are at integers, so that a mirrored picture has the same camera.
         cx: (width as f64 - 1.0) / 2.0,
         cy: (height as f64 - 1.0) / 2.0,
         distortion: Distortion::NONE,
     })
 }
 
-/// How fast OpenNI is to play a file recorded at `rate` frames a second. Below 0 it gives a frame whenever one is waited
-/// for.
+/// Playback speed for a file recorded at `rate` frames per second. If negative, OpenNI delivers a frame per wait.
 fn speed(pace: Option<Pace>, rate: i32) -> f32 {
     match pace {
         Some(Pace::AsTaken) => 1.0,

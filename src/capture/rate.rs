@@ -1,23 +1,23 @@
-//! How many come a second.
+//! Rate of events.
 
 use std::{
     collections::VecDeque,
     time::{Duration, Instant},
 };
 
-/// The rate of the last few events, as a person wants it shown: steady, and down to nothing when they stop.
+/// The rate of the last few events, for display: steady, and gone when events stop.
 #[derive(Clone, Debug, Default)]
 pub struct FrameRate {
     times: VecDeque<Instant>,
 }
 
-/// Events that the rate is taken over: one second of a camera.
+/// Number of events over which the rate is averaged: one second of a camera.
 const WINDOW: usize = 31;
-/// After this time without an event there is no rate any more.
+/// There is no rate after this time without an event.
 const STALE: Duration = Duration::from_secs(3);
 
 impl FrameRate {
-    /// Something came.
+    /// Counts an event.
     pub fn came(&mut self, at: Instant) {
         if self.times.len() == WINDOW {
             self.times.pop_front();
@@ -25,11 +25,11 @@ impl FrameRate {
         self.times.push_back(at);
     }
 
-    /// Events a second; `None` before the second one and when none came for a while.
+    /// Events per second; `None` before the second event, and after a while without events.
     pub fn per_second(&self, now: Instant) -> Option<f64> {
         let (first, last) = (self.times.front()?, self.times.back()?);
         let num_gaps = self.times.len().checked_sub(1).filter(|&n| n > 0)?;
-        // A slow source may need longer than that between two: ten of its own gaps.
+        // A slow source may pause longer than that: allow ten of its average intervals.
         let gap = (*last - *first) / num_gaps as u32;
         if now.saturating_duration_since(*last) > STALE.max(10 * gap) {
             return None;

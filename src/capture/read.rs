@@ -1,4 +1,4 @@
-//! One file as a capture.
+//! Reads single files as captures.
 
 use std::{fs, path::Path};
 
@@ -13,7 +13,7 @@ use crate::{
     geometry::cloud::PointCloud,
 };
 
-/// An ending of scenes that programs also give to what they leave beside them: logs and settings.
+/// A file ending of scenes that is also common for logs and settings beside them.
 const OF_LOGS: &str = "txt";
 
 /// True if a file of this name may be a capture: a known ending, and not hidden.
@@ -26,12 +26,12 @@ pub(crate) fn may_be_capture(path: &Path) -> bool {
     is_known && !file_name(path).starts_with('.')
 }
 
-/// Reads what a camera saw. A file without a single reading is an image without points: the camera was covered.
+/// Reads a capture from a file. A file without any reading is an image without points: the camera was covered.
 pub fn read_image(path: &Path) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
     image_of(files::open(path), path)
 }
 
-/// As [`read_image`], of a file that is opened.
+/// As [`read_image`], for a file that is already open.
 pub(super) fn image_of(
     opened: Result<FileContent, FileError>,
     path: &Path,
@@ -56,7 +56,7 @@ pub(super) fn image_of(
     Ok((image, warnings))
 }
 
-/// When a file was last written, as far as the system knows.
+/// The time of a file's last modification, if the system knows it.
 pub(super) fn written_at(path: &Path) -> Option<Timestamp> {
     let modified = fs::metadata(path).and_then(|file| file.modified()).ok()?;
     Timestamp::try_from(modified).ok()

@@ -1,12 +1,11 @@
-//! When a camera that sends nothing is lost.
+//! Detects a camera that no longer sends anything.
 
 use std::time::Duration;
 
-/// A camera that sends nothing while it is waited for so long is lost. Some take more than a second from the start to their
-/// first frame.
+/// Default silence after which a camera is lost. Some take more than a second from the start to their first frame.
 const USUAL: Duration = Duration::from_secs(5);
 
-/// How long a camera was waited for and sent nothing. Pauses in which nobody waited do not count.
+/// How long a camera has sent nothing while being waited for. Pauses in which nobody waited do not count.
 pub(super) struct ReadTimeout {
     limit: Duration,
     silent_for: Duration,
@@ -26,18 +25,18 @@ impl ReadTimeout {
         }
     }
 
-    /// Something came.
+    /// Resets the silence after a frame.
     pub(super) fn restart(&mut self) {
         self.silent_for = Duration::ZERO;
     }
 
-    /// The silence went on for so long. Its whole seconds, if those are too many for a camera that is well.
+    /// Adds `turn` to the silence. Returns its whole seconds once it reaches the limit.
     pub(super) fn goes_on(&mut self, turn: Duration) -> Option<u64> {
         self.silent_for += turn;
         (self.silent_for >= self.limit).then_some(self.seconds())
     }
 
-    /// Whole seconds of the silence.
+    /// Whole seconds of the silence so far.
     pub(super) fn seconds(&self) -> u64 {
         self.silent_for.as_secs()
     }

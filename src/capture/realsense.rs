@@ -1,11 +1,12 @@
-//! A RealSense camera, and the files that librealsense records, through librealsense 2.
+//! RealSense cameras, and the files that librealsense records, through librealsense 2.
 //!
-//! Depth is taken as the camera sends it, in its own geometry with the distortion of its lens, not aligned to colour, in units
-//! that the camera tells. 848×480 pixels at 30 frames a second, where the cameras of the D400 family are at their best, come
-//! first, then 640×480, then the largest picture that is not slow.
+//! Depth is read as the camera sends it, in its own geometry with its lens distortion, not aligned to colour, in the unit
+//! that the camera reports. The preferred mode is 848×480 pixels at 30 frames per second, where the cameras of the D400
+//! family work best, then 640×480, then the largest that is not slow.
 //!
-//! Known limits: distortion is read where [`Distortion`] can hold it: Brown-Conrady, and modified Brown-Conrady without its
-//! tangential part. Other models are refused. librealsense reads files by itself; only whether one is whole is checked before.
+//! Known limits: distortion is read if [`Distortion`] can represent it: Brown-Conrady, and modified Brown-Conrady without
+//! its tangential part. Other models are refused. librealsense reads files itself; we only check beforehand that a file is
+//! complete.
 
 mod error;
 mod file;
@@ -37,22 +38,22 @@ use crate::geometry::{
     distortion::Distortion,
 };
 
-/// Names a file or a folder with librealsense; the source's own setting goes before it.
+/// Environment variable with librealsense's file or folder; the source's own setting takes precedence.
 const VARIABLE: &str = "PARTSIGHT_REALSENSE";
 
-/// Columns, rows and frames a second that are taken where a camera has them, the first one first.
+/// Preferred modes, best first: columns, rows, frames per second.
 const PREFERRED: [(c_int, c_int, c_int); 2] = [(848, 480, 30), (640, 480, 30)];
-/// Of equally large pictures, those of the rate next to this one.
+/// Of equally large modes, the one closest to this rate is chosen, frames per second.
 const USUAL_RATE: c_int = 30;
-/// Modes with fewer frames a second are taken only where there is no other.
+/// Frame rate below which a mode is used only if there is no other, frames per second.
 const SLOW: c_int = 15;
 
-/// An open camera or file whose depth stream runs. Dropped, it stops the stream and lets the camera go.
+/// An open camera or file whose depth stream runs. Dropping it stops the stream and closes the camera.
 pub(super) struct Realsense {
     /// `None` once it is lost or has ended.
     stream: Option<Stream>,
     title: String,
-    /// Where it plays a file.
+    /// Path of the file that is played, if any.
     file: Option<PathBuf>,
     camera: Intrinsics,
     metres_per_unit: f64,
@@ -60,7 +61,7 @@ pub(super) struct Realsense {
     silence: ReadTimeout,
 }
 
-/// Opens the camera of that serial number, the first one, or the file, and starts its depth stream.
+/// Opens the camera with the given serial number, the first camera, or the file, and starts its depth stream.
 pub(super) fn open(spec: &RealsenseSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
     let Some(path) = spec.file() else {
         return Ok(Box::new(Realsense::open(spec)?));
@@ -115,7 +116,7 @@ fn title(device: &Device) -> String {
     }
 }
 
-/// The running library, at `library` or where the environment or the system has it.
+/// Starts the library at `library`, or the one of the environment or the system.
 fn start(library: Option<&Path>) -> Result<Context, RealsenseError> {
     let names = names();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -130,11 +131,11 @@ fn start(library: Option<&Path>) -> Result<Context, RealsenseError> {
     })
 }
 
-/// The library's names. Where only its packages for programs are installed, its name has the minor version; the newest one is
-/// taken.
+/// File names of the library. If only its runtime packages are installed, the name contains the minor version; the newest
+/// is preferred.
 fn names() -> Vec<String> {
     if cfg!(target_os = "macos") {
-        // Homebrew's folder on Apple's own processors is none of those that the system looks into.
+        // Homebrew's folder on Apple silicon is not among those that the system searches.
         let names = [
             "librealsense2.dylib",
             "/opt/homebrew/lib/librealsense2.dylib",
@@ -205,7 +206,7 @@ impl Realsense {
     fn captured(&mut self, received: Received) -> Captured {
         self.num_frames += 1;
         self.silence.restart();
-        // A file tells when it was recorded.
+        // Frames of a file have their time of recording.
         let recorded_at = received.captured_at.filter(|_| self.file.is_some());
         let recorded_at = recorded_at.and_then(|ms| Timestamp::from_millisecond(ms as i64).ok());
         Captured {
@@ -226,7 +227,8 @@ impl Realsense {
         }
     }
 
-    /// Nothing came within that time. Once in every second of silence the library is asked whether the camera is still there.
+    /// Handles a wait of `turn` without a frame. In every second of silence the library is asked once whether the camera is
+    /// still there.
     fn silent(&mut self, turn: Duration) -> Result<NextCapture, CaptureError> {
         let seconds_before = self.silence.seconds();
         let timeout = self.silence.goes_on(turn);
@@ -244,7 +246,7 @@ impl Realsense {
         }
     }
 
-    /// Lets the camera go.
+    /// Closes the camera.
     fn end(&mut self, reason: RealsenseError) -> Result<NextCapture, CaptureError> {
         self.stream = None;
         let reason = match &self.file {
@@ -268,7 +270,7 @@ impl DepthSource for Realsense {
         let Some(stream) = &self.stream else {
             return Ok(NextCapture::End);
         };
-        // Asked before the wait: what a file had before its end is in the queue by then.
+        // Query this before the wait: frames before the end of a file are then in the queue.
         let is_stopped = stream.is_stopped();
         let is_at_end = is_stopped && self.num_frames > 0;
         let start = Instant::now();
@@ -278,7 +280,7 @@ impl DepthSource for Realsense {
                 self.stream = None;
                 Ok(NextCapture::End)
             }
-            // The pauses of a file may be long.
+            // A file may have long pauses.
             Ok(None) if self.file.is_some() && !is_stopped => Ok(NextCapture::NotYet),
             Ok(None) => self.silent(start.elapsed()),
             Err(said) => self.end(RealsenseError::Lost { said: Some(said) }),
@@ -292,7 +294,7 @@ fn open_file(context: &Context, path: &Path) -> Result<Device, RealsenseError> {
     context.open_file(&name).map_err(not_opened)
 }
 
-/// The camera of that serial number, or the first one that opens.
+/// Opens the camera with that serial number, or the first one that can be opened.
 fn open_camera(context: &Context, serial: Option<&str>) -> Result<Device, RealsenseError> {
     let devices = context.devices().map_err(not_opened)?;
     let (mut found, mut trouble) = (Vec::new(), None);
@@ -309,7 +311,7 @@ fn open_camera(context: &Context, serial: Option<&str>) -> Result<Device, Realse
         }
     }
     Err(match (trouble, serial) {
-        // It may be the one that was asked for.
+        // The one that failed may be the requested one.
         (Some(said), _) => not_opened(said),
         (None, Some(serial)) if !found.is_empty() => RealsenseError::NoSuchDevice {
             serial: serial.to_owned(),
@@ -319,7 +321,7 @@ fn open_camera(context: &Context, serial: Option<&str>) -> Result<Device, Realse
     })
 }
 
-/// Of the modes that have pixels.
+/// Chooses the best mode with a valid size.
 fn best_mode(modes: &[DepthMode]) -> Option<DepthMode> {
     let worth = |mode: &&DepthMode| {
         let size = (mode.width, mode.height, mode.rate);
@@ -349,7 +351,7 @@ fn set_preset(sensor: &Sensor, preset: &str, title: &str) -> Result<(), Realsens
     sensor.set_preset(*number).map_err(not_opened)
 }
 
-/// The decimal number that the camera means: 0.001 rather than the binary fraction next to it.
+/// Converts the unit by way of its decimal form: 0.001 instead of the nearest binary fraction.
 fn metres_per_unit(scale: f32, title: &str) -> Result<f64, RealsenseError> {
     let metres: f64 = scale.to_string().parse().unwrap_or(f64::NAN);
     if metres > 0.0 && metres.is_finite() {
@@ -361,7 +363,7 @@ fn metres_per_unit(scale: f32, title: &str) -> Result<f64, RealsenseError> {
     })
 }
 
-/// The camera with its lens, if they can be held.
+/// Converts the intrinsics, if [`Intrinsics`] can represent them.
 fn camera_of(raw: &RawIntrinsics, title: &str) -> Result<Intrinsics, RealsenseError> {
     let bad = || RealsenseError::BadNumbers {
         title: title.to_owned(),
@@ -392,7 +394,7 @@ fn camera_of(raw: &RawIntrinsics, title: &str) -> Result<Intrinsics, RealsenseEr
     if is_camera { Ok(camera) } else { Err(bad()) }
 }
 
-/// The distortion, or the name of a model that cannot be held. The models are those of `rs2_distortion`.
+/// Converts the distortion; the error names a model that cannot be represented. The models are those of `rs2_distortion`.
 fn lens(raw: &RawIntrinsics) -> Result<Distortion, &'static str> {
     let [k1, k2, p1, p2, k3] = raw.coeffs.map(f64::from);
     let brown_conrady = Distortion {
@@ -406,10 +408,10 @@ fn lens(raw: &RawIntrinsics) -> Result<Distortion, &'static str> {
     let is_radial = p1 == 0.0 && p2 == 0.0;
     match raw.model {
         0 => Ok(Distortion::NONE),
-        // Its tangential part is that of the place to which the radial part moves the ray.
+        // Its tangential part is evaluated at the point moved by the radial part.
         1 if is_radial => Ok(brown_conrady),
         1 => Err("modified Brown-Conrady"),
-        // Many cameras name it and have no distortion.
+        // Many cameras report this model with zero distortion.
         2 if brown_conrady.is_none() => Ok(Distortion::NONE),
         2 => Err("inverse Brown-Conrady"),
         3 => Err("F-Theta"),
@@ -419,8 +421,8 @@ fn lens(raw: &RawIntrinsics) -> Result<Distortion, &'static str> {
     }
 }
 
-/// How many times as fast as it was taken a file recorded at `rate` frames a second is played; `None` for each frame as soon
-/// as it is asked for.
+/// Playback speed, relative to the recording, for a file recorded at `rate` frames per second; `None` to deliver each frame
+/// as soon as it is requested.
 fn speed(pace: Option<Pace>, rate: c_int) -> Option<f32> {
     match pace {
         Some(Pace::AsTaken) => Some(1.0),
@@ -511,7 +513,7 @@ mod tests {
             ),
         ] {
             let found = seen(model, coeffs);
-            // The numbers of the camera have seven digits.
+            // The camera's numbers have seven digits.
             assert!(
                 (found.0 - u).hypot(found.1 - v) < 1e-4,
                 "{model}: {found:?}"

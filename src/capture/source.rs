@@ -1,4 +1,4 @@
-//! A source of captures, and what it gives.
+//! The trait of capture sources, and captures.
 
 use std::{
     sync::Arc,
@@ -13,21 +13,21 @@ use crate::{
     simulate::FrameTruth,
 };
 
-/// Gives captures one at a time. Opened, used and dropped on one thread, so it need not be `Send`.
+/// Delivers captures one at a time. It is opened, used and dropped on one thread, so it need not be `Send`.
 pub trait DepthSource {
-    /// What a person calls it.
+    /// Title to show to the operator.
     fn title(&self) -> String;
 
-    /// True if what it gives was simulated, live or when it was recorded.
+    /// True if its captures are simulated, live or when they were recorded.
     fn is_simulated(&self) -> bool;
 
-    /// The next capture, or [`NextCapture::NotYet`] after waiting at most about `wait`.
+    /// Returns the next capture, or [`NextCapture::NotYet`] after waiting for about `wait`.
     ///
-    /// An error ends this source unless its [`CaptureError::recovery`] says that it may be asked again.
+    /// An error ends the source, unless [`CaptureError::recovery`] says that it may be queried again.
     fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError>;
 }
 
-/// What a source has to give.
+/// What a source delivers.
 #[derive(Debug)]
 #[expect(
     clippy::large_enum_variant,
@@ -36,48 +36,48 @@ pub trait DepthSource {
 pub enum NextCapture {
     /// A capture.
     Captured(Captured),
-    /// Something that was meant to be a capture and cannot be read; the source goes on.
+    /// Something that should have been a capture and cannot be read; the source goes on.
     Skipped(SkippedCapture),
     /// Nothing within the time.
     NotYet,
-    /// No more, ever.
+    /// The source has ended.
     End,
 }
 
-/// One capture.
+/// A capture with its origin.
 #[derive(Clone, Debug)]
 pub struct Captured {
-    /// Counts the captures of this source since it was opened, from 1.
+    /// Number of the capture since the source was opened, from 1.
     pub number: u64,
-    /// What a person calls it, for lists and reports: "simulated frame 12", a file's name.
+    /// Name for lists and reports: "simulated frame 12", or a file's name.
     pub name: String,
-    /// When the camera saw it: of a recording the time then, of a file the time it was last written.
+    /// When the camera captured it: for a recording the original time, for a file the time of its last modification.
     pub taken_at: Timestamp,
-    /// When the source handed it over; age and latency count from here.
+    /// When the source delivered it; ages and latencies count from here.
     pub arrived: Instant,
-    /// What was seen.
+    /// The image, in camera space.
     pub image: Image,
-    /// True if no camera was read, also where a recording of the simulated cell is replayed.
+    /// True if it is simulated, also in a recording of the simulated cell.
     pub is_simulated: bool,
-    /// What is known about it; without the labels of its pixels.
+    /// The truth about it, if known, without labels of its pixels.
     pub truth: Option<Arc<FrameTruth>>,
-    /// Where the arm that carries the camera stood: takes the flange's frame to the robot's base, if that was recorded.
+    /// Pose of the flange in the robot's base frame, for a camera on the arm, if it was recorded.
     pub robot_from_flange: Option<Box<RigidTransform>>,
-    /// What is odd about it.
+    /// Warnings about the capture.
     pub warnings: Vec<CaptureWarning>,
 }
 
-/// What was seen, in camera space.
+/// The image of a capture, in camera space.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Image {
     /// A depth image.
     Depth(DepthFrame),
-    /// Points.
+    /// A point cloud.
     Cloud(PointCloud),
 }
 
 impl Image {
-    /// True if it says itself that no camera read it.
+    /// True if the data themselves are marked as simulated.
     pub fn is_simulated(&self) -> bool {
         match self {
             Self::Depth(frame) => frame.is_simulated,
@@ -86,11 +86,11 @@ impl Image {
     }
 }
 
-/// Something that was meant to be a capture and cannot be read.
+/// Something that should have been a capture and cannot be read.
 #[derive(Clone, Debug)]
 pub struct SkippedCapture {
-    /// What a person calls it: a file's name.
+    /// Name to show to the operator, such as a file's name.
     pub name: String,
-    /// Why not.
+    /// Why it cannot be read.
     pub error: Arc<CaptureError>,
 }

@@ -1,37 +1,37 @@
-//! Whether a score means what it says: of the guesses with a score near 0.9, are nine in ten right?
+//! Calibration of the score: are nine in ten of the guesses with a score near 0.9 right?
 //!
-//! The guesses are sorted into bins of equal width by their score; in each the share of right ones is compared with the
+//! The guesses are sorted by score into bins of equal width. In each bin the share of right guesses is compared with the
 //! mean score (the reliability diagram of M. H. DeGroot and S. E. Fienberg, "The Comparison and Evaluation of
-//! Forecasters", The Statistician 32, 1983). The one figure is the expected calibration error of M. P. Naeini, G. F.
+//! Forecasters", The Statistician 32, 1983). The summary is the expected calibration error of M. P. Naeini, G. F.
 //! Cooper and M. Hauskrecht, "Obtaining Well Calibrated Probabilities Using Bayesian Binning", AAAI 2015:
 //! Σ |share right - mean score| · guesses in the bin / all guesses.
 //!
-//! Known limit: a bin with few guesses says little, so each comes with their number.
+//! Known limit: a bin with few guesses is not reliable, so each bin states their number.
 
 use serde::Serialize;
 
 use super::judge::CaseResult;
 
-/// Bins from 0 to 1.
+/// Number of bins between 0 and 1.
 const NUM_BINS: usize = 10;
 
-/// Guesses with about the same score.
+/// Guesses with scores in one range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ScoreBin {
-    /// Lower end, inclusive.
+    /// Lower end of the range, inclusive.
     pub from: f64,
-    /// Upper end, exclusive but in the last bin.
+    /// Upper end of the range; exclusive, except in the last bin.
     pub to: f64,
     /// Number of guesses.
     pub num: usize,
-    /// How many of them are right.
+    /// Number of right guesses.
     pub num_right: usize,
-    /// Their mean score; 0 without a guess.
+    /// Mean score of the guesses; 0 without a guess.
     pub mean_score: f64,
 }
 
 impl ScoreBin {
-    /// Share of right guesses, 0..1; `None` without a guess.
+    /// Returns the share of right guesses, 0..1; `None` without a guess.
     pub fn share_right(&self) -> Option<f64> {
         (self.num > 0).then(|| self.num_right as f64 / self.num as f64)
     }
@@ -40,14 +40,14 @@ impl ScoreBin {
 /// How well the scores are calibrated.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Calibration {
-    /// All bins, from 0 up.
+    /// All bins, in ascending order.
     pub bins: Vec<ScoreBin>,
     /// Expected calibration error, 0..1; `None` without a guess.
     pub expected_error: Option<f64>,
 }
 
 impl Calibration {
-    /// Bins the best guesses, accepted or not. A scene that shows no enrolled part has no right guess.
+    /// Bins the best guesses, accepted or not. The guess for a scene without an enrolled part is wrong.
     pub fn of<'a>(results: impl IntoIterator<Item = &'a CaseResult>) -> Self {
         let guesses = results.into_iter().filter_map(|result| {
             let score = result.found.score.filter(|score| score.is_finite())?;
@@ -70,7 +70,7 @@ impl Calibration {
             let bin = &mut bins[place];
             bin.num += 1;
             bin.num_right += usize::from(is_right);
-            // The sum for now.
+            // Holds the sum until all are counted.
             bin.mean_score += score;
         }
         let total: usize = bins.iter().map(|bin| bin.num).sum();
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn scores_that_are_right_as_often_as_they_say_have_no_error() {
-        // Of ten at 0.85 (and so on) as many are right as the score says, to the nearest whole one.
+        // Of the guesses at each score, the share that the score predicts is right, to the nearest whole number.
         let guesses = (0..20).flat_map(|step| {
             let score = (f64::from(step) + 0.5) / 20.0;
             (0..40).map(move |i| (score, f64::from(i) + 0.5 < score * 40.0))
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn the_error_is_the_mean_distance_weighted_by_guesses() {
-        // Three sure ones of which one is wrong, one at 0.25 that is right.
+        // Three at 1.0 of which one is wrong, and one at 0.25 that is right.
         let guesses = [(1.0, true), (1.0, false), (1.0, true), (0.25, true)];
         let calibration = Calibration::of_guesses(guesses.into_iter());
         let last = calibration.bins[9];

@@ -1,4 +1,4 @@
-//! Compares two runs over the same cases: which results are worse, which are better, and which scores changed.
+//! Comparison of two runs over the same cases: which results are worse, which are better, and which scores changed.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,35 +15,35 @@ const LEAST_CHANGE: f64 = 0.005;
 pub struct CaseChange {
     /// The case's folder name.
     pub name: String,
-    /// What it truly is.
+    /// The true label.
     pub truth: Truth,
-    /// What was found before.
+    /// The verdict of the earlier run.
     pub before: FoundVerdict,
-    /// What is found now.
+    /// The verdict of the later run.
     pub now: FoundVerdict,
-    /// Judgement before, and now.
+    /// The outcomes of the earlier and the later run.
     pub judgements: [CaseOutcome; 2],
 }
 
-/// The differences between two runs; each list is in the order of the later run's cases.
+/// The differences between two runs. Each list is in the order of the later run's cases.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Changes {
-    /// Judged worse now: right before and not now, or refused before and wrong and accepted now.
+    /// Worse than before: no longer right, or refused before and a false accept now.
     pub regressions: Vec<CaseChange>,
-    /// Judged better now.
+    /// Better than before.
     pub mends: Vec<CaseChange>,
-    /// Judged as before, with another best guess or a score that changed by 0.005 or more.
+    /// The same outcome, with another best guess or a score that changed by 0.005 or more.
     pub rescored: Vec<CaseChange>,
-    /// Cases of both runs.
+    /// Number of cases in both runs.
     pub num_common: usize,
-    /// Cases of the later run only.
+    /// Cases in the later run only.
     pub added: Vec<String>,
-    /// Cases of the earlier run only: removed since, or damaged.
+    /// Cases in the earlier run only: removed since, or damaged.
     pub gone: Vec<String>,
 }
 
 impl Changes {
-    /// Compares these results with an earlier run. Both are judged by the present truth of the case.
+    /// Compares these results with an earlier run. Both are judged by the present true label of the case.
     pub fn between(earlier: &EarlierRun, results: &[CaseResult]) -> Self {
         let before: BTreeMap<&str, &CaseRecord> = earlier
             .cases
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn a_corrected_truth_is_no_regression() {
-        // Said to be a door, and accepted as one; then somebody saw that it was a hood.
+        // The label said door, and a door was accepted; then somebody saw that it was a hood.
         let answer = found(Some("door"), 0.9, true);
         let door = Truth::Part("door".into());
         let earlier = EarlierRun {

@@ -1,4 +1,4 @@
-//! The confusion matrix: truth against answer.
+//! The confusion matrix: true label against accepted part.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,13 +6,13 @@ use serde::Serialize;
 
 use super::judge::{CaseAnswer, CaseOutcome, CaseResult, Truth};
 
-/// A cell of the matrix.
+/// Row and column of a cell of the matrix.
 pub type Cell = (Truth, CaseAnswer);
 
 /// Counts of results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
-    /// All results.
+    /// Number of results.
     pub total: usize,
     /// See [`CaseOutcome::Right`].
     pub right: usize,
@@ -20,7 +20,7 @@ pub struct Tally {
     pub wrong_accepted: usize,
     /// See [`CaseOutcome::Refused`].
     pub refused: usize,
-    /// Enrolled parts whose best guess, accepted or not, is right.
+    /// Results whose best guess, accepted or not, is the true part.
     pub guessed_right: usize,
 }
 
@@ -41,21 +41,21 @@ impl Tally {
     }
 }
 
-/// The results, sorted into cells.
+/// Results sorted into the cells of the confusion matrix.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Confusion {
-    /// Truths: parts in the library's order, then those no longer enrolled, then the rest.
+    /// True labels: parts in the library's order, then parts no longer enrolled, then the other labels.
     pub rows: Vec<Truth>,
-    /// Answers: every part among truths and answers, last the refusal.
+    /// Answers: every part among labels and answers, last the refusal.
     pub columns: Vec<CaseAnswer>,
-    /// For each cell that is not empty, the places of its results in the list.
+    /// For each cell that is not empty, the indices of its results.
     pub cells: BTreeMap<Cell, Vec<usize>>,
     /// Counts over all cells.
     pub tally: Tally,
 }
 
 impl Confusion {
-    /// Sorts the results; `order` names the library's parts.
+    /// Sorts the results into cells; `order` lists the library's parts.
     pub fn of(results: &[CaseResult], order: &[String]) -> Self {
         let mut confusion = Self {
             tally: Tally::of(results),
@@ -76,7 +76,7 @@ impl Confusion {
         let place_of = |part: &str| order.iter().position(|name| name == part);
         let rank = |part: &str| place_of(part).unwrap_or(order.len());
         confusion.rows = truths.into_iter().collect();
-        // Stable: within the same rank the order of the names stays, and parts stand before the rest.
+        // The sort is stable: names stay in order within a rank, and parts come before the other labels.
         confusion
             .rows
             .sort_by_key(|truth| truth.part().map_or(usize::MAX, rank));

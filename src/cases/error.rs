@@ -14,35 +14,35 @@ pub enum CaseError {
     /// The folder cannot be read.
     #[error("{}: cannot read the kept cases: {}", path.display(), words_of(source))]
     Unreadable {
-        /// The folder.
+        /// The folder of cases.
         path: PathBuf,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// The folder cannot be written to; the cases in it are unchanged.
+    /// The folder cannot be written to; its cases are unchanged.
     #[error("{}: cannot write to the kept cases: {}", path.display(), words_of(source))]
     Unwritable {
-        /// The folder.
+        /// The folder of cases.
         path: PathBuf,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// A case has changed since it was written.
+    /// A case differs from what was written.
     #[error("the kept case {name} is damaged and set aside: {what}")]
     Damaged {
-        /// Name of its folder.
+        /// Name of the case's folder.
         name: String,
-        /// What is wrong.
+        /// The damage found.
         what: String,
     },
-    /// Written by a newer version.
+    /// A case was written by a newer version.
     #[error(
         "the kept case {name} was made by a newer version (format {found}, known up to {known})"
     )]
     Newer {
-        /// Name of its folder.
+        /// Name of the case's folder.
         name: String,
-        /// Its schema.
+        /// The schema of the case.
         found: u32,
         /// The newest schema that this version reads.
         known: u32,
@@ -50,15 +50,15 @@ pub enum CaseError {
     /// There is no case of that name.
     #[error("{}: no kept case named {name}", path.display())]
     NoSuchCase {
-        /// The folder.
+        /// The folder of cases.
         path: PathBuf,
-        /// The name asked for.
+        /// The requested name.
         name: String,
     },
-    /// The history whose inspections become cases cannot be read.
+    /// The history to be exported as cases cannot be read.
     #[error(transparent)]
     History(#[from] HistoryError),
-    /// The system does not say where a user's data belong.
+    /// The system names no folder for a user's data.
     #[error("this system names no folder for a user's data")]
     NoUserFolder,
 }

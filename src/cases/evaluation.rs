@@ -1,7 +1,7 @@
 //! Inspects a folder of cases and summarises the results.
 //!
-//! Several workers share the cases; the results are in the order of the cases and, but for the times, the same for any
-//! number of workers. A case whose scene is damaged is reported and not counted.
+//! Several workers share the cases. The results are in the order of the cases and, except for the times, do not depend on
+//! the number of workers. A case whose scene is damaged is reported and not counted.
 
 use std::collections::BTreeSet;
 
@@ -23,7 +23,7 @@ use crate::{
     stages::scene::SceneCloud,
 };
 
-/// Inspects cases and compares the verdicts with the truth.
+/// Inspects cases and compares the verdicts with the true labels.
 pub struct CaseJudge<'a> {
     library: &'a Library,
     recipe: &'a Recipe,
@@ -32,7 +32,7 @@ pub struct CaseJudge<'a> {
 }
 
 impl<'a> CaseJudge<'a> {
-    /// Judges by this library and recipe.
+    /// Uses this library and recipe.
     pub fn new(library: &'a Library, recipe: &'a Recipe) -> Self {
         let references = library.references.iter();
         let clouds = references.map(|reference| CloudCheck::of_cloud(&reference.cloud).crc32);
@@ -43,7 +43,7 @@ impl<'a> CaseJudge<'a> {
         }
     }
 
-    /// Inspects the scene of a case and compares the verdict with its truth.
+    /// Inspects the scene of a case and compares the verdict with its true label.
     pub fn judge(
         &self,
         case: &KeptCase,
@@ -102,20 +102,20 @@ pub struct Evaluation {
     pub results: Vec<CaseResult>,
     /// The cases that could not be read.
     pub problems: Vec<CaseError>,
-    /// Truth against answer.
+    /// True labels against answers.
     pub confusion: Confusion,
-    /// Counts by truth, in the order of the matrix' rows.
+    /// Counts per true label, in the order of the matrix' rows.
     pub by_truth: Vec<(Truth, Tally)>,
-    /// Counts by difficulty in alphabetical order; cases without one come first.
+    /// Counts per difficulty in alphabetical order; cases without one come first.
     pub by_difficulty: Vec<(Option<String>, Tally)>,
-    /// Scores against the shares of right guesses.
+    /// Scores compared with the shares of right guesses.
     pub calibration: Calibration,
-    /// False accepts and refusals at every threshold on the score.
+    /// False accepts and wrong refusals at every threshold on the score.
     pub trade_off: TradeOff,
 }
 
 impl Evaluation {
-    /// Summarises these results; `order` names the library's parts.
+    /// Summarises these results; `order` lists the library's parts.
     pub fn of(results: Vec<CaseResult>, problems: Vec<CaseError>, order: &[String]) -> Self {
         let confusion = Confusion::of(&results, order);
         let tally_where =
@@ -140,7 +140,7 @@ impl Evaluation {
     }
 }
 
-/// Inspects all cases on `num_workers` threads, which call `after_each`.
+/// Inspects all cases on `num_workers` threads. Each thread calls `after_each` after a case.
 pub fn evaluate(
     folder: &CaseFolder,
     list: CaseList,

@@ -1,4 +1,4 @@
-//! The truth of a case, what an inspection found, and whether the two agree.
+//! The true label of a case, the verdict, and whether the two agree.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,21 +9,21 @@ use crate::{
     pipeline::{Timings, Verdict},
 };
 
-/// The verdict of an inspection, as cases store it.
+/// A verdict as cases store it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FoundVerdict {
     /// The best guess; `None` if nothing could be recognised.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,
-    /// Its score, 0..1.
+    /// The guess's score, 0..1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub score: Option<f64>,
-    /// Its margin.
+    /// The guess's margin.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
-    /// Whether the best guess was accepted.
+    /// True if the best guess was accepted.
     pub accepted: bool,
-    /// Why it was not accepted.
+    /// Why the guess was not accepted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
@@ -47,7 +47,7 @@ impl From<&Record> for FoundVerdict {
             score: summary.score.map(|[score, _]| score),
             margin: summary.score.map(|[_, margin]| margin),
             accepted: summary.verdict == StoredVerdict::Accepted,
-            // With enrolled names, as in a verdict: the stored sentence has the titles of that time.
+            // Use the enrolled names, as a verdict does: the stored sentence has the titles of its time.
             reason: detail.refusal.as_ref().map(|refusal| {
                 let why = refusal.why.as_ref();
                 why.map_or_else(|| refusal.reason.clone(), ToString::to_string)
@@ -57,7 +57,7 @@ impl From<&Record> for FoundVerdict {
 }
 
 impl FoundVerdict {
-    /// The accepted part, or the refusal.
+    /// Returns the accepted part, or the refusal.
     pub fn answered(&self) -> CaseAnswer {
         match &self.part {
             Some(part) if self.accepted => CaseAnswer::Part(part.clone()),
@@ -86,13 +86,13 @@ impl FoundVerdict {
 /// An accepted part, or a refusal.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CaseAnswer {
-    /// Accepted as the part of this name.
+    /// A part of this name was accepted.
     Part(String),
-    /// Not accepted, or nothing found: the robot does not move.
+    /// The part was not accepted, or nothing was found: the robot does not move.
     NotAccepted,
 }
 
-/// Whether an answer is right, from the best to the worst.
+/// Whether an answer is right, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CaseOutcome {
@@ -100,12 +100,12 @@ pub enum CaseOutcome {
     Right,
     /// An enrolled part was refused.
     Refused,
-    /// Accepted as another part: the robot would paint it wrongly.
+    /// Another part was accepted: the robot would paint it wrongly.
     WrongAccepted,
 }
 
 impl CaseOutcome {
-    /// Compares an answer with the truth.
+    /// Compares an answer with the true label.
     pub fn of(truth: &Truth, answered: &CaseAnswer) -> Self {
         match (truth, answered) {
             (Truth::Part(is), CaseAnswer::Part(found)) if is == found => Self::Right,
@@ -115,7 +115,7 @@ impl CaseOutcome {
         }
     }
 
-    /// In English.
+    /// Returns the outcome in English.
     pub fn words(self) -> &'static str {
         match self {
             Self::Right => "right",
@@ -132,23 +132,23 @@ pub struct CaseResult {
     pub name: String,
     /// See [`CaseDescription::difficulty`](super::CaseDescription::difficulty).
     pub difficulty: Option<String>,
-    /// What it truly is.
+    /// The true label.
     pub truth: Truth,
-    /// What was found.
+    /// The verdict.
     pub found: FoundVerdict,
-    /// Pose error, the shift at the middle of the part; only of a right guess whose true pose is known.
+    /// Pose error, with the shift at the middle of the part; only for a right guess whose true pose is known.
     pub pose_error: Option<PoseDelta>,
     /// Times of the stages.
     pub timings: Timings,
 }
 
 impl CaseResult {
-    /// Whether the answer is right.
+    /// Compares the answer with the true label.
     pub fn judgement(&self) -> CaseOutcome {
         CaseOutcome::of(&self.truth, &self.found.answered())
     }
 
-    /// Whether the best guess, accepted or not, is right; `None` without a guess.
+    /// Returns true if the best guess, accepted or not, is right; `None` without a guess.
     pub fn is_guess_right(&self) -> Option<bool> {
         let guess = self.found.part.as_deref()?;
         Some(self.truth.part() == Some(guess))

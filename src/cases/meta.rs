@@ -1,4 +1,4 @@
-//! `case.toml`: the description of a case and the record of its scene.
+//! `case.toml`: the description of a case, and the record of its scene.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -10,36 +10,36 @@ use crate::{
     stages::scene::PictureEdge,
 };
 
-/// The schema that is written; newer ones are refused. Schema 1 stored every scene as a cloud, schema 2 stores it as the
+/// The schema that is written; newer ones are refused. Schema 1 stored every scene as a cloud; schema 2 stores scenes as the
 /// history stores frames.
 pub const SCHEMA_VERSION: u32 = 2;
 
-/// What is known of a scene: its origin, its true label, and what an inspection found.
+/// Description of a scene: its origin, its true label, and the verdict of an inspection.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseDescription {
     /// Name of the scene; the folder is named after it.
     pub origin: String,
-    /// True if the scene is not from a camera.
+    /// True if the scene is simulated.
     pub simulated: bool,
-    /// When it was kept; in an export of the history, when it was inspected.
+    /// When the case was kept; in an export of the history, when the scene was inspected.
     pub kept_at: Timestamp,
-    /// May be empty.
+    /// Free text; may be empty.
     #[serde(default)]
     pub remark: String,
     /// Free text such as `placed` or `hard`; cases with the same text are counted together.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub difficulty: Option<String>,
-    /// What it truly is.
+    /// The true label.
     pub truth: Truth,
-    /// By the recipe that the scene was inspected with.
+    /// The verdict by the recipe with which the scene was inspected.
     pub found: FoundVerdict,
-    /// The true pose, if it is known.
+    /// The true pose, if known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<TruePose>,
 }
 
 impl CaseDescription {
-    /// Describes an inspection, stored in the history or not, of which this is the truth.
+    /// Describes an inspection with its true label, whether the history stores it or not.
     pub fn of(record: &Record, truth: Truth) -> Self {
         let summary = &record.summary;
         Self {
@@ -58,29 +58,29 @@ impl CaseDescription {
 /// The true pose of a part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TruePose {
-    /// 16 numbers row after row, metres.
+    /// 16 numbers in row-major order, in metres.
     #[serde(with = "sixteen_numbers")]
     pub camera_from_part: RigidTransform,
-    /// The checksum of the enrolled part's cloud, as in its `part.toml`. A part that is enrolled from another capture has
-    /// other coordinates, in which this pose means nothing. Without a checksum the pose holds for whatever is enrolled.
+    /// Checksum of the enrolled part's cloud, as in its `part.toml`. A part enrolled from another capture has other
+    /// coordinates, for which this pose is meaningless. Without a checksum the pose holds for any enrolled cloud.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cloud_crc32: Option<String>,
 }
 
-/// `case.toml`.
+/// The content of `case.toml`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseMeta {
-    /// [`SCHEMA_VERSION`] when written.
+    /// The schema of the file; [`SCHEMA_VERSION`] when written.
     pub schema_version: u32,
-    /// Origin, truth and verdict.
+    /// Origin, true label and verdict.
     #[serde(flatten)]
     pub about: CaseDescription,
-    /// The file of its scene, and what the file itself does not hold.
+    /// The file of the scene, and properties that the file itself does not hold.
     #[serde(deserialize_with = "scene_of_any_version")]
     pub scene: FrameRecord,
 }
 
-/// The scene in schema 1: `scene.pcd`, and `empty-cell.pcd` if there is a checksum of it.
+/// The scene in schema 1: `scene.pcd`, and `empty-cell.pcd` if its checksum is given.
 #[derive(Deserialize)]
 struct FirstScene {
     bytes: u64,

@@ -1,8 +1,8 @@
-//! Cases: captured scenes with their true label, on which recipes and libraries are measured.
+//! Cases: captured scenes with their true label, used to measure recipes and libraries.
 //!
-//! The history holds scene, verdict and label of every inspection; a case is a copy of them that another computer can
+//! The history holds scene, verdict and label of every inspection; a case is a copy of these that another computer can
 //! read. The history's export and Compare describe it by [`CaseDescription::of`] and write it by [`CaseFolder::keep`].
-//! What Compare keeps it also labels in the history, where the part has a row there. One folder per case:
+//! Compare also labels the part in the history, if it has a row there. Each case is a folder:
 //!
 //! ```text
 //! cases/
@@ -56,11 +56,11 @@
 //! cy = 239.5
 //! ```
 //!
-//! Cases of the first version are read too: their scene is always `scene.pcd`, with `picture_edge` and `empty-cell.pcd`.
+//! Cases of schema 1 are also read: their scene is always `scene.pcd`, with `picture_edge` and `empty-cell.pcd`.
 //!
-//! The scene is read back bit for bit, with camera and empty cell, so the same recipe gives the same verdict. A case is
-//! written whole or not at all: built in a hidden folder (`.new-…`), synced, renamed. A damaged case is reported, and the
-//! others load; a newer schema is refused. Listing a folder checks the size of each scene, reading a scene its checksum.
+//! The scene is restored bit for bit, with camera and empty cell, so the same recipe gives the same verdict. A case is written
+//! whole or not at all: built in a hidden folder (`.new-…`), synced, renamed. A damaged case is reported while the others
+//! load; a newer schema is refused. Listing a folder checks the size of each scene, reading a scene checks its checksum.
 
 mod calibration;
 mod changes;

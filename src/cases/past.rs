@@ -1,14 +1,14 @@
-//! Exports inspections of the history as cases: their kept frames with their true labels.
+//! Export of past inspections as cases: their kept frames with their true labels.
 
 use std::path::Path;
 
 use super::{error::CaseError, judge::Truth, meta::CaseDescription, store::CaseFolder};
 use crate::history::{FrameError, Record, StoredVerdict, read_frame};
 
-/// Which truth a past inspection is exported with.
+/// The source of the true label of an exported inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TruthFrom {
-    /// Its true label; an inspection without one is left out.
+    /// Its true label; inspections without one are left out.
     Label,
     /// Its true label, else the accepted part. Such cases show what changed, not what is right.
     LabelOrVerdict,
@@ -27,26 +27,26 @@ impl TruthFrom {
     }
 }
 
-/// Writes inspections as cases, and counts those that cannot be written.
+/// Writes past inspections as cases, and counts those that cannot become cases.
 #[derive(Debug)]
 pub struct PastCases<'a> {
     folder: &'a CaseFolder,
     frames: &'a Path,
     truth: TruthFrom,
-    /// Cases that were written.
+    /// Number of cases written.
     pub num_kept: usize,
-    /// Inspections without a known truth.
+    /// Number of inspections without a known true label.
     pub num_without_truth: usize,
-    /// Inspections whose frame is not kept.
+    /// Number of inspections whose frame is not kept.
     pub num_without_frame: usize,
-    /// Scans: a case has one frame.
+    /// Number of scans left out: a case has one frame.
     pub num_scans: usize,
-    /// Frames that cannot be read.
+    /// Errors of frames that cannot be read.
     pub problems: Vec<FrameError>,
 }
 
 impl<'a> PastCases<'a> {
-    /// Exports into this folder of cases, from this folder of kept frames.
+    /// Exports from this folder of kept frames into this folder of cases.
     pub fn new(folder: &'a CaseFolder, frames: &'a Path, truth: TruthFrom) -> Self {
         Self {
             folder,
@@ -60,7 +60,7 @@ impl<'a> PastCases<'a> {
         }
     }
 
-    /// Writes an inspection as a case, if it can be one.
+    /// Writes an inspection as a case if it has a true label and one kept frame.
     pub fn take(&mut self, record: &Record) -> Result<(), CaseError> {
         let Some(truth) = self.truth.of(record) else {
             self.num_without_truth += 1;
@@ -89,7 +89,7 @@ impl<'a> PastCases<'a> {
         Ok(())
     }
 
-    /// What was written and what was not, in English.
+    /// Summarises in English what was written and what was not.
     pub fn in_words(&self) -> String {
         let mut words = format!("{} kept as cases", self.num_kept);
         for (num, why) in [

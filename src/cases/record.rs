@@ -1,4 +1,4 @@
-//! The results of a run over all cases as JSON, schema 1; a later run can be compared with them.
+//! The results of a run over all cases as JSON (schema 1), for comparison with a later run.
 //!
 //! ```json
 //! {"schema":1,"matcher":"default","pose":"global","num_threads":1,
@@ -15,7 +15,7 @@
 //!  "damaged":["the kept case door is damaged and set aside: scene.pcd: the kept frame is damaged: it does not have its checksum"]}
 //! ```
 //!
-//! `changed` lists other parameters that were not at their default. `accepted_as` is null where nothing was accepted.
+//! `changed` lists other parameters that were not at their default. `accepted_as` is null if nothing was accepted.
 //! `pose_errors` covers right guesses whose true pose is known.
 
 use std::path::{Path, PathBuf};
@@ -38,10 +38,10 @@ use crate::{
     },
 };
 
-/// The version that is written; newer ones are refused.
+/// The schema that is written; newer ones are refused.
 pub const RECORD_SCHEMA: u32 = 1;
 
-/// A run over all cases, to be written. `T` is the form of the stages' times.
+/// A run over all cases, to be written. `T` is the type of the stage times.
 #[derive(Debug, Serialize)]
 pub struct EvaluationRecord<'a, T> {
     schema: u32,
@@ -114,25 +114,25 @@ struct CellRecord<'a> {
 /// Pose errors over a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct PoseErrors {
-    /// Right guesses whose true pose is known.
+    /// Number of right guesses whose true pose is known.
     pub num: usize,
-    /// Median of rotation and of shift, each by itself.
+    /// Medians of rotation and of shift, each on its own.
     pub median: Option<PoseOff>,
-    /// 95th percentile of both.
+    /// 95th percentiles of rotation and of shift, each on its own.
     pub p95: Option<PoseOff>,
 }
 
 /// Error of a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PoseOff {
-    /// Degrees.
+    /// Rotation error in degrees.
     pub rotation_deg: f64,
-    /// Millimetres, at the middle of the part.
+    /// Shift at the middle of the part, in millimetres.
     pub shift_mm: f64,
 }
 
 impl PoseErrors {
-    /// Median and 95th percentile of these results.
+    /// Computes median and 95th percentile over these results.
     pub fn of(results: &[CaseResult]) -> Self {
         let errors: Vec<_> = results.iter().filter_map(|r| r.pose_error).collect();
         let off = |share: f64| {
@@ -158,24 +158,24 @@ impl PoseErrors {
 /// The result of one case, as written to and read from the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseRecord {
-    /// Name of its folder.
+    /// Name of the case's folder.
     pub name: String,
-    /// Free text that cases are grouped by.
+    /// Free text by which cases are grouped.
     #[serde(default)]
     pub difficulty: Option<String>,
-    /// What it truly is.
+    /// The true label.
     pub truth: Truth,
-    /// What was found.
+    /// The verdict.
     pub found: FoundVerdict,
     /// Whether the answer was right.
     pub judgement: CaseOutcome,
-    /// Rotation error of the pose, degrees.
+    /// Rotation error of the pose, in degrees.
     #[serde(default)]
     pub rotation_error_deg: Option<f64>,
-    /// Translation error of the pose at the middle of the part, millimetres.
+    /// Shift of the pose at the middle of the part, in millimetres.
     #[serde(default)]
     pub shift_error_mm: Option<f64>,
-    /// Time of the inspection, milliseconds.
+    /// Time of the inspection, in milliseconds.
     #[serde(default)]
     pub total_ms: f64,
 }
@@ -249,7 +249,7 @@ impl<'a, T> EvaluationRecord<'a, T> {
     }
 }
 
-/// An earlier run, as far as a later one is compared with it.
+/// The fields of an earlier run that a later one is compared with.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct EarlierRun {
     /// One result per case.
@@ -259,23 +259,23 @@ pub struct EarlierRun {
 /// Why a file cannot be read as an earlier run.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The file is something else.
+    /// The file is not an evaluation.
     #[error("{}: not an evaluation: {what}", path.display())]
     NotARecord {
         /// The file.
         path: PathBuf,
-        /// What the JSON reader says.
+        /// The error of the JSON parser.
         what: String,
     },
-    /// Written by a newer version.
+    /// The file was written by a newer version.
     #[error("{}: made by a newer version (schema {found}, known up to {RECORD_SCHEMA})", path.display())]
     Newer {
         /// The file.
         path: PathBuf,
-        /// Its schema.
+        /// The schema of the file.
         found: u32,
     },
 }
@@ -293,9 +293,9 @@ impl Advice for RecordError {
 }
 
 impl EarlierRun {
-    /// Reads the file that a run wrote.
+    /// Reads a file that an earlier run wrote.
     pub fn read(path: &Path) -> Result<Self, RecordError> {
-        /// The field that every schema has.
+        /// The field that all schemas have.
         #[derive(Deserialize)]
         struct Versioned {
             schema: u32,

@@ -1,6 +1,6 @@
-//! A folder of cases: listing, keeping, reading, removing and restoring.
+//! A folder of cases: listing, writing, reading, removing and restoring.
 //!
-//! Readers never write, so cases can be read from a write-protected medium. A lock allows one writer at a time.
+//! Readers never write, so cases can be read from a write-protected medium. A lock admits one writer at a time.
 
 use std::{
     fs::{self},
@@ -27,12 +27,12 @@ const SCENE: &str = "scene";
 const NEW_PREFIX: &str = ".new-";
 const TRASH: &str = ".trash";
 const LOCK: &str = ".lock";
-/// A larger `case.toml` is damaged.
+/// The largest `case.toml` that is read, in bytes.
 const MAX_META_BYTES: u64 = 1 << 20;
-/// Longest name of a case's folder, without its number.
+/// Longest name of a case's folder without its number, in bytes.
 const MAX_NAME: usize = 48;
 
-/// A folder of cases. Keeping the first case creates it.
+/// A folder of cases. Writing the first case creates it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CaseFolder {
     path: PathBuf,
@@ -41,39 +41,39 @@ pub struct CaseFolder {
 /// A case in the folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptCase {
-    /// Name of its folder.
+    /// Name of the case's folder.
     pub name: String,
-    /// Its `case.toml`.
+    /// The content of `case.toml`.
     pub meta: CaseMeta,
 }
 
 /// The contents of a folder of cases.
 #[derive(Debug, Default)]
 pub struct CaseList {
-    /// By name; numbers in names count as numbers.
+    /// The cases by name; numbers in names are sorted by value.
     pub cases: Vec<KeptCase>,
-    /// The cases that cannot be read.
+    /// Errors of the cases that cannot be read.
     pub problems: Vec<CaseError>,
 }
 
 impl CaseFolder {
-    /// The folder at this path.
+    /// Refers to the folder at this path, which need not exist.
     pub fn at(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 
-    /// The user's own, in the system's folder for user data.
+    /// Returns the user's own folder of cases, in the system's folder for user data.
     pub fn of_user() -> Result<Self, CaseError> {
         let folders = user_folders().ok_or(CaseError::NoUserFolder)?;
         Ok(Self::at(folders.data_dir().join("cases")))
     }
 
-    /// Where it is.
+    /// Returns the folder's path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Lists the cases. A damaged one is a problem of the list; a folder that does not exist has no cases.
+    /// Lists the cases. Damaged ones become problems of the list. A folder that does not exist has no cases.
     pub fn list(&self) -> Result<CaseList, CaseError> {
         let mut list = CaseList::default();
         for name in self.names()? {
@@ -86,7 +86,7 @@ impl CaseFolder {
         Ok(list)
     }
 
-    /// Writes a case, whole or not at all, and names it after its origin.
+    /// Writes a case, whole or not at all. Its folder is named after its origin.
     pub fn keep(&self, scene: &SceneCloud, about: CaseDescription) -> Result<KeptCase, CaseError> {
         let kept = || -> io::Result<KeptCase> {
             disk::create_dir_all(&self.path)?;
@@ -103,7 +103,7 @@ impl CaseFolder {
                 write_file(&building.path().join(META), text.as_bytes())?;
                 sync_folder(building.path())?;
                 disk::rename(building.path(), place)?;
-                // Renamed away: nothing is left to be cleared up.
+                // The folder has been renamed; do not remove it on drop.
                 let _ = building.keep();
                 sync_folder(&self.path)?;
                 Ok(KeptCase { name, meta })
@@ -112,7 +112,7 @@ impl CaseFolder {
         kept().map_err(|source| self.unwritable(source))
     }
 
-    /// Reads the scene of a case, bit for bit as it was kept.
+    /// Reads the scene of a case, bit for bit as it was written.
     pub fn read_scene(&self, case: &KeptCase) -> Result<SceneCloud, CaseError> {
         let folder = self.path.join(&case.name);
         case.scene(&|file| read_bytes(&folder.join(file)))
@@ -162,7 +162,7 @@ impl CaseFolder {
         moved().map_err(|source| self.unwritable(source))
     }
 
-    /// Moves a removed case back under its name.
+    /// Moves a removed case from the trash back to its name.
     pub fn restore(&self, name: &str, from: &Path) -> Result<(), CaseError> {
         let place = self.path.join(name);
         if !is_plain(name) || !from.is_dir() {
@@ -194,7 +194,7 @@ impl CaseFolder {
         }
     }
 
-    /// The folders that are not hidden, by name.
+    /// Returns the names of the folders that are not hidden, in counting order.
     fn names(&self) -> Result<Vec<String>, CaseError> {
         let listed = || -> io::Result<Vec<String>> {
             let found = match fs::read_dir(&self.path) {
@@ -218,7 +218,7 @@ impl CaseFolder {
         })
     }
 
-    /// `None` for a folder that is no case.
+    /// Returns `None` for a folder that is not a case.
     fn read_meta(&self, name: &str) -> Result<Option<CaseMeta>, CaseError> {
         let folder = self.path.join(name);
         let damaged = |what: String| CaseError::Damaged {
@@ -227,7 +227,7 @@ impl CaseFolder {
         };
         let meta = folder.join(META);
         if !meta.exists() {
-            // Any other folder, unless it has a scene.
+            // Without a scene it is some other folder.
             let what = format!("{META} is missing");
             let mut scenes = ["png", "pcd"].iter();
             return if scenes.any(|ending| folder.join(format!("{SCENE}.{ending}")).exists()) {
@@ -256,7 +256,7 @@ impl CaseFolder {
         }
     }
 
-    /// The first free name of `plain`, `plain_2` and so on, and its path.
+    /// Returns the first free name among `plain`, `plain_2` and so on, and its path.
     fn free_name(&self, plain: &str) -> io::Result<(String, PathBuf)> {
         numbered(plain)
             .map(|name| (self.path.join(&name), name))
@@ -265,7 +265,7 @@ impl CaseFolder {
             .ok_or_else(|| io::ErrorKind::AlreadyExists.into())
     }
 
-    /// Removes what an interrupted writer left. Only under the lock: a folder of another writer at work is no leftover.
+    /// Removes what an interrupted writer left. Call it only under the lock: the folder of an active writer is not a leftover.
     fn clear_leftovers(&self) -> io::Result<()> {
         for entry in fs::read_dir(&self.path)? {
             let entry = entry?;
@@ -370,12 +370,12 @@ fn numbered(name: &str) -> impl Iterator<Item = String> {
     })
 }
 
-/// True for the name of a visible file or folder, without a path.
+/// Returns true for the name of a visible file or folder, without a path.
 fn is_plain(name: &str) -> bool {
     !name.is_empty() && !name.starts_with('.') && !name.contains(['/', '\\'])
 }
 
-/// Lower-case letters, digits and single underscores, which every file system takes.
+/// Reduces a name to lower-case letters, digits and single underscores, which every file system accepts.
 fn plain_name(origin: &str) -> String {
     let stem = Path::new(origin).file_stem().unwrap_or_default();
     let mut name = String::new();

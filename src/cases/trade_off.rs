@@ -1,33 +1,33 @@
-//! What a threshold on the score costs: raising it refuses more parts, lowering it accepts more of what is wrong.
+//! The cost of a threshold on the score: raising it refuses more parts, lowering it accepts more wrong ones.
 //!
-//! Known limit: only the score counts here; the other rules of a verdict (margin, mirror image, a piece only) refuse more.
+//! Known limit: only the score counts here; the verdict's other rules (margin, mirror image, a piece only) refuse more.
 
 use serde::Serialize;
 
 use super::judge::{CaseResult, Truth};
 
-/// Steps between the thresholds 0 and 1.
+/// Steps from threshold 0 to 1.
 const NUM_STEPS: usize = 50;
 
 /// The counts at one threshold.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ThresholdCounts {
-    /// Least score to be accepted.
+    /// The least score that is accepted.
     pub threshold: f64,
-    /// Cases that would be accepted as another part.
+    /// Number of cases that would be accepted as another part.
     pub num_wrong_accepted: usize,
-    /// Enrolled parts that would not be accepted under their name.
+    /// Number of enrolled parts that would not be accepted under their name.
     pub num_refused: usize,
 }
 
-/// False accepts against false refusals, over all thresholds.
+/// False accepts and wrong refusals over all thresholds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct TradeOff {
-    /// Cases in all.
+    /// Number of cases.
     pub num_cases: usize,
-    /// Cases that show an enrolled part.
+    /// Number of cases that show an enrolled part.
     pub num_enrolled: usize,
-    /// By threshold, from 0 to 1.
+    /// The counts by threshold, from 0 to 1.
     pub steps: Vec<ThresholdCounts>,
 }
 
@@ -60,7 +60,7 @@ fn num_enrolled(guesses: &[BestMatch]) -> usize {
 
 /// A best guess, accepted or not.
 struct BestMatch {
-    /// `None` if nothing was taken for a part.
+    /// `None` if nothing was recognised.
     score: Option<f64>,
     is_right: bool,
     is_enrolled: bool,

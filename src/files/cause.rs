@@ -1,8 +1,8 @@
-//! What the system says of a failed write, once and in words, and what to do about it.
+//! Words for the cause of a failed write, and what to do about it.
 
 use std::io;
 
-/// The cause alone. Some libraries wrap it in an error that also names their temporary file, which helps nobody.
+/// Returns the cause alone: some libraries wrap it in an error that also names their temporary file.
 pub(crate) fn words_of(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "the folder does not exist".into(),
@@ -16,10 +16,10 @@ pub(crate) fn words_of(error: &io::Error) -> String {
     }
 }
 
-/// What Unix calls EIO and Windows `ERROR_IO_DEVICE`.
+/// EIO on Unix, `ERROR_IO_DEVICE` on Windows.
 const IO_ERROR: i32 = if cfg!(windows) { 1117 } else { 5 };
 
-/// What to do about it.
+/// Returns what to do about a failed write.
 pub(crate) fn advice_on(error: &io::Error) -> &'static str {
     match error.kind() {
         io::ErrorKind::NotFound => "Make the folder first, or correct the path",

@@ -1,4 +1,4 @@
-//! Tables as spreadsheets and people write them: rows of cells between semicolons, commas, tabs or spaces.
+//! Tables from spreadsheets and from people: rows of cells separated by semicolons, commas, tabs or spaces.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -7,14 +7,14 @@ use super::error::FileError;
 use super::scalar::parse_real;
 use super::source::Source;
 
-/// A longer line is no row of a table.
+/// The longest row of a table that is read, in bytes.
 pub(super) const MAX_ROW_BYTES: usize = 1 << 16;
-/// Cells of a row at most.
+/// The most cells of a row that are read.
 pub(super) const MAX_COLUMNS: usize = 1000;
-/// What the error says of more.
+/// The limits above, as error messages state them.
 const ROW: &str = "a row of at most 1000 cells and 65536 bytes";
 
-/// One line of a table; what parts its cells is looked for once.
+/// One line of a table, with its separator found once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Row<'a> {
     text: &'a str,
@@ -32,12 +32,12 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// The line as it stands.
+    /// Returns the whole line.
     pub(crate) fn text(self) -> &'a str {
         self.text
     }
 
-    /// The cells. Only between semicolons or commas can one be empty.
+    /// Returns the cells. A cell can be empty only between semicolons or commas.
     pub(crate) fn cells(self) -> impl Iterator<Item = &'a str> {
         let separator = self.separator;
         let parted = separator.map(|separator| self.text.split(separator).map(str::trim));
@@ -48,7 +48,7 @@ impl<'a> Row<'a> {
             .chain(spaced.into_iter().flatten())
     }
 
-    /// The number in a cell of this row. Beside semicolons a comma is a decimal one, as in half of Europe.
+    /// Parses a cell of this row as a number. In rows with semicolons a comma is a decimal comma, as in much of Europe.
     pub(crate) fn number(self, cell: &str) -> Option<f64> {
         if self.separator == Some(';') {
             parse_real(&cell.replace(',', "."))
@@ -57,7 +57,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// The same again if it has no more than a row may have.
+    /// Returns the row if it is within the limits for bytes and cells.
     pub(super) fn limited(self, source: Source<'_>, line: usize) -> Result<Self, FileError> {
         let num_bytes = self.text.len();
         let is_row = num_bytes <= MAX_ROW_BYTES
@@ -70,7 +70,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// The lines of a table that are neither empty nor comments, with their number from 1; `path` is for the errors.
+/// Returns the lines of a table that are neither empty nor comments, with their numbers from 1. `path` is for errors.
 pub(crate) fn table_rows<'a>(
     text: &'a str,
     path: &Path,
@@ -87,12 +87,12 @@ pub(crate) fn table_rows<'a>(
         .collect()
 }
 
-/// True for what a spreadsheet would run as a formula; a number with a sign is none.
+/// Returns true if a spreadsheet would run the text as a formula; a signed number is not a formula.
 fn is_formula(text: &str) -> bool {
     text.starts_with(['=', '+', '-', '@', '\t', '\r']) && text.trim().parse::<f64>().is_err()
 }
 
-/// A text inside a comment of a CSV file, which spreadsheets take for a row like any other.
+/// Escapes a text for a comment of a CSV file, which spreadsheets read as an ordinary row.
 pub(crate) fn csv_comment(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for (i, piece) in text
@@ -107,8 +107,8 @@ pub(crate) fn csv_comment(text: &str) -> String {
     shown
 }
 
-/// A text as a cell of a CSV file, quoted as RFC 4180 has it. One that a spreadsheet would run as a formula gets an
-/// apostrophe before it, which spreadsheets take for "this is text".
+/// Escapes a text for a cell of a CSV file, quoted as in RFC 4180. A text that a spreadsheet would run as a formula gets
+/// an apostrophe before it, which spreadsheets read as "this is text".
 pub(crate) fn csv_text(text: &str) -> Cow<'_, str> {
     let is_formula = is_formula(text);
     let is_quoted = text.contains([',', '"', '\n', '\r']);

@@ -1,7 +1,7 @@
-//! CRC-32, as PNG, ZIP and the command `crc32` count it.
+//! CRC-32 as in PNG, ZIP and the command `crc32`.
 //!
 //! Source: W. W. Peterson and D. T. Brown, "Cyclic Codes for Error Detection", Proceedings of the IRE, 1961; the
-//! polynomial is that of ISO 3309. Written here because it is a table and a line. It finds damage, not forgery.
+//! polynomial is that of ISO 3309. Not a dependency, because it is a table and one line. It detects damage, not forgery.
 
 const TABLE: [u32; 256] = {
     let mut table = [0; 256];
@@ -19,7 +19,7 @@ const TABLE: [u32; 256] = {
     table
 };
 
-/// The checksum of all the bytes.
+/// Returns the checksum of all bytes.
 pub(crate) fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |crc, &byte| {
         (crc >> 8) ^ TABLE[usize::from(crc as u8 ^ byte)]

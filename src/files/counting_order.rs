@@ -1,6 +1,6 @@
-//! Names in the order that a person counts them.
+//! Sorting of names by the numbers in them.
 
-/// A key to sort by, so that frame 10 comes after frame 9: every run of digits by its value.
+/// Returns a sort key that compares runs of digits by value, so that frame 10 comes after frame 9.
 pub(crate) fn in_counting_order(name: &str) -> Vec<(String, u64)> {
     let mut pieces = vec![(String::new(), 0_u64)];
     let mut is_in_number = false;

@@ -1,4 +1,4 @@
-//! The camera of a depth image, as the JSON beside it says.
+//! The camera of a depth image, read from the JSON file beside it.
 
 use std::path::Path;
 
@@ -11,34 +11,34 @@ use crate::geometry::{
     distortion::Distortion,
 };
 
-/// A larger file is no camera.
+/// The largest camera file that is read, in bytes.
 pub(super) const MAX_CAMERA_BYTES: u64 = 1 << 20;
 
-/// The camera of a depth image, as the JSON beside it says. All its numbers are about the image as it is stored.
+/// The camera of a depth image, read from the JSON file beside it. All numbers refer to the image as stored.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written")]
 pub struct DepthCamera {
-    /// The camera itself.
+    /// Size of the image, focal lengths, principal point and lens distortion.
     #[serde(flatten)]
     pub intrinsics: Intrinsics,
-    /// Metres that one unit of the image stands for, above 0.
+    /// Metres per unit of the image, above 0.
     pub metres_per_unit: f64,
-    /// True of a simulated camera.
+    /// True for a simulated camera.
     #[serde(rename = "simulated", skip_serializing_if = "std::ops::Not::not")]
     pub is_simulated: bool,
-    /// How the stored image differs from what the camera saw.
+    /// How the stored image differs from the camera's own view.
     #[serde(flatten)]
     pub stored: StoredOrientation,
 }
 
-/// How a stored image differs from what the camera saw. It is put right on loading.
+/// How a stored image differs from the camera's own view. Loading corrects it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct StoredOrientation {
-    /// True if left and right are exchanged. This is put right first.
+    /// True if left and right are swapped. This is corrected first.
     #[serde(rename = "mirrored", skip_serializing_if = "std::ops::Not::not")]
     pub is_mirrored: bool,
-    /// How the image then has to be turned, clockwise.
+    /// The clockwise turn that the image then needs.
     #[serde(rename = "rotated", skip_serializing_if = "Turn::is_none")]
     pub turn: Turn,
 }
@@ -47,14 +47,14 @@ pub struct StoredOrientation {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "i64", into = "i64")]
 pub enum Turn {
-    /// 0.
+    /// No turn.
     #[default]
     None,
-    /// 90: the left edge comes to the top.
+    /// 90°: the left edge comes to the top.
     Quarter,
-    /// 180.
+    /// 180°.
     Half,
-    /// 270: the right edge comes to the top.
+    /// 270°: the right edge comes to the top.
     ThreeQuarters,
 }
 
@@ -99,7 +99,7 @@ struct Written {
     #[serde(flatten)]
     intrinsics: Intrinsics,
     metres_per_unit: Option<f64>,
-    /// Metres per unit, or units per metre: there are programs that write the one, and others the other.
+    /// Metres per unit or units per metre: programs differ.
     depth_scale: Option<f64>,
     #[serde(default)]
     simulated: bool,
@@ -108,7 +108,7 @@ struct Written {
     distortion: Option<WrittenDistortion>,
 }
 
-/// Coefficients that do not stand beside the other numbers.
+/// Distortion coefficients under a key of their own.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum WrittenDistortion {
@@ -117,8 +117,7 @@ enum WrittenDistortion {
     Other(IgnoredAny),
 }
 
-/// A unit is shorter than this, and a metre has more units than one over it, metres: it tells the two meanings of
-/// `depth_scale` apart.
+/// Tells the two meanings of `depth_scale` apart: below this it is metres per unit, above 1 / this units per metre.
 const LONGEST_UNIT: f64 = 0.1;
 
 impl TryFrom<Written> for DepthCamera {
@@ -158,11 +157,11 @@ impl TryFrom<Written> for DepthCamera {
     }
 }
 
-/// What is wrong with a camera whose pixels do not all see a ray of their own.
+/// The error of a camera of which some pixels have no ray of their own.
 const FOLDS: &str = "the distortion folds back inside the picture";
 
 impl DepthCamera {
-    /// The camera that took a frame.
+    /// Returns the camera that took a frame.
     pub fn of(frame: &DepthFrame) -> Self {
         Self {
             intrinsics: frame.intrinsics,
@@ -172,7 +171,7 @@ impl DepthCamera {
         }
     }
 
-    /// Reads the JSON; what it says can be a camera.
+    /// Reads the JSON and checks its numbers.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let bad = |found: String| FileError::BadIntrinsics {
             path: path.to_owned(),
@@ -188,7 +187,7 @@ impl DepthCamera {
         })
     }
 
-    /// The same again if it can be a camera, else what is wrong.
+    /// Returns the camera if its numbers are possible, else what is wrong with them.
     pub(crate) fn checked(self) -> Result<Self, String> {
         let Self {
             intrinsics,
@@ -208,7 +207,7 @@ impl DepthCamera {
         Ok(self)
     }
 
-    /// The frame of these depths, which make a picture of `size` pixels, as the camera saw it; else what is wrong.
+    /// Builds the frame as the camera saw it from stored depths of a picture of `size` pixels. The error says what is wrong.
     pub(crate) fn frame(self, size: (usize, usize), depth: Vec<u16>) -> Result<DepthFrame, String> {
         let Intrinsics { width, height, .. } = self.intrinsics;
         if (width, height) != size {
@@ -228,7 +227,7 @@ impl DepthCamera {
 }
 
 impl StoredOrientation {
-    /// The frame as the camera saw it.
+    /// Undoes mirroring and turning.
     fn put_right(self, mut frame: DepthFrame) -> DepthFrame {
         if self.is_mirrored {
             let width = frame.intrinsics.width.max(1);
@@ -328,7 +327,7 @@ mod tests {
         assert!(unit("").is_err_and(|error| error.contains("metres_per_unit")));
     }
 
-    /// Columns and rows of a frame whose depths are their places in the stored image.
+    /// Builds a frame from a stored 4×3 image whose depths number its pixels.
     fn loaded(extra: &str) -> DepthFrame {
         let camera = camera(&format!(
             r#","metres_per_unit":0.001,"p1":0.02,"p2":0.05{extra}"#
@@ -361,7 +360,7 @@ mod tests {
                 3,
                 [3, 7, 11, 2, 6, 10, 1, 5, 9, 0, 4, 8],
             ),
-            // Turned round as it is stored, then turned a quarter clockwise.
+            // Mirrored back first, then turned a quarter clockwise.
             (
                 r#","mirrored":true,"rotated":90"#,
                 3,

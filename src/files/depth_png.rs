@@ -1,18 +1,18 @@
-//! A depth image as a 16-bit greyscale PNG, with its camera in a JSON beside it.
+//! Depth images: 16-bit greyscale PNG with the camera in a JSON file beside it.
 //!
-//! The image's numbers are depth along the optical axis in units of `metres_per_unit`, 0 where there is no reading,
-//! as the Kinect tools and the RGB-D data sets store it. For `frame.png` the camera stands in `frame.json`:
+//! The pixels are depth along the optical axis in units of `metres_per_unit`, 0 for no reading, as in the Kinect tools
+//! and the RGB-D data sets. The camera of `frame.png` is in `frame.json`:
 //!
 //! ```json
 //! {"width":640,"height":480,"fx":525.0,"fy":525.0,"cx":319.5,"cy":239.5,"metres_per_unit":0.001}
 //! ```
 //!
-//! The fields are those of [`Intrinsics`] and [`DepthFrame`], and all are about the image as it is stored; of a simulated
-//! camera `"simulated":true` besides. May be added: OpenCV's coefficients of the lens distortion by name (`k1` to `k6`,
-//! `p1`, `p2`), or in its order as `distortion`; how the stored image differs from what the camera saw
-//! ([`StoredOrientation`](super::StoredOrientation)), which is put right on loading; `depth_scale` instead of `metres_per_unit`. Others are
-//! read over. Images of one camera may share an `intrinsics.json` in their folder: an image without a JSON of its own
-//! has that camera.
+//! The fields are those of [`Intrinsics`] and [`DepthFrame`] and refer to the image as stored; a simulated camera also has
+//! `"simulated":true`. Optional fields: OpenCV's coefficients of the lens distortion by name (`k1` to `k6`, `p1`, `p2`) or
+//! in its order as `distortion`; how the stored image differs from the camera's own view
+//! ([`StoredOrientation`](super::StoredOrientation)), which loading corrects; `depth_scale` instead of `metres_per_unit`.
+//! Unknown fields are ignored. Images of one camera may share an `intrinsics.json` in their folder: it applies to every
+//! image without a JSON of its own.
 
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
@@ -31,27 +31,27 @@ use super::write::write_atomically;
 use crate::error::guarded;
 use crate::geometry::depth_frame::{DepthFrame, Intrinsics};
 
-/// Where the camera of a depth image stands: the same name ending in `.json`.
+/// Returns the path of a depth image's camera: the same name with the ending `.json`.
 pub fn intrinsics_path(image: &Path) -> PathBuf {
     image.with_extension("json")
 }
 
-/// The camera of all depth images in a folder that have no JSON of their own.
+/// The file with the camera of all depth images in a folder that have no JSON of their own.
 pub const FOLDER_CAMERA: &str = "intrinsics.json";
 
-/// Writes a depth image as PNG with its camera in the JSON beside it.
+/// Writes a depth image as PNG, with its camera in the JSON beside it.
 ///
-/// The JSON is there first, so that whoever waits for the image finds both.
+/// The JSON is written first, so that a program that waits for the image finds both.
 ///
 /// # Panics
-/// If the frame has not as many depths as its camera has pixels.
+/// If the number of depths is not the number of the camera's pixels.
 pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError> {
     let json = intrinsics_path(path);
-    // Whatever else lies there is somebody's data.
+    // Do not overwrite a file that is not a camera.
     let camera = DepthCamera::of(frame);
     match read_limited(&json, MAX_CAMERA_BYTES) {
         Ok(bytes) if is_intrinsics(&bytes) => {
-            // The image that is there is gone before it could be taken for one of the new camera.
+            // Remove the old image first, so that nobody reads it with the new camera.
             if path.is_file() && !DepthCamera::read(&json).is_ok_and(|known| known == camera) {
                 disk::remove_file(path).map_err(|error| FileError::writing(path, error))?;
             }
@@ -68,7 +68,7 @@ pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError>
     write_atomically(path, |writer| write_depths(writer, frame))
 }
 
-/// Writes the camera of depth images as a JSON, for one image or for all of a folder.
+/// Writes the camera of one depth image, or of all in a folder, as JSON.
 pub(crate) fn write_camera(path: &Path, camera: &DepthCamera) -> Result<(), FileError> {
     write_atomically(path, |writer| {
         serde_json::to_writer_pretty(&mut *writer, camera)?;
@@ -79,7 +79,7 @@ pub(crate) fn write_camera(path: &Path, camera: &DepthCamera) -> Result<(), File
 /// Writes the depths of a frame as a 16-bit PNG, without its camera.
 ///
 /// # Panics
-/// If the frame has not as many depths as its camera has pixels.
+/// If the number of depths is not the number of the camera's pixels.
 pub(crate) fn write_depths(writer: &mut dyn Write, frame: &DepthFrame) -> io::Result<()> {
     let DepthFrame {
         intrinsics: Intrinsics { width, height, .. },
@@ -87,7 +87,7 @@ pub(crate) fn write_depths(writer: &mut dyn Write, frame: &DepthFrame) -> io::Re
         ..
     } = frame;
     assert_eq!(depth.len(), width * height, "a depth for every pixel");
-    // The encoder takes the bytes in this machine's order and stores them in the PNG's.
+    // The encoder takes bytes in native order and stores them big-endian.
     let bytes: Vec<u8> = depth.iter().flat_map(|depth| depth.to_ne_bytes()).collect();
     let (width, height) = (*width as u32, *height as u32);
     PngEncoder::new(writer)
@@ -98,12 +98,12 @@ pub(crate) fn write_depths(writer: &mut dyn Write, frame: &DepthFrame) -> io::Re
         })
 }
 
-/// True for the JSON that describes a depth image's camera.
+/// Returns true for JSON that describes the camera of a depth image.
 pub(super) fn is_intrinsics(bytes: &[u8]) -> bool {
     bytes.len() as u64 <= MAX_CAMERA_BYTES && serde_json::from_slice::<DepthCamera>(bytes).is_ok()
 }
 
-/// True for the eight bytes that begin a PNG.
+/// Returns true for the eight bytes that begin a PNG.
 pub(super) fn is_png(bytes: &[u8]) -> bool {
     bytes.starts_with(b"\x89PNG\r\n\x1a\n")
 }
@@ -137,11 +137,11 @@ pub(super) fn read(source: Source<'_>) -> Result<DepthFrame, FileError> {
     Ok(frame)
 }
 
-/// The largest file of a small picture, bytes, and its longest side, pixels.
+/// Limits of a small picture: bytes of the file, and pixels along a side.
 const MAX_PICTURE_BYTES: u64 = 16 << 20;
 const MAX_PICTURE_SIDE: u32 = 4096;
 
-/// A small picture for people, such as a part's thumbnail.
+/// Reads a small picture meant for people, such as a part's thumbnail.
 pub(crate) fn read_picture(path: &Path) -> Result<DynamicImage, FileError> {
     let bytes = read_limited(path, MAX_PICTURE_BYTES)?;
     let damaged = |what: String| FileError::Damaged {
@@ -159,7 +159,7 @@ pub(crate) fn read_picture(path: &Path) -> Result<DynamicImage, FileError> {
     decoded.map_err(|error| damaged(error.to_string()))
 }
 
-/// Width, height and the depths of a 16-bit PNG in memory, with or without a reading; `path` is for the errors.
+/// Returns width, height and depths of a 16-bit PNG in memory; all depths may be 0. `path` is for errors.
 pub(crate) fn read_depths(
     path: &Path,
     bytes: &[u8],
@@ -185,7 +185,7 @@ fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
     }
     let header = Header::of(source.bytes)
         .ok_or_else(|| source.cut_before("the end of the header", "PNG"))?;
-    // Before the decoder, which refuses large sizes in words of its own.
+    // Check this before the decoder does, which refuses large sizes in words of its own.
     source.limited("pixels", header.width.saturating_mul(header.height))?;
     let longest = header.width.max(header.height);
     if longest > MAX_SIDE {
@@ -219,7 +219,7 @@ fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
     let (width, height) = (width as usize, height as usize);
     let num_pixels = source.limited("pixels", width.saturating_mul(height))?;
     let num_bytes = num_pixels.saturating_mul(2);
-    // No PNG packs better than deflate, and that not better than this.
+    // PNG compresses with deflate, which cannot exceed this ratio.
     let most = source.bytes.len().saturating_mul(MAX_DEFLATE_RATIO);
     if num_bytes > most {
         return Err(source.truncated("PNG", source.bytes.len(), num_bytes / MAX_DEFLATE_RATIO));
@@ -231,7 +231,7 @@ fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
     }
 }
 
-/// What the first chunk of a PNG says, as far as it matters here.
+/// The fields of a PNG's first chunk that are needed here.
 struct Header {
     width: usize,
     height: usize,
@@ -239,13 +239,13 @@ struct Header {
     colour_type: u8,
 }
 
-/// The colour type of a PNG whose pixels are numbers of colours in a table.
+/// The colour type of a PNG with a palette.
 const PALETTE: u8 = 3;
 
 impl Header {
-    /// `None` if the bytes end before it does.
+    /// Returns `None` if the bytes end before the header does.
     fn of(bytes: &[u8]) -> Option<Self> {
-        // Eight bytes of magic, then the chunk's length and name.
+        // Skip eight bytes of magic, and the chunk's length and name.
         let [w0, w1, w2, w3, h0, h1, h2, h3, bits, colour_type] =
             *bytes.get(16..)?.first_chunk()?;
         Some(Self {
@@ -257,14 +257,14 @@ impl Header {
     }
 }
 
-/// The longest side of a depth image, in pixels: four times that of the finest depth camera. A line of pixels is no
-/// picture, and packs to nearly nothing.
+/// The longest side of a depth image, in pixels: four times that of the finest depth camera. A single row of pixels
+/// compresses to nearly nothing, so the size of the file does not bound it.
 const MAX_SIDE: usize = 16_384;
 
-/// What the decoder may take for itself: rows and text chunks, far above any camera's.
+/// Memory that the decoder may allocate for itself (rows and text chunks), in bytes; far more than any camera's PNG needs.
 const MAX_ANCILLARY_BYTES: u64 = 64 << 20;
 
-/// Deflate's best: 258 bytes from two bits, about 1032 to 1.
+/// An upper limit of deflate's compression ratio. Its best is 258 bytes from two bits, about 1032 to 1.
 const MAX_DEFLATE_RATIO: usize = 1040;
 
 fn kind_in_words(kind: ExtendedColorType) -> String {

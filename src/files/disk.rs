@@ -1,5 +1,5 @@
-//! What the program changes on a disk, all but the history's database: the system's calls, so that a test can let each
-//! of them fail or end the program there (`faults`). Nothing else calls the system for it, which a test checks.
+//! Every system call by which the program changes a disk, except those of the history's database. Tests can make each of
+//! them fail, or end the program there (`faults`). A test checks that no other code makes such calls.
 
 use std::{
     fs::{self, File, OpenOptions},
@@ -12,7 +12,7 @@ use tempfile::{NamedTempFile, TempDir};
 #[cfg(test)]
 pub(crate) mod faults;
 
-/// Runs before every call. `partial_call` does what a system may have done of the call before it failed.
+/// Runs before every call. `partial_call` does the part of the call that a failing system may have completed.
 #[cfg(test)]
 fn inject_fault(partial_call: impl FnOnce()) -> io::Result<()> {
     faults::inject(partial_call)
@@ -53,13 +53,13 @@ pub(crate) fn remove_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
     fs::remove_dir_all(path)
 }
 
-/// Opens a file to be written.
+/// Opens a file for writing.
 pub(crate) fn open(options: &OpenOptions, path: &Path) -> io::Result<File> {
     inject_fault(|| ())?;
     options.open(path)
 }
 
-/// Makes a file, or empties the one that is there.
+/// Creates a file, or empties an existing one.
 pub(crate) fn create(path: &Path) -> io::Result<File> {
     open(
         File::options().write(true).create(true).truncate(true),
@@ -77,13 +77,13 @@ pub(crate) fn set_len(file: &File, length: u64) -> io::Result<()> {
     file.set_len(length)
 }
 
-/// The content and what the system keeps about the file reach the disk.
+/// Flushes content and metadata to the disk.
 pub(crate) fn sync_all(file: &File) -> io::Result<()> {
     inject_fault(|| ())?;
     file.sync_all()
 }
 
-/// The content reaches the disk.
+/// Flushes the content to the disk.
 pub(crate) fn sync_data(file: &File) -> io::Result<()> {
     inject_fault(|| ())?;
     file.sync_data()
@@ -105,13 +105,13 @@ pub(crate) fn temporary_folder(
     builder.tempdir_in(folder)
 }
 
-/// Gives a temporary file its name.
+/// Renames a temporary file to its final name.
 pub(crate) fn persist(file: NamedTempFile, path: &Path) -> io::Result<File> {
     inject_fault(|| ())?;
     file.persist(path).map_err(|error| error.error)
 }
 
-/// A file whose buffer is flushed through [`write_all`].
+/// Writes everything through [`write_all`].
 #[derive(Debug)]
 pub(crate) struct DiskWriter<W>(pub(crate) W);
 

@@ -13,24 +13,24 @@ use crate::error::{Advice, Fault};
 /// Why a file could not be read or written. Every variant names the file.
 #[derive(Debug, Error)]
 pub enum FileError {
-    /// Nothing is at that path.
+    /// There is nothing at that path.
     #[error("{}: no such file", path.display())]
     NotFound {
         /// The path as it was given.
         path: PathBuf,
     },
-    /// The system refuses access.
+    /// The system denies access.
     #[error("{}: permission denied", path.display())]
     PermissionDenied {
-        /// The file, or the folder that a file was to be written to.
+        /// The file, or the folder to write to.
         path: PathBuf,
     },
-    /// A folder, a pipe or a device where a file is needed.
+    /// There is a folder, a pipe or a device instead of a file.
     #[error("{}: {found}", path.display())]
     NotAFile {
         /// The path as it was given.
         path: PathBuf,
-        /// What is there instead.
+        /// What the path is instead.
         found: NoFile,
     },
     /// The file has no bytes.
@@ -39,12 +39,12 @@ pub enum FileError {
         /// The file.
         path: PathBuf,
     },
-    /// The content is none of the known formats.
+    /// The content is in none of the known formats.
     #[error("{}: found {found}, expected PCD, PLY, XYZ or CSV text, STL, OBJ, glTF, GLB or a depth PNG", path.display())]
     UnknownFormat {
         /// The file.
         path: PathBuf,
-        /// What its beginning looks like.
+        /// A description of its first bytes.
         found: String,
     },
     /// The camera of a depth image was given instead of the image.
@@ -55,124 +55,124 @@ pub enum FileError {
         /// The image that it belongs to.
         image: PathBuf,
     },
-    /// A known format in a variant that is not read.
+    /// The format is known, but not this variant of it.
     #[error("{}: found {found}, expected {expected}", path.display())]
     Unsupported {
         /// The file.
         path: PathBuf,
-        /// The variant.
+        /// The variant found.
         found: String,
-        /// The variants that are read.
+        /// The supported variants.
         expected: &'static str,
     },
-    /// The file ends too early.
+    /// The file ends early.
     #[error("{}: the file ends early: found {found} bytes of {what}, expected {expected}", path.display())]
     Truncated {
         /// The file.
         path: PathBuf,
-        /// Which part of the file is cut.
+        /// The part of the file that is cut.
         what: &'static str,
-        /// Bytes there.
+        /// Bytes present.
         found: u64,
-        /// How much is needed.
+        /// How much was needed.
         expected: Expected,
     },
-    /// The header contradicts itself or cannot be understood.
+    /// The header is contradictory or cannot be parsed.
     #[error("{}: bad header: found {found}, expected {expected}", path.display())]
     BadHeader {
         /// The file.
         path: PathBuf,
         /// The words of the header.
         found: String,
-        /// What should stand there.
+        /// What is allowed there.
         expected: &'static str,
     },
-    /// A line of a text format cannot be understood.
+    /// A line of a text format cannot be parsed.
     #[error("{}, line {line}: found {found:?}, expected {expected}", path.display())]
     Malformed {
         /// The file.
         path: PathBuf,
-        /// The line, from 1.
+        /// The number of the line, from 1.
         line: usize,
-        /// Its beginning.
+        /// The beginning of the line.
         found: String,
-        /// What should stand there.
+        /// What is allowed there.
         expected: &'static str,
     },
-    /// The content behind a good header contradicts itself.
+    /// The content is damaged or contradicts itself.
     #[error("{}: damaged: {what}", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// The contradiction.
+        /// The damage found.
         what: String,
     },
-    /// More than is taken from one file.
+    /// The file has more of something than is read from one file.
     #[error("{}: {found} {what}, at most {limit} are read", path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// What there is too much of, as a plural: "points", "bytes".
+        /// The thing counted, as a plural: "points", "bytes".
         what: &'static str,
-        /// How many the file has or claims.
+        /// Count that the file has or claims.
         found: u64,
-        /// How many are read.
+        /// The most that is read.
         limit: u64,
     },
-    /// Larger than a file of its kind ever is.
+    /// The file is larger than files of this kind ever are.
     #[error("{}: {found} bytes, at most {limit} are read of a file of this kind", path.display())]
     TooLong {
         /// The file.
         path: PathBuf,
-        /// How many bytes the file has.
+        /// Size of the file in bytes.
         found: u64,
-        /// How many are read.
+        /// The most bytes that are read.
         limit: u64,
     },
-    /// Another program wrote to it meanwhile.
+    /// Another program wrote to the file while it was read.
     #[error("{}: the file changed while it was read", path.display())]
     Changing {
         /// The file.
         path: PathBuf,
     },
-    /// Its reader failed.
+    /// The reader of this format panicked.
     #[error("{}: {fault}", path.display())]
     Fault {
         /// The file.
         path: PathBuf,
-        /// How.
+        /// The panic.
         fault: Fault,
     },
-    /// No point, or none with three finite coordinates.
+    /// The file has no points, or none with three finite coordinates.
     #[error("{}: none of its {found} points is a reading", path.display())]
     NoPoints {
         /// The file.
         path: PathBuf,
-        /// Points or pixels in the file, all of them without a reading.
+        /// Points or pixels in the file, none of them a reading.
         found: usize,
     },
-    /// A file of a mesh format without a surface in it.
+    /// A file of a mesh format has no triangles.
     #[error("{}: no triangles, expected a surface", path.display())]
     NoTriangles {
         /// The file.
         path: PathBuf,
     },
-    /// A mesh was asked for by a name that the file does not have.
+    /// The file has no mesh of the requested name.
     #[error("{}: no mesh named {wanted:?}; it has {}", path.display(), listed(available, wanted))]
     NoSuchMesh {
-        /// The file, without the name.
+        /// The file, without the name of the mesh.
         path: PathBuf,
-        /// The name after `#`.
+        /// The requested name, after `#`.
         wanted: String,
-        /// The names there are, in the file's order; empty for a format without named meshes.
+        /// The names in the file, in its order; empty for formats without named meshes.
         available: Vec<String>,
     },
-    /// The words behind a path ask for something that there is not.
+    /// The import options after the path are not valid.
     #[error("{}: {bad}", path.display())]
     ImportOption {
-        /// The file, without the words.
+        /// The file, without the options.
         path: PathBuf,
-        /// What they ask for.
+        /// What is wrong with the options.
         bad: BadImportOption,
     },
     /// The file has several meshes and none was named.
@@ -180,15 +180,15 @@ pub enum FileError {
     NeedsMeshName {
         /// The file.
         path: PathBuf,
-        /// The names there are, in the file's order.
+        /// The names in the file, in its order.
         available: Vec<String>,
     },
-    /// A depth PNG without the description of its camera.
+    /// A depth PNG has no camera file.
     #[error("{}: a depth image, expected its intrinsics in {}", path.display(), json.display())]
     MissingIntrinsics {
         /// The image.
         path: PathBuf,
-        /// Where the intrinsics were looked for.
+        /// The path where the camera was expected.
         json: PathBuf,
     },
     /// The lens distortion is not one-to-one inside the picture.
@@ -200,7 +200,7 @@ pub enum FileError {
         /// The JSON.
         path: PathBuf,
     },
-    /// The description of the camera cannot be used.
+    /// The camera file cannot be used.
     #[error("{}: bad intrinsics: {found}", path.display())]
     BadIntrinsics {
         /// The JSON.
@@ -208,47 +208,47 @@ pub enum FileError {
         /// What is wrong with it.
         found: String,
     },
-    /// A PNG of another kind than 16-bit greyscale.
+    /// A PNG is not 16-bit greyscale.
     #[error("{}: found {found}, expected a 16-bit greyscale PNG of depth", path.display())]
     WrongPngKind {
         /// The image.
         path: PathBuf,
-        /// Its kind, such as "a colour PNG".
+        /// The kind found, such as "a colour PNG".
         found: String,
     },
-    /// A cloud was to be saved under a name whose ending names no format that is written.
+    /// The file name's ending is not a format that can be written.
     #[error("{}: no format to write for this name, expected {ENDINGS}", path.display())]
     UnknownEnding {
         /// The path as it was given.
         path: PathBuf,
     },
-    /// The camera of a depth image would be written over something that is no camera.
+    /// Writing the camera of a depth image would overwrite a file that is not a camera.
     #[error("{}: there already, and not the camera of a depth image; the camera of {} would overwrite it", path.display(), image.display())]
     ForeignSidecar {
-        /// The JSON.
+        /// The JSON file that exists.
         path: PathBuf,
-        /// The image that was to be written.
+        /// The image to be written.
         image: PathBuf,
     },
-    /// The system could not read.
+    /// The system could not read the file.
     #[error("{}: cannot read: {source}", path.display())]
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// The system could not write; nothing was changed at that path.
+    /// The system could not write; the path is unchanged.
     #[error("{}: cannot write: {}", path.display(), words_of(source))]
     Write {
-        /// The path that was to be written.
+        /// The path to be written.
         path: PathBuf,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
 }
 
-/// What is at a path where a file is needed.
+/// What a path is instead of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum NoFile {
     /// A folder.
@@ -259,22 +259,22 @@ pub enum NoFile {
     Device,
 }
 
-/// How much of a cut file is missing.
+/// How much a cut file should have held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum Expected {
-    /// So many bytes; a lower bound for text.
+    /// A number of bytes; for text, a lower bound.
     #[error("{0}")]
     Bytes(u64),
-    /// Nobody can say how many; what should still come.
+    /// The content that is missing, where the number of bytes is unknown.
     #[error("{0}")]
     More(&'static str),
 }
 
-/// The endings that a cloud or a depth image can be written under.
+/// The endings under which a cloud or a depth image can be written.
 const ENDINGS: &str = ".pcd, .ply, .xyz, or .png for a depth image";
 
 impl FileError {
-    /// The variant for what the system said on reading.
+    /// Returns the variant for a system error on reading.
     pub(crate) fn reading(path: &Path, source: io::Error) -> Self {
         let path = path.to_owned();
         let inner = source.get_ref().and_then(|inner| inner.downcast_ref());
@@ -292,7 +292,7 @@ impl FileError {
         }
     }
 
-    /// The variant for what the system said on writing.
+    /// Returns the variant for a system error on writing.
     pub(crate) fn writing(path: &Path, source: io::Error) -> Self {
         Self::Write {
             path: path.to_owned(),
@@ -403,5 +403,5 @@ impl Advice for FileError {
     }
 }
 
-/// A Kinect with depth in millimetres, as it stands in the JSON beside a depth image.
+/// A Kinect with depth in millimetres, as in the JSON beside a depth image.
 const EXAMPLE_JSON: &str = r#"{"width":640,"height":480,"fx":525.0,"fy":525.0,"cx":319.5,"cy":239.5,"metres_per_unit":0.001}"#;

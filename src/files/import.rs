@@ -1,6 +1,6 @@
-//! How the numbers of a cloud or a mesh are meant: `part.stl#units=mm#up=z`.
+//! Unit and axes of a cloud or a mesh, written behind its path: `part.stl#units=mm#up=z`.
 //!
-//! It stands behind the path as the name of a mesh does, so that it goes wherever the path goes: into lists of recent files,
+//! Like the name of a mesh they are part of the path, so that they are kept wherever the path is: in lists of recent files,
 //! the history, reports and settings.
 
 use nalgebra::Vector3;
@@ -11,7 +11,7 @@ use crate::error::Advice;
 /// The unit of a file's lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LengthUnit {
-    /// Metres, as everything inside.
+    /// Metres, as inside the program.
     #[default]
     Metres,
     /// Centimetres.
@@ -31,7 +31,7 @@ impl LengthUnit {
         Self::Inches,
     ];
 
-    /// As it is written behind a path and on the command line.
+    /// Returns the name used behind a path and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Metres => "m",
@@ -41,7 +41,7 @@ impl LengthUnit {
         }
     }
 
-    /// The unit of that name.
+    /// Returns the unit of that name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|unit| unit.name() == name)
     }
@@ -56,7 +56,7 @@ impl LengthUnit {
     }
 }
 
-/// Which axis of a file points up.
+/// The axis of a file that points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UpAxis {
     /// y points down, z away from the camera: camera space.
@@ -72,7 +72,7 @@ impl UpAxis {
     /// Every axis.
     pub const ALL: [Self; 3] = [Self::MinusY, Self::PlusY, Self::PlusZ];
 
-    /// As it is written behind a path and on the command line.
+    /// Returns the name used behind a path and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::MinusY => "-y",
@@ -81,12 +81,12 @@ impl UpAxis {
         }
     }
 
-    /// The axis of that name.
+    /// Returns the axis of that name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|up| up.name() == name)
     }
 
-    /// Into camera space: x right, y down, z away. A rotation, so that the sides of a surface stay what they are.
+    /// Rotates into camera space: x right, y down, z away. Being a rotation, it keeps the sides of a surface.
     fn to_camera(self, v: Vector3<f32>) -> Vector3<f32> {
         match self {
             Self::MinusY => v,
@@ -96,16 +96,16 @@ impl UpAxis {
     }
 }
 
-/// How the numbers of a cloud or a mesh are meant. A depth image says so itself.
+/// Unit and axes of a cloud or a mesh. Depth images state their own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ImportOptions {
     /// The unit of its lengths.
     pub unit: LengthUnit,
-    /// What points up.
+    /// The axis that points up.
     pub up: UpAxis,
 }
 
-/// A word behind a path that is meant for an option and is none.
+/// An import option behind a path has an unknown value.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no way to read a file: {0:?}")]
 pub struct BadImportOption(pub String);
@@ -117,13 +117,13 @@ impl Advice for BadImportOption {
 }
 
 impl ImportOptions {
-    /// Lengths in millimetres, axes as a camera has them.
+    /// Lengths in millimetres, axes as in camera space.
     pub const MILLIMETRES: Self = Self {
         unit: LengthUnit::Millimetres,
         up: UpAxis::MinusY,
     };
 
-    /// Takes what stands between two `#` behind a path: false if it is no option but the name of a mesh.
+    /// Applies one word behind a path; returns false if it is not an option but the name of a mesh.
     pub(super) fn take(&mut self, word: &str) -> Result<bool, BadImportOption> {
         let bad = || BadImportOption(word.to_owned());
         match word.split_once('=') {
@@ -134,14 +134,14 @@ impl ImportOptions {
         Ok(true)
     }
 
-    /// What is to be written behind a path; empty for the usual.
+    /// Returns the text to write behind a path; empty for the defaults.
     pub fn suffix(self) -> String {
         let unit = (self.unit != LengthUnit::default()).then(|| ["#units=", self.unit.name()]);
         let up = (self.up != UpAxis::default()).then(|| ["#up=", self.up.name()]);
         [unit, up].into_iter().flatten().flatten().collect()
     }
 
-    /// The content in metres and camera space; a depth image is that already.
+    /// Converts the content to metres and camera space. A depth image already is.
     pub(super) fn applied(self, mut content: FileContent) -> FileContent {
         if self == Self::default() {
             return content;
@@ -171,7 +171,7 @@ mod tests {
     use super::*;
     use crate::files::{FileError, FileWarning, file_of, open};
 
-    /// Opens a text of points as somebody wrote it, read so.
+    /// Opens a file of points with the options in `suffix`.
     fn opened(text: &str, suffix: &str) -> Result<FileContent, FileError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("points.xyz");

@@ -1,6 +1,6 @@
-//! Reading clouds, meshes and depth frames from files, known by their content, and writing them.
+//! Reading and writing of clouds, meshes and depth frames. A file's format is recognised by its content.
 //!
-//! | format | read as | source of the facts |
+//! | format | read as | source |
 //! | --- | --- | --- |
 //! | PCD 0.5-0.7: ascii, binary, `binary_compressed` | cloud | the Point Cloud Library's `PCD_V7` page and `pcd_io.cpp` |
 //! | PLY: ascii, binary of either byte order | cloud, or mesh if it has faces | G. Turk, *The PLY Polygon File Format*, 1994 |
@@ -10,19 +10,19 @@
 //! | glTF 2.0, GLB | one mesh, chosen by `#name` | Khronos, *glTF 2.0 Specification* |
 //! | 16-bit depth PNG with a JSON of intrinsics beside it | depth frame | see [`depth_png`] |
 //!
-//! Lengths are taken as metres, whatever the file meant: none of the cloud formats says its unit.
-//! [`FileContent::warnings`] tells when the numbers look like millimetres.
+//! Lengths are taken as metres, because no cloud format states its unit.
+//! [`FileContent::warnings`] warns if the numbers look like millimetres.
 //!
-//! Every size that a header claims is held against the bytes really there, and against [`MAX_UNPACKED_BYTES`], before
-//! memory is taken for it. Only regular files are opened (`open_regular`), up to a limit, and a panic in a reader is an
-//! error of its file.
+//! Every size that a header claims is checked against the bytes present and against [`MAX_UNPACKED_BYTES`] before memory
+//! is allocated. Only regular files up to a size limit are opened (`open_regular`). A panic in a reader becomes an error of
+//! its file.
 //!
-//! # Whose readers
-//! PNG, JSON, base64 and the glTF document are read by libraries. The rest is read here, because the libraries tried
-//! could not do the job: `pcd-rs` makes two allocations a point and panics when a compressed block is shorter than its
-//! header says; `ply-rs-bw` refuses `nan` in ascii rows and the property names that `CloudCompare` writes; `stl_io`
-//! takes a binary file that begins with "solid " for text and drops every solid after the first; `tobj` gives nothing
-//! for an OBJ without faces; none of the last two can say which line is wrong.
+//! # Own readers
+//! PNG, JSON, base64 and the glTF document are read by libraries. The other formats are read here, because the libraries
+//! tried fell short: `pcd-rs` makes two allocations per point and panics if a compressed block is shorter than its header
+//! says; `ply-rs-bw` refuses `nan` in ascii rows and the property names that `CloudCompare` writes; `stl_io` takes a binary
+//! file that begins with "solid " for text and drops every solid after the first; `tobj` returns nothing for an OBJ without
+//! faces; neither of the last two can name the line that is wrong.
 
 mod cause;
 mod cells;
@@ -72,20 +72,20 @@ pub(crate) use self::text::{read_text, visible};
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
 
-/// Endings of files that may hold a captured scene, for filters; the content says what a file is.
+/// Endings of files that may hold a captured scene, for file dialogs; the content decides what a file is.
 pub const SCENE_ENDINGS: &[&str] = &["pcd", "ply", "xyz", "txt", "csv", "asc", "pts", "png"];
-/// The same of whatever holds points: meshes too.
+/// Endings of files that may hold points, meshes included.
 pub const POINT_ENDINGS: &[&str] = &[
     "pcd", "ply", "xyz", "txt", "csv", "asc", "pts", "png", "stl", "obj", "gltf", "glb",
 ];
 
-/// The most points, vertices, triangles or pixels taken from one file: 160 full Kinect frames. Above it a header is
-/// wrong far more often than a cell has such a camera, and one `PointCloud` would pass a gigabyte.
+/// The most points, vertices, triangles or pixels read from one file: 160 full Kinect frames. A header that claims more is
+/// most likely wrong, and one `PointCloud` would take more than a gigabyte.
 pub const MAX_POINTS: usize = 50_000_000;
 
-/// The largest file read, in bytes. 50 million points with normals and colours are 1.6 GB in binary.
+/// The largest file that is read, in bytes. 50 million points with normals and colours take 1.6 GB in binary.
 pub const MAX_FILE_BYTES: u64 = 2 << 30;
 
-/// The most memory that is taken for what a file unpacks to, in bytes. Packed points and empty pixels can stand for a
-/// thousand times their own size.
+/// The most memory allocated for the unpacked content of a file, in bytes. Packed points and empty pixels can unpack to a
+/// thousand times their size.
 pub const MAX_UNPACKED_BYTES: u64 = 1 << 30;

@@ -1,18 +1,18 @@
-//! Names of files in files, and names for an error: the nearest to what was asked for first, and not hundreds of them.
+//! Checks of relative paths, and names in errors: the nearest to the requested one first, and not all of hundreds.
 
 use std::path::{Component, Path};
 
-/// True for a path that stays in the folder that it is taken from: a document or a list must not choose which other
-/// files of the machine are read.
+/// Returns true for a path that stays inside its folder: a document or a list must not choose which other files of the
+/// machine are read.
 pub(crate) fn stays_inside(path: &Path) -> bool {
     let is_inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
     !path.as_os_str().is_empty() && path.components().all(is_inside)
 }
 
-/// Names shown; a car has hundreds.
+/// The most names listed; a whole car has hundreds.
 const MAX_SHOWN: usize = 10;
 
-/// The names as a list, those nearest to `wanted` first.
+/// Lists the names, those nearest to `wanted` first.
 pub(super) fn listed(names: &[String], wanted: &str) -> String {
     if names.is_empty() {
         return "no named meshes".into();
@@ -25,7 +25,7 @@ pub(super) fn listed(names: &[String], wanted: &str) -> String {
     }
 }
 
-/// The name nearest to `wanted`, of equally near ones the first.
+/// Returns the name nearest to `wanted`; the first of equally near ones.
 pub(crate) fn nearest_name<'a>(
     names: impl Iterator<Item = &'a str>,
     wanted: &str,
@@ -42,13 +42,13 @@ fn nearest_first<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> Vec<
     names
 }
 
-/// Small letters and digits: `Door_FL`, `door-fl` and `DoorFL` are one word to a person. At most 64 of them.
+/// Returns up to 64 letters and digits in lower case: people take `Door_FL`, `door-fl` and `DoorFL` for one name.
 fn letters_of(name: &str) -> Vec<char> {
     let kept = name.chars().filter(|c| c.is_alphanumeric());
     kept.flat_map(char::to_lowercase).take(64).collect()
 }
 
-/// Letters to insert, remove or replace (V. I. Levenshtein, 1966), row by row.
+/// Counts the letters to insert, remove or replace (V. I. Levenshtein, 1966), row by row.
 fn edits_between(a: &[char], b: &[char]) -> usize {
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, from) in a.iter().enumerate() {

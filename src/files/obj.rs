@@ -1,8 +1,8 @@
 //! OBJ: vertices and polygons as text.
 //!
-//! Facts from Wavefront's *Advanced Visualizer Manual*, appendix B1. `v` and `f` are read, all objects and groups
-//! together; polygons are cut into fans about their first corner. An OBJ without faces is a cloud. Texture
-//! coordinates, normals, materials, lines and curves are read over.
+//! Source: Wavefront's *Advanced Visualizer Manual*, appendix B1. `v` and `f` of all objects and groups are read together;
+//! polygons are split into fans about their first corner. An OBJ without faces is a cloud. Texture coordinates, normals,
+//! materials, lines and curves are ignored.
 
 use nalgebra::Point3;
 
@@ -14,7 +14,7 @@ use super::source::Source;
 use super::surface::{checked_mesh, push_fan};
 use crate::geometry::cloud::PointCloud;
 
-/// True if the first line that is neither empty nor a comment begins with a keyword of the format.
+/// Returns true if the first line that is neither empty nor a comment begins with a keyword of the format.
 pub(super) fn is_obj(source: Source<'_>) -> bool {
     const KEYWORDS: [&str; 12] = [
         "v", "vn", "vt", "vp", "f", "l", "o", "g", "s", "mtllib", "usemtl", "mg",
@@ -34,7 +34,7 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
     let mut triangles = Vec::new();
     let mut statement = String::new();
     for (number, line) in source.lines() {
-        // A backslash at its end continues a line on the next.
+        // A backslash at the end continues a line on the next one.
         if let Some(begun) = line.strip_suffix('\\') {
             statement.push_str(begun);
             statement.push(' ');
@@ -89,10 +89,10 @@ fn point_of<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<Point3<f32>>
     Some(Point3::new(coordinate()?, coordinate()?, coordinate()?))
 }
 
-/// The vertex that `7/1/2` or `-1//3` names, from 0; `None` if there is no such vertex yet.
+/// Returns the vertex named by `7/1/2` or `-1//3`, from 0; `None` if there is no such vertex yet.
 fn index_of(corner: &str, num_points: usize) -> Option<u32> {
     let number: i64 = corner.split('/').next()?.parse().ok()?;
-    // Positive ones count from 1, negative ones back from the latest.
+    // Positive numbers count from 1, negative ones back from the latest vertex.
     let index = if number > 0 {
         number - 1
     } else {

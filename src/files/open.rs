@@ -1,4 +1,4 @@
-//! Opening any file: find it, recognise its content, hand it to its reader.
+//! Opening of any file: finds it, recognises its format and calls its reader.
 
 use std::path::{Path, PathBuf};
 
@@ -15,10 +15,10 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::pinhole_fit::fit_pinhole;
 use crate::units::Metres;
 
-/// What a file held.
+/// The content of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FileContent {
-    /// Points, in the camera's space unless the file's maker meant otherwise. At least one is finite.
+    /// Points, in camera space unless the file uses another one. At least one is finite.
     Cloud(PointCloud),
     /// A surface with at least one triangle.
     Mesh(TriangleMesh),
@@ -26,28 +26,28 @@ pub enum FileContent {
     Depth(DepthFrame),
 }
 
-/// Something odd about a file that could be read nevertheless.
+/// Something odd about a file that could be read all the same.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum FileWarning {
-    /// The numbers, taken as metres, span more than any spray cell.
+    /// Taken as metres, the points span more than any spray cell.
     #[error("the points span {:.0} m, so the file may be in millimetres", extent.0)]
     TooWideForMetres {
         /// The longest side of the box around the points.
         extent: Metres,
     },
-    /// The file has more in it than its header says.
+    /// The file is longer than its header says.
     #[error("{num} bytes follow the last point, so the file is probably damaged")]
     SurplusBytes {
-        /// Bytes behind the last point.
+        /// Bytes after the last point.
         num: u64,
     },
-    /// Points that a camera at the origin cannot see.
+    /// Points lie behind a camera at the origin.
     #[error("{:.1} % of the points lie behind the camera, so they are probably in another frame", share * 100.0)]
     BehindCamera {
         /// Share of the points, 0..1.
         share: f64,
     },
-    /// Rows and columns that are no picture.
+    /// Rows and columns are not the picture of a pinhole camera at the origin.
     #[error(
         "its rows and columns are not the picture of a camera without distortion at the origin"
     )]
@@ -69,16 +69,16 @@ impl Advice for FileWarning {
     }
 }
 
-/// Extents from here on, in metres, are warned about: a mirror of 0.1 m reads so in millimetres, and no cell is as wide.
+/// The extent that causes a warning, in metres: a part of 0.1 m in millimetres looks this wide, and no cell is.
 const SUSPICIOUS_EXTENT: f64 = 100.0;
 
-/// Of an organised cloud with fewer readings nothing is said: no camera can be fitted to a few.
+/// Organised clouds with fewer readings get no warning: a camera cannot be fitted to a few.
 const MIN_READINGS: usize = 1000;
 
 fn warnings_of(cloud: &PointCloud) -> impl Iterator<Item = FileWarning> {
     let num = cloud.surplus_bytes;
     let surplus = (num > 0).then_some(FileWarning::SurplusBytes { num });
-    // Only a picture is for sure in a camera's space; other clouds may be in any, and are when they are enrolled.
+    // Only organised clouds must be in camera space; others may be in any space, for example references to be enrolled.
     let share = cloud.grid.map_or(0.0, |_| cloud.share_behind());
     let behind = (share > 0.0).then_some(FileWarning::BehindCamera { share });
     let is_no_picture = cloud.grid.is_some_and(|grid| {
@@ -89,7 +89,7 @@ fn warnings_of(cloud: &PointCloud) -> impl Iterator<Item = FileWarning> {
 }
 
 impl FileContent {
-    /// True if the file says that no camera read what it holds.
+    /// Returns true if the file says that its content is simulated.
     pub fn is_simulated(&self) -> bool {
         match self {
             Self::Cloud(cloud) => cloud.is_simulated,
@@ -98,7 +98,7 @@ impl FileContent {
         }
     }
 
-    /// What is odd about the content; empty when nothing is. The numbers themselves are never changed.
+    /// Returns what is odd about the content. The numbers themselves are never changed.
     pub fn warnings(&self) -> Vec<FileWarning> {
         let bounds = match self {
             Self::Cloud(cloud) => cloud.bounds(),
@@ -118,11 +118,10 @@ impl FileContent {
     }
 }
 
-/// Reads the file at `path`, whose format is told by its content, never by its name.
+/// Reads the file at `path`. Its format is recognised by its content, never by its name.
 ///
-/// One mesh of a glTF or GLB file is chosen by `#` and its name after the path: `car.gltf#Door_FL`. In the same way
-/// [`ImportOptions`] say how the numbers of a cloud or a mesh are meant: `door.stl#units=mm#up=z`. A file whose own name has
-/// a `#` in it is found first.
+/// `#` and a name after the path select one mesh of a glTF or GLB file: `car.gltf#Door_FL`. [`ImportOptions`] for a cloud or
+/// a mesh are given in the same way: `door.stl#units=mm#up=z`. A file whose own name contains a `#` takes precedence.
 pub fn open(path: &Path) -> Result<FileContent, FileError> {
     let (file, words) = split_words(path);
     let mut options = ImportOptions::default();
@@ -133,7 +132,7 @@ pub fn open(path: &Path) -> Result<FileContent, FileError> {
             bad,
         })?;
         if !is_option {
-            // A name may have a # in it.
+            // The name may contain a `#`.
             mesh_name = Some(mesh_name.map_or_else(|| word.to_owned(), |name| name + "#" + word));
         }
     }
@@ -142,8 +141,7 @@ pub fn open(path: &Path) -> Result<FileContent, FileError> {
     Ok(options.applied(content))
 }
 
-/// As [`open`], for bytes that are in memory already; `path` is for the errors about them, and where a depth image's
-/// camera is looked for.
+/// Like [`open`], for bytes in memory. `path` is for errors, and names the place where a depth image's camera is looked for.
 pub fn open_bytes(path: &Path, bytes: &[u8]) -> Result<FileContent, FileError> {
     read(path, bytes, None)
 }
@@ -177,18 +175,18 @@ fn read_known(source: Source<'_>, mesh_name: Option<&str>) -> Result<FileContent
     }
 }
 
-/// The file that [`open`] reads at `path`, without the words behind it.
+/// Returns the file that [`open`] reads at `path`, without the words behind it.
 pub fn file_of(path: &Path) -> PathBuf {
     split_words(path).0
 }
 
-/// The file in `path` and the words behind it: the longest part before a `#` that is a file wins.
+/// Splits a path into the file and the words behind it: the longest part before a `#` that is a file.
 fn split_words(path: &Path) -> (PathBuf, Option<String>) {
     let whole = (path.to_owned(), None);
     if path.exists() {
         return whole;
     }
-    // A name that is not Unicode cannot be split here; as a whole it still works.
+    // A path that is not Unicode cannot be split, but works as a whole.
     let Some(text) = path.to_str() else {
         return whole;
     };
@@ -221,11 +219,11 @@ fn recognise(source: Source<'_>) -> Result<Format, FileError> {
     if ply::is_ply(bytes) {
         return Ok(Format::Ply);
     }
-    // Before the text formats: many binary STL files begin with the word "solid" as well.
+    // Before the text formats: many binary STL files also begin with "solid".
     if stl::is_binary(bytes) {
         return Ok(Format::Stl);
     }
-    // Before the test for text: what follows the header of a PCD may be binary.
+    // Before the test for text: a PCD may be binary after its header.
     if pcd::is_pcd(source) {
         return Ok(Format::Pcd);
     }
@@ -263,7 +261,7 @@ fn recognise(source: Source<'_>) -> Result<Format, FileError> {
     ))
 }
 
-/// What a file is, for an error about one that should be something else.
+/// Describes a file for an error that expected another kind.
 pub(super) fn described(source: Source<'_>) -> String {
     let words = match recognise(source) {
         Ok(Format::Pcd) => "a PCD cloud",
@@ -280,14 +278,14 @@ pub(super) fn described(source: Source<'_>) -> String {
     words.into()
 }
 
-/// Text has no zero bytes; its beginning is enough to tell.
+/// Returns true if the first 4096 bytes contain no zero.
 fn is_text(bytes: &[u8]) -> bool {
     !bytes.iter().take(4096).any(|&byte| byte == 0)
 }
 
 fn unknown_binary(source: Source<'_>) -> FileError {
     let Source { path, bytes } = source;
-    // Nothing inside a cut binary STL tells what it is. The name may word the error, though not choose the reader.
+    // The content of a cut binary STL cannot be recognised. The file name may word the error, but not choose the reader.
     if path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("stl"))

@@ -1,4 +1,4 @@
-//! From the numbers of a file to a cloud that keeps the promises of [`PointCloud`].
+//! Turns the numbers of a file into a cloud that keeps the guarantees of [`PointCloud`].
 
 use nalgebra::{Point3, Vector3};
 
@@ -7,16 +7,16 @@ use super::scalar::Column;
 use super::source::Source;
 use crate::geometry::cloud::PointCloud;
 
-/// Coordinates beyond this, in metres, are no readings: some recorders write the largest float, or 1e10, for "none".
-/// At 1000 km an `f32` is good to 6 cm only, and squares of such numbers stay far from overflow.
+/// Larger coordinates, in metres, are not readings: some recorders write the largest float, or 1e10, for "none".
+/// At 1000 km an `f32` is accurate to 6 cm only; squares of such numbers are far from overflow.
 pub(super) const MAX_COORDINATE: f32 = 1e6;
 
-/// Turns what the file says into readings.
+/// Marks or drops everything that is not a reading.
 ///
-/// A point is a reading if its coordinates are finite and below [`MAX_COORDINATE`]. In an organised cloud every other
-/// cell becomes three NaN, and so does an exact (0, 0, 0), by which some recorders mean "no reading"; in an
-/// unorganised cloud every other point is dropped with its attributes. Normals are kept only if every reading has
-/// one: half a set would have to be made up by whoever uses it.
+/// A point is a reading if its coordinates are finite and at most [`MAX_COORDINATE`]. In an organised cloud the other
+/// cells become three NaN, and so does an exact (0, 0, 0), which some recorders write for "no reading"; in an unorganised
+/// cloud the other points are dropped with their attributes. Normals are kept only if every reading has one; otherwise the
+/// users would have to invent the rest.
 pub(super) fn tidy(mut cloud: PointCloud, source: Source<'_>) -> Result<PointCloud, FileError> {
     let found = cloud.points.len();
     let is_organised = cloud.grid.is_some();
@@ -61,7 +61,7 @@ pub(super) fn tidy(mut cloud: PointCloud, source: Source<'_>) -> Result<PointClo
     Ok(cloud)
 }
 
-/// The points of three coordinate columns.
+/// Combines three columns of coordinates into points.
 pub(super) fn points_from([x, y, z]: [Column<'_>; 3]) -> Vec<Point3<f32>> {
     let mut points = Vec::with_capacity(x.len);
     let rows = x.f32s().zip(y.f32s()).zip(z.f32s());
@@ -69,14 +69,14 @@ pub(super) fn points_from([x, y, z]: [Column<'_>; 3]) -> Vec<Point3<f32>> {
     points
 }
 
-/// The normals of three columns.
+/// Combines three columns into normals.
 pub(super) fn normals_from(columns: [Column<'_>; 3]) -> Vec<Vector3<f32>> {
     let rows = points_from(columns).into_iter();
-    // Done in place.
+    // This collects in place.
     rows.map(|row| row.coords).collect()
 }
 
-/// Bytes of a point of a cloud in memory.
+/// Returns the size of a cloud's point in memory, in bytes.
 pub(super) fn point_bytes(has_normal: bool, has_colour: bool, has_label: bool) -> usize {
     let of = |is_there: bool, bytes: usize| if is_there { bytes } else { 0 };
     size_of::<Point3<f32>>()
@@ -85,7 +85,7 @@ pub(super) fn point_bytes(has_normal: bool, has_colour: bool, has_label: bool) -
         + of(has_label, size_of::<u32>())
 }
 
-/// The number of bytes behind the last point; padding is none.
+/// Counts the bytes after the last point; returns 0 if all are padding.
 pub(super) fn surplus_of(rest: &[u8]) -> u64 {
     let is_blank = |byte: &u8| *byte == 0 || byte.is_ascii_whitespace();
     if rest.iter().all(is_blank) {
@@ -108,7 +108,7 @@ fn unit_normals(normals: Vec<Vector3<f32>>, points: &[Point3<f32>]) -> Option<Ve
             return Some(Vector3::repeat(f32::NAN));
         }
         let length = normal.cast::<f64>().norm();
-        // One that is a unit vector already keeps its bits, so that a cloud survives being written and read.
+        // Keep the bits of unit vectors, so that a cloud survives being written and read again.
         if (length - 1.0).abs() < 1e-6 {
             return Some(normal);
         }

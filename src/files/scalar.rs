@@ -1,6 +1,6 @@
-//! The number types of PCD and PLY, and columns of them in a block of bytes.
+//! Number types of PCD and PLY, and columns of them in a block of bytes.
 
-/// A number type as PCD and PLY store it, little endian here whatever the file has.
+/// A number type of PCD and PLY; always little endian here, whatever the file's byte order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scalar {
     I8,
@@ -16,7 +16,7 @@ pub(super) enum Scalar {
 }
 
 impl Scalar {
-    /// Bytes of one number.
+    /// Returns the size of one number, in bytes.
     pub(super) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -30,7 +30,7 @@ impl Scalar {
         matches!(self, Self::F32 | Self::F64)
     }
 
-    /// The number in the first bytes of `cell`; `None` if there are too few.
+    /// Reads the number in the first bytes of `cell`; `None` if there are too few.
     pub(super) fn value(self, cell: &[u8]) -> Option<f64> {
         Some(match self {
             Self::I8 => f64::from(i8::from_le_bytes(*cell.first_chunk()?)),
@@ -64,7 +64,7 @@ impl Scalar {
     }
 }
 
-/// A real number as people and programs write it; `nan(ind)` and the like are what C libraries print for NaN.
+/// Parses a real number. `nan(ind)` and the like are what C libraries print for NaN.
 pub(super) fn parse_real(token: &str) -> Option<f64> {
     token.parse().ok().or_else(|| {
         let unsigned = token.trim_start_matches(['-', '+']).to_ascii_lowercase();
@@ -72,7 +72,7 @@ pub(super) fn parse_real(token: &str) -> Option<f64> {
     })
 }
 
-/// A whole number. Some writers print `255.0` in a column of bytes.
+/// Parses a whole number; some writers print `255.0` in a column of bytes.
 fn parse_whole(token: &str) -> Option<i128> {
     let from_real = || {
         parse_real(token)
@@ -82,7 +82,7 @@ fn parse_whole(token: &str) -> Option<i128> {
     token.parse().ok().or_else(from_real)
 }
 
-/// One field of every row of a block of bytes.
+/// One field of every row in a block of bytes.
 #[derive(Clone, Copy)]
 pub(super) struct Column<'a> {
     pub(super) bytes: &'a [u8],
@@ -91,7 +91,7 @@ pub(super) struct Column<'a> {
     /// Bytes from one cell to the next.
     pub(super) stride: usize,
     pub(super) scalar: Scalar,
-    /// The number of cells. Whoever makes the column has checked that they lie within `bytes`.
+    /// The number of cells. The caller must have checked that they lie within `bytes`.
     pub(super) len: usize,
 }
 
@@ -107,7 +107,7 @@ impl<'a> Column<'a> {
         (0..len).map_while(move |i| bytes.get(start + i * stride..)?.get(..scalar.size()))
     }
 
-    /// Every cell as a real number.
+    /// Returns every cell as a real number.
     pub(super) fn f32s(self) -> impl Iterator<Item = f32> + 'a {
         let is_f32 = self.scalar == Scalar::F32;
         self.cells().filter_map(move |cell| {
@@ -118,7 +118,7 @@ impl<'a> Column<'a> {
         })
     }
 
-    /// Every cell as a whole number; negative ones and fractions are cut.
+    /// Returns every cell as a whole number; fractions are truncated, negative numbers become 0.
     pub(super) fn u32s(self) -> Vec<u32> {
         if self.scalar == Scalar::U32 {
             return self.raw_u32s();
@@ -127,13 +127,13 @@ impl<'a> Column<'a> {
         values.map(|value| value as u32).collect()
     }
 
-    /// The four bytes of every cell as they are, whatever type the file gives them.
+    /// Returns the four bytes of every cell as they are, whatever their type in the file.
     pub(super) fn raw_u32s(self) -> Vec<u32> {
         let chunks = self.cells().filter_map(|cell| cell.first_chunk());
         chunks.map(|chunk| u32::from_le_bytes(*chunk)).collect()
     }
 
-    /// Every cell as one channel of a colour: whole numbers are 0..=255, reals 0..=1.
+    /// Returns every cell as a channel of a colour: whole numbers are 0..=255, reals 0..=1.
     pub(super) fn channel(self) -> Vec<u8> {
         let scale = if self.scalar.is_float() { 255.0 } else { 1.0 };
         let values = self.cells().filter_map(|cell| self.scalar.value(cell));

@@ -1,4 +1,4 @@
-//! One file in memory, with its path for the errors about it.
+//! A file in memory, with its path for errors.
 
 use std::borrow::Cow;
 use std::fs::{self, File, Metadata};
@@ -11,24 +11,24 @@ use super::disk;
 use super::error::{Expected, FileError, NoFile};
 use super::{MAX_FILE_BYTES, MAX_POINTS, MAX_UNPACKED_BYTES};
 
-/// The bytes of a file and where they came from.
+/// The bytes of a file and its path.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) path: &'a Path,
     pub(super) bytes: &'a [u8],
 }
 
-/// Opens a regular file to read. Anything else is refused before it is opened: a pipe without a writer would keep the
-/// opener waiting, and a device may never end.
+/// Opens a regular file for reading. Anything else is refused before it is opened: opening a pipe without a writer would
+/// block, and a device may never end.
 pub(crate) fn open_regular(path: &Path) -> io::Result<File> {
     refuse_all_but_files(&fs::metadata(path)?)?;
     let file = File::open(path)?;
-    // Another may have taken its place since.
+    // Another file may have taken its place meanwhile.
     refuse_all_but_files(&file.metadata()?)?;
     Ok(file)
 }
 
-/// Opens the file that writers lock, and makes it where it is missing; what is no regular file is refused.
+/// Opens the lock file of the writers, and creates it if it is missing; refuses anything but a regular file.
 pub(crate) fn open_lock(path: &Path) -> io::Result<File> {
     if let Ok(found) = fs::metadata(path) {
         refuse_all_but_files(&found)?;
@@ -36,7 +36,7 @@ pub(crate) fn open_lock(path: &Path) -> io::Result<File> {
     disk::open(File::options().create(true).append(true), path)
 }
 
-/// Opens the file that writers lock, and waits until no other writer holds it: it is held until the answer is dropped.
+/// Opens the lock file and waits until no other writer holds it. Dropping the file releases the lock.
 pub(crate) fn lock_exclusively(path: &Path) -> io::Result<File> {
     let lock = open_lock(path)?;
     match lock.lock() {
@@ -57,13 +57,13 @@ fn refuse_all_but_files(found: &Metadata) -> io::Result<()> {
     }
 }
 
-/// A capture, a cloud or a mesh: all bytes of a regular file that is not empty and not above [`MAX_FILE_BYTES`].
+/// Reads a whole capture, cloud or mesh: a regular file that is not empty and not above [`MAX_FILE_BYTES`].
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     read_limited(path, MAX_FILE_BYTES)
 }
 
-/// All bytes of a regular file that is not empty and not above `limit` bytes. One that changes meanwhile is refused:
-/// it would be half of one content and half of another.
+/// Reads a whole regular file that is not empty and has at most `limit` bytes. A file that changes meanwhile is refused,
+/// because the bytes would mix two contents.
 pub(crate) fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     let wrong = |error| FileError::reading(path, error);
     let too_large = |found| {
@@ -108,10 +108,10 @@ pub(crate) fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, FileError
     Ok(bytes)
 }
 
-/// Two changes within this time may have the same time in their file: several ticks of the slowest system.
+/// Two changes within this time may have the same file time. It spans several ticks of the slowest system.
 const FILE_CLOCK: Duration = Duration::from_millis(30);
 
-/// What the system says of a file, once any later change will show in it; `None` if it changes now.
+/// Returns the metadata of a file once any later change would show in them; `None` if the file is changing now.
 fn settled(file: &File) -> io::Result<Option<Metadata>> {
     let found = file.metadata()?;
     let age = found.modified().ok().and_then(|time| time.elapsed().ok());
@@ -131,7 +131,7 @@ fn stamp(found: &Metadata) -> (u64, Option<std::time::SystemTime>) {
 const HEAD: usize = 1024;
 
 impl<'a> Source<'a> {
-    /// The lines with their number from 1, without line ends, a byte order mark or spaces around them.
+    /// Returns the lines with their number from 1, without line ends, byte order mark and surrounding spaces.
     pub(super) fn lines(self) -> impl Iterator<Item = (usize, Cow<'a, str>)> + Clone {
         let Self { bytes, .. } = self;
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -141,8 +141,7 @@ impl<'a> Source<'a> {
             .map(|(i, line)| (i + 1, String::from_utf8_lossy(line.trim_ascii())))
     }
 
-    /// True if a comment in the head of the file says that no camera read what follows: what we write of simulated
-    /// points begins so.
+    /// Returns true if a comment at the beginning of the file marks its points as simulated, as this program's writers do.
     pub(super) fn says_simulated(self) -> bool {
         let head = self.bytes.get(..HEAD).unwrap_or(self.bytes);
         let mut lines = head.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
@@ -158,7 +157,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// As [`Self::truncated`], where nobody can say how many bytes are missing, only what should still come.
+    /// Like [`Self::truncated`], where the number of missing bytes is unknown, but not what is missing.
     pub(super) fn cut_before(self, missing: &'static str, what: &'static str) -> FileError {
         FileError::Truncated {
             path: self.path.to_owned(),
@@ -200,8 +199,8 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Refuses what would take more than [`MAX_UNPACKED_BYTES`] of memory, before it is taken: a header or a packed block
-    /// of a few bytes can stand for any amount.
+    /// Refuses to unpack to more than [`MAX_UNPACKED_BYTES`], before memory is allocated: a header or a packed block of a few
+    /// bytes can stand for any amount.
     pub(super) fn affordable(self, count: usize, bytes_each: usize) -> Result<(), FileError> {
         let found = (count as u64).saturating_mul(bytes_each as u64);
         if found <= MAX_UNPACKED_BYTES {
@@ -215,7 +214,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// `count` again if it is within [`MAX_POINTS`].
+    /// Returns `count` if it is at most [`MAX_POINTS`].
     pub(super) fn limited(self, what: &'static str, count: usize) -> Result<usize, FileError> {
         if count <= MAX_POINTS {
             return Ok(count);
@@ -229,12 +228,12 @@ impl<'a> Source<'a> {
     }
 }
 
-/// A line of a header as text. Longer ones are cut: they are bytes that follow a damaged header.
+/// Returns a line of a header as text, cut at 4096 bytes: a longer line is data after a damaged header.
 pub(super) fn header_text(line: &[u8]) -> Cow<'_, str> {
     String::from_utf8_lossy(line.get(..4096).unwrap_or(line).trim_ascii())
 }
 
-/// The first 60 characters: enough to find the place, short enough for one line of the window.
+/// Returns the first 60 characters: enough to find the place, short enough for one line of the window.
 pub(crate) fn shortened(text: &str) -> String {
     match text.char_indices().nth(60) {
         Some((end, _)) => format!("{}…", text.get(..end).unwrap_or_default()),
@@ -267,11 +266,11 @@ mod tests {
                     for piece in vec![letter; SIZE].chunks(4096) {
                         file.write_all(piece).unwrap();
                     }
-                    // Long enough for a whole read now and then.
+                    // Long enough that a whole read fits in now and then.
                     thread::sleep(FILE_CLOCK + FILE_CLOCK / 3);
                 }
             });
-            // Assertions come after the writer has been stopped, so that a failure cannot leave it running.
+            // Assert only after the writer has been stopped, so that a failure cannot leave it running.
             let results: Vec<_> = (0..80).map(|_| read_bytes(&path)).collect();
             is_over.store(true, Ordering::Relaxed);
             results

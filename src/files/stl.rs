@@ -1,10 +1,10 @@
-//! STL: triangles one by one, as text or as 84 + 50·n bytes.
+//! STL: separate triangles, as text or as 84 + 50·n bytes.
 //!
-//! Facts from 3D Systems, *Stereolithography Interface Specification* (1989). Corners with equal coordinates are welded
-//! into one vertex; the stored normals are not used, since the order of the corners says the same.
+//! Source: 3D Systems, *Stereolithography Interface Specification* (1989). Corners with equal coordinates are welded into
+//! one vertex. The stored normals are not used, because the order of the corners implies them.
 //!
-//! A binary file is known by its length, which its count of triangles must predict, and not by its first word: many
-//! of them begin with "solid". A text may hold several solids; all are taken together.
+//! A binary file is recognised by its length, which must match its count of triangles, not by its first word: many begin
+//! with "solid". A text may hold several solids; all are joined.
 
 use std::collections::HashMap;
 
@@ -18,15 +18,15 @@ use crate::geometry::mesh::TriangleMesh;
 
 const HEADER_BYTES: usize = 84;
 const TRIANGLE_BYTES: usize = 50;
-/// Memory of a triangle until its corners are welded: itself, its indices, and half a vertex, listed and looked up.
+/// Memory per triangle until welding is done, in bytes: the triangle, its indices, and half a vertex in list and hash map.
 const WELDED_BYTES: usize = 36 + 12 + 22;
 
-/// True if the count in the header predicts the length of the file.
+/// Returns true if the count in the header matches the length of the file.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
     promised_length(bytes) == Some(bytes.len())
 }
 
-/// True for a text that begins with the word "solid".
+/// Returns true for a text that begins with the word "solid".
 pub(super) fn is_ascii(bytes: &[u8]) -> bool {
     let text = bytes.trim_ascii_start();
     text.first_chunk::<5>()
@@ -34,7 +34,7 @@ pub(super) fn is_ascii(bytes: &[u8]) -> bool {
         && text.get(5).is_none_or(u8::is_ascii_whitespace)
 }
 
-/// The error for bytes that are called STL and are neither text nor as long as they promise.
+/// Returns the error for an STL file that is neither text nor of the length that its count implies.
 pub(super) fn wrong_length(source: Source<'_>) -> FileError {
     let found = source.bytes.len();
     match promised_length(source.bytes) {
@@ -71,7 +71,7 @@ fn corners_of_binary(source: Source<'_>) -> Result<Vec<[Point3<f32>; 3]>, FileEr
         let bytes = row.get(i * 4..).and_then(|rest| rest.first_chunk());
         bytes.map_or(f32::NAN, |bytes| f32::from_le_bytes(*bytes))
     };
-    // Each row: the normal's three numbers, then three for each corner, then two bytes for other use.
+    // A row is the normal's three numbers, three for each corner, then two bytes for other uses.
     let corner = |row: &[u8], i: usize| {
         let at = 3 + 3 * i;
         Point3::new(number(row, at), number(row, at + 1), number(row, at + 2))
@@ -126,7 +126,7 @@ fn welded(triangles: &[[Point3<f32>; 3]]) -> (Vec<Point3<f32>>, Vec<[u32; 3]>) {
     let mut vertices = Vec::new();
     let mut known: HashMap<[u32; 3], u32> = HashMap::new();
     let mut index_of = |corner: &Point3<f32>| {
-        // Adding zero turns -0 into 0, which is the same place.
+        // Adding zero turns -0 into 0.
         let key = [corner.x, corner.y, corner.z].map(|coordinate| (coordinate + 0.0).to_bits());
         *known.entry(key).or_insert_with(|| {
             vertices.push(*corner);
@@ -159,7 +159,7 @@ mod tests {
         }
     }
 
-    /// One triangle under a header that begins as a text would.
+    /// One triangle after a header that begins like text.
     pub(crate) fn binary_triangle() -> Vec<u8> {
         let mut bytes = b"solid but binary".to_vec();
         bytes.resize(80, 0);

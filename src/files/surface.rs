@@ -1,4 +1,4 @@
-//! From the polygons of a file to a mesh that keeps the promises of [`TriangleMesh`].
+//! Turns the polygons of a file into a mesh that keeps the guarantees of [`TriangleMesh`].
 
 use nalgebra::Point3;
 
@@ -7,7 +7,7 @@ use super::readings::MAX_COORDINATE;
 use super::source::Source;
 use crate::geometry::mesh::TriangleMesh;
 
-/// A mesh whose vertices and indices are sound, and which is not empty.
+/// Builds a mesh; refuses an empty one, and bad vertices or indices.
 pub(super) fn checked_mesh(
     source: Source<'_>,
     vertices: Vec<Point3<f32>>,
@@ -25,7 +25,7 @@ pub(super) fn checked_mesh(
     TriangleMesh::new(vertices, triangles).map_err(|error| source.damaged(error.to_string()))
 }
 
-/// Cuts a polygon into a fan of triangles about its first corner. One of less than three corners is no surface.
+/// Splits a polygon into a fan of triangles about its first corner. Fewer than three corners yield none.
 pub(super) fn push_fan(polygon: &[u32], triangles: &mut Vec<[u32; 3]>) {
     if let Some((&first, others)) = polygon.split_first() {
         let pairs = others.windows(2).filter_map(<[u32]>::first_chunk::<2>);

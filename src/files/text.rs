@@ -1,10 +1,10 @@
-//! Text files that people write: whole in memory, with a limit. And text of files, to be shown.
+//! Reading of text files that people write, up to a limit; and text from files made safe for terminals.
 
 use std::{borrow::Cow, fmt::Write as _, path::Path};
 
 use super::{FileError, read_limited};
 
-/// The text of a file of at most `limit` bytes, without a byte order mark.
+/// Reads a text file of at most `limit` bytes, without a byte order mark.
 pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
     let bytes = read_limited(path, limit)?;
     let text = String::from_utf8(bytes).map_err(|error| FileError::Damaged {
@@ -34,7 +34,7 @@ pub(crate) fn visible(text: &str) -> Cow<'_, str> {
     let mut shown = String::with_capacity(text.len() + 16);
     for c in text.chars() {
         if is_hidden(c) {
-            // Writing to memory does not fail.
+            // Writing to memory cannot fail.
             let _ = write!(shown, "\\u{:04x}", u32::from(c));
         } else {
             shown.push(c);

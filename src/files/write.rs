@@ -1,4 +1,4 @@
-//! Writing a file so that it is complete or not there.
+//! Writing of files so that each is complete or absent.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -13,8 +13,8 @@ use super::folders::{folder_of, sync_folder};
 use super::{write_pcd, write_ply, write_xyz};
 use crate::{error::lock, geometry::cloud::PointCloud};
 
-/// Writes a file through `fill` so that `path` holds either what it held before or all of the new content, even when
-/// the power fails: a temporary file in the same folder is filled, synced and renamed.
+/// Writes a file through `fill`. Even if the power fails, `path` holds either its former content or all of the new one: a
+/// temporary file in the same folder is filled, synced and renamed.
 ///
 /// The folder must exist. A link at `path` is replaced by the file.
 pub fn write_atomically(
@@ -29,7 +29,7 @@ pub fn write_atomically(
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt as _;
-            // What an ordinary new file has, less the user's mask: others on the machine may read results.
+            // As for an ordinary new file, less the umask: other users may read results.
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
         let mut writer = BufWriter::new(disk::DiskWriter(disk::temporary_file(&builder, folder)?));
@@ -44,13 +44,13 @@ pub fn write_atomically(
     written().map_err(|error| FileError::writing(path, error))
 }
 
-/// How the temporary files are called.
+/// Beginning and end of the names of temporary files.
 const PREFIX: &str = ".partsight-";
 const SUFFIX: &str = ".part";
 /// A temporary file unchanged for this long was left behind by an interrupted write.
 const ABANDONED: Duration = Duration::from_mins(10);
 
-/// Removes what programs left in a folder that were killed while they wrote; this one looks there once.
+/// Removes temporary files left in a folder by killed programs; looks into each folder once per process.
 fn clear_leftovers_once(folder: &Path) {
     static CLEARED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     let mut cleared = lock(&CLEARED);
@@ -60,7 +60,7 @@ fn clear_leftovers_once(folder: &Path) {
     }
 }
 
-/// A file that cannot be removed does no harm, because new temporary files have other names.
+/// Ignores files that cannot be removed: new temporary files have other names.
 fn clear_leftovers(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
@@ -75,7 +75,7 @@ fn clear_leftovers(folder: &Path) {
     }
 }
 
-/// Writes a cloud as its name ends: `.pcd` (all of it), `.ply` (all but the grid) or `.xyz` (positions only).
+/// Writes a cloud in the format of the name's ending: `.pcd` (everything), `.ply` (all but the grid), `.xyz` (positions only).
 pub fn save_cloud(path: &Path, cloud: &PointCloud) -> Result<(), FileError> {
     let ending = path
         .extension()

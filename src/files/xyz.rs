@@ -1,9 +1,9 @@
-//! XYZ and CSV text: one point a line, three numbers or more, in metres.
+//! XYZ and CSV text: one point per line, three numbers or more, in metres.
 //!
-//! No standard describes it; this is what scanners, spreadsheets and `CloudCompare` write. Numbers are parted by
-//! spaces, tabs, commas or semicolons; a file with semicolons may have decimal commas, as spreadsheets write them in
-//! half of Europe. Lines that begin with `#` or `//` are comments. One line without coordinates may come first: names
-//! (`x`, `y` and `z` among them choose the columns) or the number of points. Further columns are read over.
+//! There is no standard; this is what scanners, spreadsheets and `CloudCompare` write. Numbers are separated by spaces, tabs,
+//! commas or semicolons; a file with semicolons may have decimal commas, as spreadsheets write them in much of Europe. Lines
+//! that begin with `#` or `//` are comments. One line without coordinates may come first: names (`x`, `y` and `z` among them
+//! select the columns) or the number of points. Further columns are ignored.
 
 use std::io::{self, Write};
 
@@ -15,10 +15,10 @@ use super::readings::tidy;
 use super::source::Source;
 use crate::geometry::cloud::PointCloud;
 
-/// Which columns hold x, y and z.
+/// Indices of the columns that hold x, y and z.
 type Columns = [usize; 3];
 
-/// True if one of the first two lines with content is a point.
+/// Returns true if one of the first two lines with content is a point or names the columns.
 pub(super) fn is_xyz(source: Source<'_>) -> bool {
     content(source).take(2).any(|(_, line)| {
         let row = Row::of(&line);
@@ -50,7 +50,7 @@ pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
     )
 }
 
-/// Writes the finite points as text, one a line, in metres with the digits that give the same number back.
+/// Writes the finite points as text, one per line, in metres, with enough digits to restore the same numbers.
 pub fn write_xyz(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
     if cloud.is_simulated {
         writeln!(writer, "# simulated")?;
@@ -61,7 +61,7 @@ pub fn write_xyz(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
     Ok(())
 }
 
-/// The lines that are neither empty nor comments.
+/// Returns the lines that are neither empty nor comments.
 fn content(source: Source<'_>) -> impl Iterator<Item = (usize, std::borrow::Cow<'_, str>)> {
     source
         .lines()
@@ -85,14 +85,14 @@ fn point_of(row: Row<'_>, columns: Columns) -> Option<Point3<f32>> {
 }
 
 fn number_of(row: Row<'_>, cell: &str) -> Option<f32> {
-    // A spreadsheet's empty cell is a point without a reading.
+    // An empty cell of a spreadsheet means no reading.
     if cell.is_empty() {
         return Some(f32::NAN);
     }
     row.number(cell).map(|real| real as f32)
 }
 
-/// Names, or the number of points. A first line with some numbers in it is a damaged point.
+/// Returns true for names or the number of points. A first line that mixes numbers and names is a damaged point.
 fn is_heading(row: Row<'_>) -> bool {
     let is_name = |cell: &str| number_of(row, cell).is_none();
     row.cells().all(is_name) || row.cells().count() == 1
@@ -104,7 +104,7 @@ fn columns_named_in(row: Row<'_>) -> Option<Columns> {
     Some([place("x")?, place("y")?, place("z")?])
 }
 
-/// `"X [m]"` is x.
+/// Returns the name in a heading's cell: `"X [m]"` is x.
 fn column_name(cell: &str) -> String {
     let unquoted = cell.trim_matches(['"', '\'']).trim_start();
     let word = unquoted.split(|c: char| !c.is_alphanumeric()).next();

@@ -1,4 +1,4 @@
-//! What a client of another system needs: a password from a file, and the certificates that the other side may show.
+//! Credentials of a client of another system: a password from a file, and trusted certificate authorities.
 
 use std::{path::Path, sync::Arc};
 
@@ -14,9 +14,9 @@ use crate::{
     files::{FileError, read_limited, read_text},
 };
 
-/// A password is one line.
+/// A password is one short line.
 const MAX_PASSWORD_BYTES: u64 = 4096;
-/// The certificates of a whole system are a quarter of this.
+/// About four times the size of a system's whole certificate store.
 const MAX_CA_BYTES: u64 = 1 << 20;
 
 /// Why a password or certificates cannot be used.
@@ -25,25 +25,25 @@ pub enum CredentialError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The file holds nothing.
+    /// The password file is empty.
     #[error("{path}: the file holds no password")]
     NoPassword {
-        /// Which file.
+        /// Path of the file.
         path: String,
     },
-    /// The file holds none.
+    /// The certificate file has no certificate.
     #[error("{path}: the file holds no certificate in PEM form")]
     NoCertificate {
-        /// Which file.
+        /// Path of the file.
         path: String,
     },
-    /// The system holds none.
+    /// The system's certificate store is empty.
     #[error("this system has no certificates by which a server could be known")]
     NoSystemCertificates,
-    /// The library for encryption refuses.
+    /// The TLS library rejects the configuration.
     #[error("encrypted connections cannot be prepared: {source}")]
     Tls {
-        /// What it says.
+        /// The underlying error.
         source: rustls::Error,
     },
 }
@@ -65,7 +65,7 @@ impl Advice for CredentialError {
     }
 }
 
-/// The first line of a file.
+/// Reads a password: the first line of a file.
 pub(super) fn read_password(path: &Path) -> Result<String, CredentialError> {
     let text = match read_text(path, MAX_PASSWORD_BYTES) {
         Err(FileError::Empty { .. }) => String::new(),
@@ -79,8 +79,7 @@ pub(super) fn read_password(path: &Path) -> Result<String, CredentialError> {
     }
 }
 
-/// Encryption towards a server whose certificate one of these authorities has signed, PEM; without a file the system's
-/// own.
+/// TLS configuration that trusts the certificate authorities in a PEM file, or without a file those of the system.
 pub(super) fn tls_config(ca_file: Option<&Path>) -> Result<ClientConfig, CredentialError> {
     let mut roots = RootCertStore::empty();
     if let Some(path) = ca_file {

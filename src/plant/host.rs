@@ -1,16 +1,16 @@
-//! Host and port of an address.
+//! Host and port in an address.
 
 use std::net::{IpAddr, Ipv6Addr};
 
-/// What is wrong with a host or its port, as they were given.
+/// An invalid host or port, as given.
 pub(super) enum HostError {
     Host { host: String },
     Port { port: String },
 }
 
-/// The host and the port, or the usual one.
+/// Splits an address into the host and the port, which defaults to `usual`.
 pub(super) fn host_and_port(place: &str, usual: u16) -> Result<(&str, u16), HostError> {
-    // The colons of an IPv6 address stand in brackets.
+    // The colons of an IPv6 address are within brackets.
     let end = place.find(']').map_or(0, |end| end + 1);
     let (host, port) = match place[end..].split_once(':') {
         Some((rest, port)) => (&place[..end + rest.len()], Some(port)),
@@ -37,7 +37,7 @@ pub(super) fn host_and_port(place: &str, usual: u16) -> Result<(&str, u16), Host
     Ok((host, port))
 }
 
-/// True for this computer by a name or an IP address, in brackets or not.
+/// True if the host is `localhost` or a loopback address, in brackets or not.
 pub(super) fn is_loopback(host: &str) -> bool {
     let address = host.trim_matches(['[', ']']).parse::<IpAddr>();
     host == "localhost" || address.is_ok_and(|address| address.is_loopback())

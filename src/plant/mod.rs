@@ -1,4 +1,4 @@
-//! How the program speaks with the systems of a plant, beside the line protocols of [`crate::serve`].
+//! Interfaces to the systems of a plant, beside the line protocols of [`crate::serve`].
 
 mod credentials;
 pub mod database;

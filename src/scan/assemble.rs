@@ -1,4 +1,4 @@
-//! From shots to a scan.
+//! Assembles shots into a scan.
 
 use std::sync::Arc;
 
@@ -26,18 +26,18 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// Fewer readings on a surface than this fix no pose.
+/// The fewest readings on a surface from which a pose is determined.
 const LEAST_READINGS: usize = 500;
 
-/// A shot on its way.
+/// A shot with its surface and segmentation.
 struct PreparedShot {
     surface: Arc<ShotSurface>,
     segmentation: Arc<Segmentation>,
-    /// The middle of what it sees, camera space.
+    /// Mean of the surface's readings, in camera space.
     middle: Point3<f64>,
 }
 
-/// Puts shots together: refines their poses, excludes those that do not fit, fuses the rest and finds the part.
+/// Assembles shots: refines their poses, excludes those that do not fit, fuses the rest and finds the part.
 pub fn assemble(
     shots: &[Shot],
     params: &ScanParams,
@@ -85,7 +85,7 @@ pub fn assemble(
     })
 }
 
-/// All frames are one camera's: what one shows of its field of view, all know.
+/// Gives every shot the field of view that all of them together show, because one camera took them.
 fn with_common_view(shots: &[Shot]) -> Vec<Shot> {
     let views = shots.iter().map(|shot| shot.scene.field_of_view());
     let common = views.fold(None, FieldOfView::remembered);
@@ -156,7 +156,7 @@ impl ScannedShot {
     }
 }
 
-/// Refines the poses and excludes the shot that least belongs, until all that are left belong together.
+/// Refines the poses and excludes the shot that fits worst, until all remaining shots agree.
 fn align(
     scanned: &mut [ScannedShot],
     prepared: &[PreparedShot],
@@ -200,7 +200,7 @@ fn align(
     }
 }
 
-/// How the shots that are used agree, at the robot's poses and at the refined ones.
+/// Returns how the used shots agree at the robot's poses and at the refined ones.
 fn agreement(
     scanned: &mut [ScannedShot],
     cloud: &FusedCloud,
@@ -245,7 +245,7 @@ fn fused(scanned: &[ScannedShot], params: &ScanParams) -> FusedCloud {
     cloud
 }
 
-/// Counts for each shot the points that no shot before it saw.
+/// Counts for each shot the points that no earlier shot saw.
 fn count_new(cloud: &FusedCloud, scanned: &mut [ScannedShot]) {
     for seen_by in &cloud.seen_by {
         if let Some(shot) = scanned.get_mut(seen_by.trailing_zeros() as usize) {

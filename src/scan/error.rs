@@ -1,44 +1,44 @@
-//! Why frames cannot be put together, and what to do about it.
+//! Why frames cannot be assembled into a scan, and what to do about it.
 
 use crate::error::Advice;
 
-/// Most shots of a scan: which of them saw a point is kept in 64 bits.
+/// The most shots of a scan: the set of shots that saw a point is kept in 64 bits.
 pub(super) const MAX_SHOTS: usize = 64;
 
-/// Why frames cannot be put together.
+/// Why frames cannot be assembled into a scan.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ScanError {
-    /// One frame, or none.
+    /// There is one frame, or none.
     #[error("a scan needs at least 2 frames, found {found}")]
     TooFewShots {
         /// Frames given.
         found: usize,
     },
-    /// More than can be told apart.
+    /// There are more frames than `seen_by` has bits.
     #[error("a scan takes at most {MAX_SHOTS} frames, found {found}")]
     TooManyShots {
         /// Frames given.
         found: usize,
     },
-    /// A cloud without rows and columns.
+    /// A cloud has no rows and columns.
     #[error(
         "{name}: the points have no rows and columns, so what the camera looked past is not known"
     )]
     NoPicture {
-        /// The frame.
+        /// The name of the frame.
         name: String,
     },
-    /// So few readings that nothing can be registered.
+    /// A frame has too few readings to be registered.
     #[error("{name}: the frame has {found} usable readings, at least {needed} are needed")]
     TooFewReadings {
-        /// The frame.
+        /// The name of the frame.
         name: String,
         /// Readings on a surface.
         found: usize,
-        /// Least number of them.
+        /// The fewest that are needed.
         needed: usize,
     },
-    /// Nothing that two frames see fits together.
+    /// No two frames fit together.
     #[error("no two of the {found} frames agree: {}", names.join(", "))]
     NothingAgrees {
         /// Frames given.

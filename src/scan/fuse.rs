@@ -1,8 +1,9 @@
-//! Fusion: the readings of all shots become one cloud.
+//! Fusion of the readings of all shots into one cloud.
 //!
-//! Readings are averaged per voxel by the inverse of their variance. Each mean is then looked for in every shot: those
-//! that see the surface there draw it along its normal, so that two shots that disagree by millimetres leave one layer
-//! and not two. What more shots look through than see is a flying pixel or something that moved, and is dropped.
+//! Readings are averaged per voxel, weighted by their inverse variance. Each mean is then looked up in every shot: the shots
+//! that see the surface there pull it along its normal, so that shots that disagree by millimetres leave one layer and not
+//! two. A mean is dropped, as a flying pixel or something that moved, if the shots that look through it number more than half
+//! of those that see it.
 
 use nalgebra::{Point3, Vector3};
 
@@ -21,22 +22,22 @@ use crate::{
 pub struct FusedCloud {
     /// Unorganised points with unit normals towards the cameras that saw them.
     pub cloud: PointCloud,
-    /// Which shots saw each point: bit k stands for the shot of number k among all shots of the scan.
+    /// The shots that saw each point: bit k stands for the k-th of all shots of the scan.
     pub seen_by: Vec<u64>,
-    /// Whether each point is the part.
+    /// True for the points of the part.
     pub is_part: Vec<bool>,
-    /// How many shots take each point for the part.
+    /// The number of shots whose segmentation takes each point for the part.
     pub part_votes: Vec<u16>,
 }
 
 impl FusedCloud {
-    /// The part alone.
+    /// Returns the points of the part.
     #[must_use]
     pub fn part(&self) -> Self {
         self.kept(&self.is_part)
     }
 
-    /// Tells points on the part from others, to a centimetre.
+    /// Returns the cubes of 1 cm that hold points of the part.
     pub(super) fn part_cells(&self) -> PartCells {
         let points = self.cloud.points.iter().zip(&self.is_part);
         let cells = points
@@ -48,7 +49,7 @@ impl FusedCloud {
         PartCells { cells }
     }
 
-    /// The points that are marked.
+    /// Returns the points whose mark is true.
     #[must_use]
     pub fn kept(&self, marks: &[bool]) -> Self {
         fn pick<T: Copy>(all: &[T], marks: &[bool]) -> Vec<T> {
@@ -70,9 +71,9 @@ impl FusedCloud {
     }
 }
 
-/// The cubes of space that hold a part.
+/// The cubes of space that hold points of the part, 1 cm wide.
 pub(super) struct PartCells {
-    /// Their numbers, ascending.
+    /// Their indices, ascending.
     cells: Vec<u64>,
 }
 
@@ -86,42 +87,42 @@ impl PartCells {
     }
 }
 
-/// A shot as the fusion sees it.
+/// The input of the fusion from one shot.
 pub(super) struct FusionShot<'a> {
-    /// Its number among all shots of the scan.
+    /// Its index among all shots of the scan.
     pub(super) number: usize,
     pub(super) surface: &'a ShotSurface,
     pub(super) base_from_camera: RigidTransform,
-    /// What its segmentation says of each reading; `None` if it found no part.
+    /// The segmentation's label of each reading; `None` if it found no part.
     pub(super) labels: Option<&'a [PointLabel]>,
 }
 
-/// A fused point on its way.
+/// A fused point, before and after it is pulled to the surface.
 #[derive(Clone, Copy)]
 struct Voxel {
     point: Point3<f64>,
     normal: Vector3<f64>,
     weight: f64,
     seen_by: u64,
-    /// Above 0 if the shots take it for the part.
+    /// Sum of the shots' votes; above 0 for the part.
     votes: i32,
-    /// Shots that take it for the part.
+    /// The number of shots that take it for the part.
     part_votes: u16,
 }
 
-/// A fused point and the readings it stands for lie within this along the normal, metres, beside three standard
-/// deviations: refined poses agree better.
+/// Largest distance along the normal between a fused point and its readings, in metres, beyond three standard deviations
+/// of the noise; refined poses agree better than that.
 const TOLERANCE: f64 = 0.006;
-/// A shot that takes a point for background outvotes one that leaves it aside.
+/// Votes of a shot on whether a point is the part. A rest label weighs half as much as a background label.
 const PART_VOTE: i32 = 2;
 const BACKGROUND_VOTE: i32 = -2;
 const REST_VOTE: i32 = -1;
-/// Voxels that one piece of parallel work takes.
+/// Voxels per job.
 const PIECE: usize = 4096;
-/// Bits of a voxel's number along one axis.
+/// Bits of a voxel's index along each axis.
 const BITS: u32 = 21;
 
-/// Fuses the readings of these shots; `is_part` of each point is the shots' vote.
+/// Fuses the readings of the shots and lets the shots vote on which points are the part.
 pub(super) fn fuse(shots: &[FusionShot<'_>], voxel: Metres, num_workers: usize) -> FusedCloud {
     let means = means_of_readings(shots, voxel);
     let pieces = means.len().div_ceil(PIECE);
@@ -155,17 +156,17 @@ pub(super) fn fuse(shots: &[FusionShot<'_>], voxel: Metres, num_workers: usize) 
     }
 }
 
-/// The number of the voxel around a point.
+/// Returns the index of the voxel that contains a point.
 fn voxel_of(point: &Point3<f64>, per_metre: f64) -> u64 {
     let along = |x: f64| {
-        // A robot's cell is metres wide; what is kilometres away lands in the outermost voxel.
+        // A robot's cell is metres wide; points kilometres away fall into the outermost voxel.
         let half = f64::from(1_u32 << (BITS - 1));
         ((x * per_metre).floor() + half).clamp(0.0, 2.0 * half - 1.0) as u64
     };
     (along(point.z) << (2 * BITS)) | (along(point.y) << BITS) | along(point.x)
 }
 
-/// The mean of each voxel's readings, ordered by voxel.
+/// Returns the mean of each voxel's readings, ordered by voxel.
 fn means_of_readings(shots: &[FusionShot<'_>], voxel: Metres) -> Vec<Voxel> {
     let per_metre = 1.0 / voxel.0;
     let mut readings: Vec<(u64, u32, u32)> = Vec::new();
@@ -177,7 +178,7 @@ fn means_of_readings(shots: &[FusionShot<'_>], voxel: Metres) -> Vec<Voxel> {
             }
         }
     }
-    // The number of the reading makes the order one and only.
+    // The indices of shot and reading make the order unique.
     readings.sort_unstable();
     readings
         .chunk_by(|a, b| a.0 == b.0)
@@ -204,7 +205,7 @@ fn means_of_readings(shots: &[FusionShot<'_>], voxel: Metres) -> Vec<Voxel> {
         .collect()
 }
 
-/// The mean of what all shots see at a point; `None` if they rather look through it.
+/// Returns the mean moved to the surface that the shots see there; `None` if too many of them look through it.
 fn drawn_to_surface(
     mean: &Voxel,
     shots: &[FusionShot<'_>],
@@ -216,7 +217,7 @@ fn drawn_to_surface(
     for (shot, camera_from_base) in shots.iter().zip(cameras) {
         let at = camera_from_base * mean.point;
         let normal = camera_from_base.rotation * mean.normal;
-        // From behind, a sheet is another surface.
+        // A sheet seen from behind is another surface.
         if normal.dot(&at.coords) > 0.0 {
             continue;
         }
@@ -255,7 +256,7 @@ fn drawn_to_surface(
     })
 }
 
-/// Points that were drawn into one voxel become one, ordered by voxel.
+/// Merges the points that were moved into the same voxel; ordered by voxel.
 fn merged(voxels: &[Voxel], size: Metres) -> Vec<Voxel> {
     let per_metre = 1.0 / size.0;
     let numbered = voxels.iter().enumerate();

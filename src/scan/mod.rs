@@ -1,17 +1,17 @@
-//! Scans: several frames of one part, each with the pose of its camera, become one cloud in the robot's base frame.
+//! Scans: several frames of one part, each with its camera's pose, become one cloud in the robot's base frame.
 //!
 //! ```text
 //! Shot ─► Surface ─► refined poses ─► FusedCloud ─► part
 //!         normals    joint ICP        mean per voxel, vote of the shots' segmentations
 //! ```
 //!
-//! 1. [`surface`]: normals and noise of every reading; readings at depth discontinuities are set apart.
-//! 2. [`register`]: the poses of all shots are refined together by point-to-plane ICP, held softly at the robot's.
-//! 3. [`suspects`]: a shot that contradicts the others is named, excluded, and the rest is refined anew.
-//! 4. [`fuse`]: the readings are averaged by their noise; what other shots look through is dropped.
+//! 1. [`surface`]: computes normals and noise of every reading, and sets readings at depth discontinuities apart.
+//! 2. [`register`]: refines the poses of all shots together by point-to-plane ICP, softly held at the robot's poses.
+//! 3. [`suspects`]: excludes a shot that contradicts the others; the rest is refined again.
+//! 4. [`fuse`]: averages the readings by their noise, and drops points that other shots look through.
 //! 5. [`part`]: the shots' segmentations vote on every point; the connected piece with the most votes is the part.
 //!
-//! The results are the same on any number of threads.
+//! The results do not depend on the number of threads.
 //!
 //! Known limits: a shot that overlaps no other keeps the robot's pose. Errors that all shots share, such as a wrong
 //! focal length, remain.
@@ -49,25 +49,25 @@ pub use self::{
     suspects::{Excluded, SuspectParams},
 };
 
-/// One frame of a scan and where the robot says its camera was.
+/// One frame of a scan, with the pose of its camera according to the robot.
 #[derive(Clone, Debug)]
 pub struct Shot {
-    /// The frame's name, for people.
+    /// The frame's name, for messages.
     pub name: String,
-    /// What the camera saw, in camera space.
+    /// The frame's points, in camera space.
     pub scene: Arc<SceneCloud>,
-    /// The camera's pose by the robot; its error is a few millimetres and tenths of a degree.
+    /// The camera's pose according to the robot, accurate to a few millimetres and tenths of a degree.
     pub base_from_camera: RigidTransform,
 }
 
-/// Parameters of [`assemble()`]. The defaults work untouched for a Kinect-like camera on a robot's flange.
+/// Parameters of [`assemble()`]. The defaults suit a Kinect-like camera on a robot's flange.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanParams {
-    /// Edge of the voxels that the readings are averaged in, 1..20 mm. Lowering it keeps more detail and noise.
+    /// Edge of the voxels in which readings are averaged, 1..20 mm. Smaller voxels keep more detail and noise.
     pub voxel: Metres,
     /// Refinement of the poses.
     pub register: RegisterParams,
-    /// When a shot is excluded.
+    /// Limits at which a shot is excluded.
     pub suspect: SuspectParams,
     /// Segmentation of each shot.
     pub segment: SegmentParams,
@@ -84,33 +84,33 @@ impl Default for ScanParams {
     }
 }
 
-/// The steps of [`assemble()`], as progress is reported.
+/// The steps of [`assemble()`], for progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScanStep {
     /// Normals and segmentation of the shot of this index.
     Shot(usize),
     /// Refinement of the poses.
     Align,
-    /// Fusion of the readings, and which of them are the part.
+    /// Fusion of the readings, and finding the part among them.
     Fuse,
 }
 
-/// How a caller follows and stops [`assemble()`].
+/// Lets a caller follow and cancel [`assemble()`].
 pub trait ScanObserver: Sync {
-    /// A step begins; those of several shots may begin at once, on other threads.
+    /// Called when a step begins. Those of several shots may begin at the same time, on other threads.
     fn begins(&self, _step: ScanStep) {}
-    /// True when the caller has lost interest.
+    /// Returns true to cancel.
     fn is_cancelled(&self) -> bool {
         false
     }
 }
 
-/// Nobody is watching.
+/// An observer that ignores progress and never cancels.
 pub struct Unwatched;
 
 impl ScanObserver for Unwatched {}
 
-/// A scan put together.
+/// An assembled scan.
 #[derive(Clone, Debug)]
 pub struct Scan {
     /// The shots, in the order given.
@@ -123,37 +123,37 @@ pub struct Scan {
     pub after: Agreement,
 }
 
-/// A shot of a scan, and what became of it.
+/// A shot of a scan, with its refined pose and how well it fits.
 #[derive(Clone, Debug)]
 pub struct ScannedShot {
     /// The frame's name.
     pub name: String,
-    /// What the camera saw.
+    /// The frame's points, in camera space.
     pub scene: Arc<SceneCloud>,
-    /// Its readings with normals and noise.
+    /// The frame's readings with normals and noise.
     pub surface: Arc<ShotSurface>,
-    /// What segmentation made of it.
+    /// The frame's own segmentation.
     pub segmentation: Arc<Segmentation>,
-    /// The camera's pose by the robot.
+    /// The camera's pose according to the robot.
     pub given: RigidTransform,
-    /// The refined pose; of an excluded shot the one at which it was found not to fit.
+    /// The refined pose; for an excluded shot the pose at which it did not fit.
     pub base_from_camera: RigidTransform,
-    /// How far the refinement moved what it saw.
+    /// How far the refinement moved the points that the shot sees.
     pub moved: PoseDelta,
-    /// How it agrees with the other shots at the robot's poses; `None` if it overlaps none.
+    /// Agreement with the other shots at the robot's poses; `None` if it overlaps none.
     pub before: Option<Overlap>,
-    /// The same at the refined poses.
+    /// Agreement at the refined poses.
     pub after: Option<Overlap>,
-    /// The same on the part alone.
+    /// Agreement at the refined poses, on the part alone.
     pub after_on_part: Option<Overlap>,
-    /// Fused points that it is the first to see.
+    /// Number of fused points that this shot is the first to see.
     pub num_new: usize,
-    /// Why it was left out; `None` if it was used.
+    /// Why the shot was excluded; `None` if it was used.
     pub excluded: Option<Excluded>,
 }
 
 impl Scan {
-    /// The shots as they were given, those that were left out among them: put together again they are the same scan.
+    /// Returns the shots as given, excluded ones included. Assembling them again yields the same scan.
     pub fn given(&self) -> Vec<Shot> {
         let given = |shot: &ScannedShot| Shot {
             name: shot.name.clone(),
@@ -163,7 +163,7 @@ impl Scan {
         self.shots.iter().map(given).collect()
     }
 
-    /// The shots that were used, each with its number among all.
+    /// Returns the shots that were used, each with its index among all.
     pub fn used(&self) -> impl Iterator<Item = (usize, &ScannedShot)> {
         let all = self.shots.iter().enumerate();
         all.filter(|(_, shot)| shot.excluded.is_none())

@@ -1,8 +1,8 @@
-//! How well shots agree where they see the same surface.
+//! Agreement of shots where they see the same surface.
 //!
-//! A reading is paired with what another shot shows at its place, and counts if that, projected back, lands on it again
-//! (mutual nearest readings) and is within [`REACH`]. Its distance is taken along the other reading's normal. Readings
-//! beside depth discontinuities are left out.
+//! A reading is projected into another shot and paired with the reading there. The pair counts if projecting it back leads
+//! to the first reading (mutual nearest readings) and if it is within [`REACH`]. Its distance is measured along the other
+//! reading's normal. Readings beside depth discontinuities are left out.
 
 use nalgebra::Point3;
 
@@ -16,21 +16,21 @@ use crate::{
     units::Metres,
 };
 
-/// Readings further apart than this are not of one surface, metres.
+/// Readings further apart than this are not on one surface, in metres.
 pub const REACH: f64 = 0.015;
-/// Readings of each shot that are looked for in each other.
+/// Readings of each shot that are projected into each other shot, approximately.
 const NUM_SAMPLES: usize = 4000;
-/// Fewer pairs than this are no overlap.
+/// Fewer pairs than this are not an overlap.
 pub const LEAST_PAIRS: usize = 50;
 
-/// Distances between the surfaces that shots see both.
+/// Distances between the surfaces that several shots see.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overlap {
     /// Root mean square of the distances.
     pub rms: Metres,
-    /// Median of their magnitudes.
+    /// Median of the absolute distances.
     pub median: Metres,
-    /// Pairs of readings.
+    /// Number of pairs of readings.
     pub num_pairs: usize,
 }
 
@@ -51,20 +51,20 @@ impl Overlap {
     }
 }
 
-/// How shots agree.
+/// How well shots agree.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Agreement {
-    /// Of all shots together; `None` without an overlap.
+    /// All shots together; `None` without an overlap.
     pub all: Option<Overlap>,
-    /// On the part alone.
+    /// All shots together, on the part alone.
     pub part: Option<Overlap>,
-    /// Of each shot with all others, in order.
+    /// Each shot with all others, in order.
     pub shots: Vec<Option<Overlap>>,
-    /// The same on the part alone.
+    /// Each shot with all others, on the part alone.
     pub shots_on_part: Vec<Option<Overlap>>,
 }
 
-/// How shots agree at these poses; `is_part` says of a point of the base frame whether it is the part.
+/// Measures how well shots agree at these poses. `is_part` tells whether a point of the base frame is on the part.
 pub fn overlap(
     surfaces: &[&ShotSurface],
     poses: &[RigidTransform],
@@ -103,7 +103,7 @@ pub fn overlap(
     }
 }
 
-/// Magnitudes of the distances of one shot's samples to the surface that another sees, and whether that is the part.
+/// Returns the absolute distances from one shot's samples to another shot's surface, and whether each is on the part.
 fn distances(
     from: &ShotSurface,
     samples: &[u32],
@@ -128,7 +128,7 @@ fn distances(
             i64::from(i) % from.camera.width as i64,
             i64::from(i) / from.camera.width as i64,
         );
-        // Cameras at different distances see one reading of the other's at several of their own.
+        // Cameras at different distances see one reading of the other at several of their own pixels.
         let is_mutual = (column - own.0).abs() <= 2 && (row - own.1).abs() <= 2;
         is_mutual.then(|| (pair.off().abs() as f32, is_part(&pair.to)))
     };

@@ -1,20 +1,20 @@
-//! Pairs of readings of two shots that should lie on one surface, found by projection.
+//! Pairs of readings from two shots that should lie on one surface, found by projection.
 //!
-//! A reading of one shot is projected into the picture of the other, and paired with what that shows (G. Blais and
+//! A reading of one shot is projected into the picture of the other and paired with the reading there (G. Blais and
 //! M. D. Levine, "Registering multiview range data to create 3D computer objects", IEEE PAMI 17(8), 1995). With poses
-//! known to millimetres this finds nearly the closest point, by one look-up.
+//! known to millimetres this finds nearly the closest point with one look-up.
 
 use nalgebra::{Point3, Vector3};
 
 use super::surface::{ShotSurface, Use};
 use crate::geometry::rigid::RigidTransform;
 
-/// A shot as the registration sees it.
+/// The input of the registration from one shot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RegistrationShot<'a> {
     pub(super) surface: &'a ShotSurface,
     pub(super) base_from_camera: RigidTransform,
-    /// Some of its readings on a surface, spread over the picture.
+    /// Indices of some readings on a surface, spread over the picture.
     pub(super) samples: &'a [u32],
 }
 
@@ -22,45 +22,45 @@ pub(super) struct RegistrationShot<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub(super) from: Point3<f64>,
-    /// Where the other shot sees the surface.
+    /// The other shot's reading.
     pub(super) to: Point3<f64>,
-    /// Unit normal there.
+    /// Unit normal at `to`.
     pub(super) normal: Vector3<f64>,
-    /// Standard deviation of the distance along the normal, from both readings.
+    /// Standard deviation of the distance along the normal, from the noise of both readings, in metres.
     pub(super) sigma: f64,
 }
 
 impl Pair {
-    /// Signed distance to the other shot's surface, metres.
+    /// Returns the signed distance to the other shot's surface, in metres.
     pub(super) fn off(&self) -> f64 {
         self.normal.dot(&(self.to - self.from))
     }
 }
 
-/// What the other shot shows where a reading should be.
+/// The other shot's reading at the place of a projected one.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ProjectedReading {
     /// A surface within reach that faces the same way.
     Pair(Pair),
-    /// The other camera looks through the place, to a surface beyond reach.
+    /// The other camera looks through the place to a surface beyond reach.
     Through,
-    /// Nothing that says anything: outside, hidden, no reading, or beside a discontinuity.
+    /// No information: outside the picture, hidden, no reading, or beside a discontinuity.
     Nothing,
 }
 
-/// Normals that differ by more than some 45° are of two surfaces.
+/// Least cosine between two normals of one surface, about 45°.
 const SAME_FACING: f32 = 0.7;
 
-/// How far apart two readings of one surface may be.
+/// The largest distance between two readings of one surface: the larger of the two limits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     /// Metres.
     pub(super) least: f64,
-    /// Standard deviations of their distance, if that is more.
+    /// Multiples of the standard deviation of their distance.
     pub(super) sigmas: f64,
 }
 
-/// Projects one reading of a shot into another.
+/// Projects one reading of a shot into another shot.
 pub(super) fn meet(
     from: &ShotSurface,
     i: usize,
@@ -93,7 +93,7 @@ pub(super) fn meet(
             sigma,
         });
     }
-    // A surface that is seen from behind, or edge-on, would not be seen at all.
+    // A surface seen from behind or edge-on would not yield a reading.
     let would_be_seen = -own.dot(&at.coords) > 0.3 * at.coords.norm();
     if seen.z - at.z > reach && would_be_seen {
         ProjectedReading::Through

@@ -1,15 +1,15 @@
-//! Which fused points are the part: the shots' vote, then the connected piece that most of the shots' votes are for. What
-//! few shots take for the part, however large, is something else that their segmentation took.
+//! Selection of the part's points: the shots vote on each point, then the connected piece with the most votes is kept. A
+//! piece that few shots take for the part, however large, is something else.
 
 use std::collections::BTreeMap;
 
 use super::FusedCloud;
 use crate::units::Metres;
 
-/// Points of the part further apart than this are of two pieces. Segmentation links at the same distance.
+/// Points of the part further apart than this belong to different pieces. Segmentation links at the same distance.
 const LINK: Metres = Metres(0.02);
 
-/// Leaves only the connected piece with the most votes of what the shots voted to be the part.
+/// Keeps of the points voted to be the part only the connected piece with the most votes.
 pub(super) fn keep_best_piece(cloud: &mut FusedCloud) {
     let cell = |i: usize| -> [i32; 3] {
         let p = &cloud.cloud.points[i];
@@ -72,7 +72,7 @@ mod tests {
         let votes = |i: usize| [1, 3, 9][of_row(i).expect("a row")];
         let mut cloud = FusedCloud {
             seen_by: vec![1; points.len()],
-            // The last row is the longest, and no part.
+            // The last row is the longest, and not the part.
             is_part: (0..points.len()).map(|i| i < 110).collect(),
             part_votes: (0..points.len()).map(votes).collect(),
             cloud: PointCloud::from_points(points),

@@ -1,12 +1,12 @@
-//! Registration: the poses of all shots are refined together.
+//! Registration: refines the poses of all shots together.
 //!
 //! Point-to-plane ICP (Y. Chen and G. Medioni, "Object modelling by registration of multiple range images", Image and
 //! Vision Computing 10(3), 1992) over all overlapping pairs at once: each Gauss-Newton step solves one system with six
 //! unknowns per shot (K. Pulli, "Multiview registration for large data sets", 3DIM 1999, in its simultaneous form).
-//! Welsch weights shrink from centimetres to the noise. The robot's poses enter as a prior, so that a direction that
-//! no surface fixes stays where the robot says.
+//! The scale of the Welsch weights shrinks from centimetres to the noise. The robot's poses enter as a prior, so that a
+//! direction that no surface constrains stays as the robot reports it.
 //!
-//! Neighbouring readings err together (of the camera's depth as well as its calibration), so the pairs count as a
+//! Errors of neighbouring readings are correlated (from the depth sensor and from its calibration), so the pairs count as a
 //! fraction of their number against the prior.
 
 use nalgebra::{
@@ -28,13 +28,13 @@ use crate::{
 /// Parameters of [`register`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegisterParams {
-    /// Standard deviation of a camera's place by the robot, 0.5..20 mm. Raising it lets flat scenes slide.
+    /// Standard deviation of a camera's position according to the robot, 0.5..20 mm. Raising it lets flat scenes slide.
     pub prior_shift: Metres,
-    /// The same of its turn, 0.05..2°.
+    /// Standard deviation of a camera's rotation according to the robot, 0.05..2°.
     pub prior_turn: Radians,
-    /// Readings of each shot that are paired, 500..50 000. Raising it costs time.
+    /// Approximate number of readings of each shot that are paired, 500..50 000. Raising it costs time.
     pub num_samples: usize,
-    /// Threads; the result is the same for any number.
+    /// Number of threads; it does not change the result.
     pub num_workers: usize,
 }
 
@@ -49,21 +49,22 @@ impl Default for RegisterParams {
     }
 }
 
-/// Scale of the Welsch weights, metres, and steps at it, from coarse to fine. A pose that is off by 3 mm and 0.3° moves
-/// what is 2 m away by 13 mm.
+/// Scale of the Welsch weights in metres, and the most steps at it, from coarse to fine. A pose error of 3 mm and 0.3° moves
+/// a point 2 m away by 13 mm.
 const LEVELS: [(f64, usize); 4] = [(0.03, 4), (0.015, 6), (0.008, 8), (0.005, 12)];
-/// Readings of two shots further apart than this, in scales, are not paired: exp(-9) is nothing.
+/// Readings of two shots further apart than this, in scales, are not paired: their weight would be below exp(-9).
 const REACH: f64 = 3.0;
-/// Nor is the scale less than this many standard deviations: far readings scatter by centimetres, and fix the turn.
+/// The least scale of a pair, in standard deviations of its distance: far readings scatter by centimetres, but constrain
+/// the rotation.
 const SIGMAS: f64 = 2.0;
-/// What calibration and quantisation leave of a distance, metres, beside the noise.
+/// Error of a distance from calibration and quantisation, in metres, in addition to the noise.
 const FLOOR: f64 = 0.001;
-/// So many pairs say as much as one whose error is independent.
+/// This many pairs count as one with an independent error.
 const CORRELATED: f64 = 25.0;
 /// A step that moves no camera by more than this (metres, radians) ends a level.
 const SETTLED: f64 = 2e-6;
 
-/// Some of the readings that a shot can be registered with, spread over its picture.
+/// Returns about `num` of the readings that a shot can be registered with, spread over its picture.
 pub fn samples_of(surface: &ShotSurface, num: usize) -> Vec<u32> {
     // An odd step visits all columns.
     let step = (surface.num_surface / num.max(1)).max(1) | 1;
@@ -75,13 +76,13 @@ pub fn samples_of(surface: &ShotSurface, num: usize) -> Vec<u32> {
         .collect()
 }
 
-/// The refined poses of these shots, in order; `given` are the robot's.
+/// Returns the refined poses of the shots, in order. `given` are the robot's poses.
 pub fn register(
     surfaces: &[&ShotSurface],
     given: &[RigidTransform],
     params: &RegisterParams,
 ) -> Vec<RigidTransform> {
-    // With many shots each meets many others.
+    // With many shots, each is paired with many others.
     let num_samples = params.num_samples * 8 / surfaces.len().max(8);
     let samples: Vec<Vec<u32>> = surfaces
         .iter()
@@ -114,7 +115,7 @@ pub fn register(
     poses
 }
 
-/// A turn about the camera (first three, radians) and a shift (metres) in the base frame, applied to its pose.
+/// Applies a step to a pose: a rotation about the camera (first three, radians) and a shift (metres) in the base frame.
 fn moved(pose: &RigidTransform, step: &Vector6<f64>) -> RigidTransform {
     let turn = UnitQuaternion::from_scaled_axis(step.fixed_rows::<3>(0).into_owned());
     let shift: Vector3<f64> = step.fixed_rows::<3>(3).into_owned();
@@ -126,7 +127,7 @@ fn moved(pose: &RigidTransform, step: &Vector6<f64>) -> RigidTransform {
     )
 }
 
-/// The steps of all cameras that one Gauss-Newton step asks for.
+/// Computes one Gauss-Newton step for all cameras; `None` if the system cannot be solved.
 fn step(
     posed: &[RegistrationShot<'_>],
     given: &[RigidTransform],
@@ -142,7 +143,7 @@ fn step(
     );
     let mut matrix = DMatrix::zeros(6 * n, 6 * n);
     let mut right = DVector::zeros(6 * n);
-    // Summed in the order of the shots: the same sums for any number of threads.
+    // Sum in the order of the shots, so that the number of threads does not matter.
     for (i, of_shot) in blocks.iter().enumerate() {
         for (j, block) in of_shot.iter().enumerate() {
             let Some(block) = block else { continue };
@@ -179,7 +180,7 @@ fn step(
     Some(all.collect())
 }
 
-/// The normal equations of the pairs that one shot's samples make with another shot.
+/// The normal equations of the pairs between one shot's samples and another shot.
 struct Block {
     own: Matrix6<f64>,
     other: Matrix6<f64>,

@@ -1,13 +1,13 @@
-//! The surface that a shot sees: a normal and a weight for every reading.
+//! The surface that a shot sees: normal and possible use of every reading.
 //!
-//! The reciprocal of depth is linear over the picture of a plane, so the plane through a reading and its neighbours
-//! follows from a least-squares fit over pixels. Neighbours beyond a depth discontinuity are left out. A reading with
-//! too few neighbours on its own surface, or on a surface seen nearly edge-on, is a flying pixel: the sensor mixed two
-//! depths. Readings beside a discontinuity are real but uncertain: they are fused, and not registered with.
+//! The reciprocal of depth is linear over the picture of a plane, so a least-squares fit over pixels yields the plane through
+//! a reading and its neighbours. Neighbours beyond a depth discontinuity are left out. A reading with too few neighbours on
+//! its own surface, or on a surface seen nearly edge-on, is a flying pixel: the sensor mixed two depths. Readings beside a
+//! discontinuity are real but uncertain: they are fused, but not used for registration.
 //!
-//! The variance of a reading grows with depth⁴ (a standard deviation with depth², as of any triangulating sensor) and
-//! with 1/cos² of the angle that the surface is seen at (C. V. Nguyen, S. Izadi and D. Lovell, "Modeling Kinect sensor
-//! noise for improved 3D reconstruction and tracking", 3DIMPVT 2012, found growth towards grazing angles as well).
+//! The standard deviation of a reading grows with depth², as for any triangulating sensor, and with 1/cos of the angle at
+//! which the surface is seen (C. V. Nguyen, S. Izadi and D. Lovell, "Modeling Kinect sensor noise for improved 3D
+//! reconstruction and tracking", 3DIMPVT 2012, also found growth towards grazing angles).
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -17,57 +17,57 @@ use crate::{
     units::Metres,
 };
 
-/// What a reading may be used for.
+/// What a reading is good enough for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Use {
     /// No reading, or a flying pixel.
     #[default]
     None,
-    /// On a surface, beside a depth discontinuity: good enough to be fused.
+    /// On a surface, but beside a depth discontinuity: good enough for fusion.
     Edge,
-    /// On a surface, all around: good enough to register with.
+    /// On a surface with neighbours all around: good enough for registration.
     Surface,
 }
 
 /// The readings of a shot with their normals, in camera space.
 #[derive(Clone, Debug)]
 pub struct ShotSurface {
-    /// The camera.
+    /// Size and optics of the picture.
     pub camera: Intrinsics,
-    /// The points, row by row.
+    /// The points, row by row; NaN where there is no reading.
     pub points: Vec<Point3<f32>>,
-    /// Unit normals towards the camera; zero where there is none.
+    /// Unit normals towards the camera; zero where `uses` is none.
     pub normals: Vec<Vector3<f32>>,
-    /// What each reading may be used for.
+    /// What each reading is good enough for.
     pub uses: Vec<Use>,
     /// Standard deviation of a reading's depth at 1 m.
     pub noise_at_1m: Metres,
-    /// Where in the picture the camera delivers readings.
+    /// The region of the picture in which the camera delivers readings.
     pub field_of_view: Option<FieldOfView>,
-    /// Readings to register with.
+    /// Number of readings good enough for registration.
     pub num_surface: usize,
 }
 
-/// Noise to reckon with where the picture does not show it.
+/// Noise at 1 m to assume if it cannot be measured in the picture.
 const NOISE: Metres = Metres(0.0015);
-/// No depth camera is calibrated better than this, metres at 1 m: what is far away says less, however little it scatters.
+/// Least standard deviation at 1 m, in metres: no depth camera is calibrated better, so that far points weigh less even if
+/// they scatter little.
 const CALIBRATED: f64 = 0.001;
-/// Pixels between the neighbours of the window, and how many there are on each side: 9 × 9 pixels, 25 readings.
+/// Window of the fit: pixels between neighbours, and neighbours on each side; 9 × 9 pixels with 25 readings.
 const STEP: i64 = 2;
 const SIDE: i64 = 2;
-/// Two readings this far apart in depth, relative to their depth, are of two surfaces: a plane tilted by 75° changes by
-/// less over the window of a 60° camera.
+/// Readings whose depths differ by this share belong to two surfaces: a plane tilted by 75° changes by less over the window
+/// of a 60° camera.
 const JUMP: f32 = 0.025;
-/// Neighbours on the same surface that a reading needs to be fused, and to be registered with.
+/// Neighbours on the same surface that a reading needs for fusion, and for registration.
 const LEAST_FUSED: usize = 9;
 const LEAST_REGISTERED: usize = 22;
-/// Cosine of the angle that the surface is seen at, below which a reading is a flying pixel, and below which it is not
-/// registered with.
+/// Least cosine of the angle at which the surface is seen, for fusion (below it is a flying pixel) and for registration.
 const LEAST_COSINE_FUSED: f64 = 0.17;
 const LEAST_COSINE_REGISTERED: f64 = 0.3;
 
 impl ShotSurface {
-    /// Prepares a shot; `None` without rows, columns and a camera.
+    /// Prepares a shot; `None` without rows and columns or without a camera.
     pub fn of(scene: &SceneCloud) -> Option<Self> {
         let camera = scene.intrinsics?;
         let grid = scene.cloud.grid?;
@@ -100,7 +100,7 @@ impl ShotSurface {
         })
     }
 
-    /// Standard deviation of a reading along its surface's normal, metres.
+    /// Returns the standard deviation of a reading along its surface's normal, in metres.
     pub fn sigma(&self, i: usize) -> f64 {
         let p = &self.points[i];
         let z = f64::from(p.z);
@@ -108,7 +108,7 @@ impl ShotSurface {
         self.noise_at_1m.0.max(CALIBRATED) * z * z / cosine.max(0.1)
     }
 
-    /// The index of the pixel that shows a camera point; `None` outside the picture.
+    /// Returns column and row of the pixel that shows a camera point; `None` outside the picture.
     pub fn pixel(&self, at: &Point3<f64>) -> Option<(i64, i64)> {
         let (u, v) = self.camera.pixel_of(at)?;
         let (u, v) = ((u + 0.5).floor(), (v + 0.5).floor());
@@ -117,7 +117,7 @@ impl ShotSurface {
         is_inside.then_some((u as i64, v as i64))
     }
 
-    /// The reading at a column and row; `None` outside the picture or without one.
+    /// Returns the index of the reading at a column and row; `None` outside the picture or without a reading.
     pub fn reading(&self, column: i64, row: i64) -> Option<usize> {
         let is_inside = column >= 0
             && row >= 0
@@ -131,7 +131,7 @@ impl ShotSurface {
     }
 }
 
-/// The normal at a reading and what it may be used for; `None` of a flying pixel.
+/// Fits the normal at a reading and decides its use; `None` for a flying pixel.
 fn plane_at(
     camera: &Intrinsics,
     points: &[Point3<f32>],
@@ -140,7 +140,7 @@ fn plane_at(
 ) -> Option<(Vector3<f32>, Use)> {
     let middle = points[row * camera.width + column];
     let per_z = 1.0 / f64::from(middle.z);
-    // Sums of the least-squares fit of 1/z - 1/z₀ = a·du + b·dv + c, over the readings of the same surface.
+    // Sums of the least-squares fit of 1/z - 1/z₀ = a·du + b·dv + c, over the readings on the same surface.
     let (mut num, mut su, mut sv, mut suu, mut suv, mut svv) =
         (0_usize, 0.0, 0.0, 0.0, 0.0, 0.0_f64);
     let (mut sw, mut suw, mut svw) = (0.0, 0.0, 0.0_f64);
@@ -155,7 +155,7 @@ fn plane_at(
                 continue;
             }
             let z = points[v as usize * camera.width + u as usize].z;
-            // Also false of no reading.
+            // False without a reading, too.
             if !((z - middle.z).abs() < JUMP * middle.z) {
                 continue;
             }
@@ -197,7 +197,7 @@ mod tests {
     use super::*;
     use crate::{geometry::depth_frame::DepthFrame, stages::scene::scene_from_frame};
 
-    /// A board 1 m away, turned by some 30°, before a wall 2 m away.
+    /// A board 1 m away, turned by some 30°, in front of a wall 2 m away.
     fn board_before_wall() -> (SceneCloud, Vector3<f64>) {
         let camera = Intrinsics::KINECT;
         let normal = Vector3::new(0.5, 0.1, -0.86).normalize();
@@ -239,7 +239,7 @@ mod tests {
     fn readings_between_two_surfaces_are_flying_pixels() {
         let (mut scene, _) = board_before_wall();
         let camera = Intrinsics::KINECT;
-        // A column between board and wall, as a sensor makes it that mixes both depths.
+        // A column of readings between board and wall, as from a sensor that mixes both depths.
         for row in 150..330 {
             let z = 1.5 + 0.01 * f64::from(row % 7);
             let p = camera.point_at(199.0, f64::from(row), z);

@@ -1,4 +1,4 @@
-//! Which shot does not belong: its pose is wrong, or the part stood elsewhere when it was taken.
+//! Finds the shot that does not fit: its pose is wrong, or the part stood elsewhere when it was taken.
 
 use super::{
     pairs::{ProjectedReading, Reach, meet},
@@ -14,14 +14,14 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// When a shot is excluded.
+/// Limits at which a shot is excluded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SuspectParams {
-    /// A pose that the refinement moves further than this is wrong, 5..100 mm where the frame's readings are.
+    /// The refinement may shift the middle of a frame's readings this far, 5..100 mm; beyond it the pose is wrong.
     pub max_shift: Metres,
-    /// The same for its turn, 0.5..10°.
+    /// The refinement may turn a frame this far, 0.5..10°.
     pub max_turn: Radians,
-    /// Share of what a shot sees together with others that must agree, 0.2..0.9. Raising it excludes shots of a cell in
+    /// Least share of the readings shared with other shots that must agree, 0.2..0.9. Raising it excludes shots of a cell in
     /// which other things move.
     pub min_share: f64,
 }
@@ -36,22 +36,22 @@ impl Default for SuspectParams {
     }
 }
 
-/// Why a shot was left out.
+/// Why a shot was excluded.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Excluded {
-    /// The frame fits elsewhere.
+    /// The frame fits at another pose.
     #[error("its pose is wrong: the frame fits {} and {} away", moved.shift, moved.rotation)]
     WrongPose {
-        /// From the robot's pose to the one at which it fits better.
+        /// Motion from the robot's pose to the one that fits better.
         moved: PoseDelta,
     },
-    /// The frame fits nowhere near.
+    /// The frame fits nowhere nearby.
     #[error("it contradicts the other frames: {:.0} % of what they see together agrees", share * 100.0)]
     Contradicts {
-        /// Share that agrees, 0..1.
+        /// Share of the common readings that agrees, 0..1.
         share: f64,
     },
-    /// The cell agrees, and the part does not.
+    /// The cell agrees, but the part does not.
     #[error("the part moved: the cell agrees with the other frames, {:.0} % of the part does", share * 100.0)]
     PartMoved {
         /// Share of the part that agrees, 0..1.
@@ -60,7 +60,7 @@ pub enum Excluded {
 }
 
 impl Excluded {
-    /// A word for tables and JSON.
+    /// Returns a word for tables and JSON.
     pub fn name(&self) -> &'static str {
         match self {
             Self::WrongPose { .. } => "wrong_pose",
@@ -91,7 +91,7 @@ pub(super) struct ShotFit<'a> {
     pub(super) moved: PoseDelta,
 }
 
-/// Readings that two shots see at one place: how many agree, and how many do not.
+/// Readings of one place in two shots: how many agree, and how many do not.
 #[derive(Clone, Copy, Debug, Default)]
 struct Count {
     agree: f64,
@@ -104,26 +104,26 @@ impl Count {
         self.against += other.against;
     }
 
-    /// Share that agrees; `None` of too few readings.
+    /// Returns the share that agrees; `None` if there are too few readings.
     fn share(&self) -> Option<f64> {
         let all = self.agree + self.against;
         (all >= LEAST).then(|| self.agree / all)
     }
 }
 
-/// Readings of each shot that are looked for in each other.
+/// Readings of each shot that are projected into each other shot, approximately.
 const NUM_SAMPLES: usize = 3000;
-/// Fewer readings than this tell nothing.
+/// Fewer readings than this are not evaluated.
 const LEAST: f64 = 60.0;
-/// Two surfaces further apart than this contradict each other: metres, beside three standard deviations.
+/// Two surfaces further apart than this contradict each other: metres, plus three standard deviations.
 const AGREES: f64 = 0.008;
-/// Further apart they are no longer taken for one surface.
+/// Readings further apart than this are not on one surface.
 const REACH: Reach = Reach {
     least: 0.06,
     sigmas: 4.0,
 };
 
-/// The shot that least belongs to the others, and why; `None` if all belong.
+/// Returns the shot that fits worst, and why; `None` if all fit.
 pub(super) fn worst(
     shots: &[ShotFit<'_>],
     params: &SuspectParams,
@@ -154,7 +154,7 @@ pub(super) fn worst(
         sum.share()
     };
     let judged = shots.iter().enumerate().filter_map(|(i, shot)| {
-        // How far beyond its limit, 1 at the limit.
+        // Each figure as a share of its limit: 1 at the limit.
         let moved = (shot.moved.shift.0 / params.max_shift.0)
             .max(shot.moved.rotation.0 / params.max_turn.0);
         let beyond =
@@ -185,8 +185,8 @@ pub(super) fn worst(
     Some((which, part_moved(shots, which).unwrap_or(why)))
 }
 
-/// That a shot's part moved, if its cell fits the other shots at the robot's pose at least as well as where the refinement
-/// put it: a part that stands elsewhere draws the pose along.
+/// Returns [`Excluded::PartMoved`] if the shot's cell fits the other shots better at the robot's pose than at the refined
+/// one: a part that stands elsewhere pulls the pose along.
 fn part_moved(shots: &[ShotFit<'_>], which: usize) -> Option<Excluded> {
     let suspect = &shots[which];
     let samples = samples_of(suspect.surface, NUM_SAMPLES);
@@ -209,7 +209,7 @@ fn part_moved(shots: &[ShotFit<'_>], which: usize) -> Option<Excluded> {
     Some(Excluded::PartMoved { share })
 }
 
-/// How well the readings of the cell without the part lie on what another shot sees: 1 for each that lies on it.
+/// Sums how well readings of the cell, without the part, lie on another shot's surface: 1 for each exactly on it.
 fn fit_of_cell(from: &ShotFit<'_>, samples: &[u32], to: &ShotFit<'_>) -> f64 {
     let to_from = to.base_from_camera.inverse() * from.base_from_camera;
     let fit = |&i: &u32| {
@@ -226,7 +226,7 @@ fn fit_of_cell(from: &ShotFit<'_>, samples: &[u32], to: &ShotFit<'_>) -> f64 {
     samples.iter().map(fit).sum()
 }
 
-/// Everything, and the part alone.
+/// Counts agreement over all readings, and on the part alone.
 fn count(from: &ShotFit<'_>, samples: &[u32], to: &ShotFit<'_>) -> [Count; 2] {
     let to_from = to.base_from_camera.inverse() * from.base_from_camera;
     let mut counts = [Count::default(); 2];

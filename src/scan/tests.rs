@@ -1,4 +1,4 @@
-//! Simulated scans, held against the truth.
+//! Simulated scans, compared with the truth.
 
 use nalgebra::{Isometry3, Point3, Translation3};
 
@@ -36,7 +36,7 @@ fn shots_of(scan: &SimulatedScan) -> (Vec<Shot>, Vec<RigidTransform>) {
     (shots.collect(), truth)
 }
 
-/// A caller who has lost interest.
+/// An observer that has cancelled.
 struct Impatient;
 
 impl ScanObserver for Impatient {
@@ -49,7 +49,7 @@ fn put_together(shots: &[Shot]) -> Scan {
     assemble(shots, &ScanParams::default(), &Unwatched).expect("a scan")
 }
 
-/// The shared error of all cameras, which nothing seen can tell: the mean over the shots.
+/// The mean pose error over the shots: an error that all cameras share cannot be seen.
 fn shared_error(scan: &Scan, truth: &[RigidTransform]) -> RigidTransform {
     let used = || {
         scan.used()
@@ -72,8 +72,8 @@ fn shared_error(scan: &Scan, truth: &[RigidTransform]) -> RigidTransform {
 
 #[test]
 fn poses_that_are_off_are_recovered() {
-    // Root mean square and largest error, millimetres. Few readings of a grille have neighbours all around, so that floor
-    // and boxes, further away, fix the poses.
+    // Root mean square and largest error, millimetres. Few readings of a grille have neighbours all around; the floor and the
+    // boxes, further away, constrain the poses there.
     for (kind, seed, rms_mm, most_mm) in [
         (PartKind::Fender, 1, 1.0, 1.5),
         (PartKind::FrontDoor, 2, 1.0, 1.5),
@@ -117,7 +117,7 @@ fn a_shot_whose_pose_is_wrong_is_named_and_left_out() {
             .filter(|&k| scan.shots[k].excluded.is_some())
             .collect();
         assert_eq!(excluded, [2], "{shift:?}: {:?}", scan.shots[2].moved);
-        // Nothing of it is in the cloud.
+        // None of its readings is in the cloud.
         assert!(scan.cloud.seen_by.iter().all(|mask| mask & 4 == 0));
     }
 }
@@ -166,7 +166,7 @@ fn the_fused_part_is_the_part() {
     let distances: Vec<f64> = distances.collect();
     let off = distances.iter().filter(|d| **d > 0.012).count() as f64 / distances.len() as f64;
     assert!(off < 0.01, "{off} of the part's points lie off the part");
-    // What the cameras in front see of it: most of one face.
+    // The share that the cameras in front see: most of one face.
     let fused = KdTree::new(&part.cloud.points);
     let found = in_base
         .iter()

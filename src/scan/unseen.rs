@@ -1,7 +1,7 @@
-//! How much of a scanned part's outline is only where the view of every frame ends.
+//! Share of a scanned part's outline where the part may go on outside every frame's view.
 //!
-//! At each point of the outline a probe is held beyond it, along the surface. A frame that looks past the probe, or sees
-//! another surface there, shows that the part ends. Where the probe is hidden from all frames, or outside their
+//! At each point of the outline, probes are placed beyond it along the surface. A frame that looks past a probe, or sees
+//! another surface there, shows that the part ends. Where the probes are hidden from all frames, or outside their
 //! pictures, the part may go on.
 
 use nalgebra::{Point3, Vector3};
@@ -12,42 +12,42 @@ use super::{
 };
 use crate::geometry::nearest::KdTree;
 
-/// Neighbours within this are looked at, metres: three voxels.
+/// Radius within which neighbours are looked at, in metres: three voxels.
 const REACH: f32 = 0.012;
-/// A gap this wide between the directions to the neighbours is an outline, radians.
+/// A gap at least this wide between the directions to the neighbours marks the outline, in radians.
 const GAP: f64 = 2.4;
-/// Distances of the probe beyond the outline, metres.
+/// Distances of the probes beyond the outline, in metres.
 const PROBES: [f64; 2] = [0.02, 0.04];
-/// A surface within this of the probe is there, metres.
+/// A surface within this distance of the probe counts as there, in metres.
 const TOLERANCE: f64 = 0.012;
-/// Points that are looked at.
+/// Approximate number of the part's points that are examined.
 const NUM_POINTS: usize = 8000;
 
-/// A point of a scanned part's outline, base frame.
+/// A point of a scanned part's outline, in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutlinePoint {
-    /// Where it is, metres.
+    /// Position in metres.
     pub point: Point3<f32>,
-    /// Out of the surface, along it; a unit vector.
+    /// Unit vector along the surface, away from the part.
     pub outwards: Vector3<f32>,
-    /// Along the outline; a unit vector.
+    /// Unit vector along the outline.
     pub along: Vector3<f32>,
-    /// True where no frame sees that the part ends.
+    /// True if no frame shows that the part ends here.
     pub is_open: bool,
 }
 
-/// Share of the part's outline where no frame sees that the part ends, 0..1.
+/// Returns the share of the part's outline where no frame shows that the part ends, 0..1.
 pub fn unseen_share(scan: &Scan) -> f64 {
     open_share(&outline(scan))
 }
 
-/// Share of these points where the outline is open, 0..1.
+/// Returns the share of these points where the outline is open, 0..1.
 pub fn open_share(outline: &[OutlinePoint]) -> f64 {
     let num_open = outline.iter().filter(|point| point.is_open).count();
     num_open as f64 / outline.len().max(1) as f64
 }
 
-/// The part's outline, thinned to what some thousand of the part's points show of it.
+/// Returns points of the part's outline, found among several thousand of its points.
 pub fn outline(scan: &Scan) -> Vec<OutlinePoint> {
     let part = scan.cloud.part();
     let points = &part.cloud.points;
@@ -83,7 +83,7 @@ pub fn outline(scan: &Scan) -> Vec<OutlinePoint> {
     outline
 }
 
-/// The direction out of the surface at a point of its outline; `None` inside.
+/// Returns the direction away from the part, along the surface, at a point of its outline; `None` inside the part.
 fn outwards(
     point: &Point3<f32>,
     normal: &Vector3<f32>,

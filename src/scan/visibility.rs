@@ -1,31 +1,31 @@
-//! What a shot's camera sees at a place: the surface, something behind it, something before it, or nothing.
+//! What a shot's camera sees at a place: the surface, something behind it, something in front of it, or nothing.
 
 use nalgebra::{Point3, Vector3};
 
 use super::surface::{ShotSurface, Use};
 
-/// What a camera sees at a place of the robot's base frame.
+/// What a camera sees at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Visibility {
-    /// The surface is there: the index of the reading.
+    /// The surface is there; the index of the reading.
     Here(usize),
     /// The camera looks through the place to something behind it.
     Through,
-    /// Something nearer is before it.
+    /// Something nearer hides the place.
     Hidden,
-    /// The place is in the picture, and there is no reading.
+    /// The place is in the picture, but has no reading.
     NoReading,
-    /// The place is outside the picture.
+    /// The place is outside the picture or the field of view.
     Outside,
 }
 
-/// Pixels around the expected one that may show the surface: poses are not perfect, and edges are ragged.
+/// Pixels around the expected one that may show the surface: poses are not exact, and edges are ragged.
 const REACH: i64 = 1;
 
-/// Looks for a surface at a camera point with this normal (camera space; zero if unknown), within `tolerance` metres
+/// Looks for a surface at a camera point with this normal (in camera space; zero if unknown), within `tolerance` metres
 /// along the normal.
 ///
-/// Through is only what all pixels around look through: beside an edge the next pixel shows the background.
+/// Returns `Through` only if most pixels around look through: beside an edge the next pixel may show the background.
 pub fn visibility_at(
     surface: &ShotSurface,
     at: &Point3<f64>,
@@ -39,7 +39,7 @@ pub fn visibility_at(
     if seen.is_some_and(|seen| !seen.contains(column, row)) {
         return Visibility::Outside;
     }
-    // Along the ray a tilted surface is further off by as much as it is off along its normal.
+    // The distance along the ray to a tilted surface is larger than the distance along its normal.
     let facing = -normal.dot(&at.coords) / at.coords.norm();
     let along_ray = tolerance
         / if *normal == Vector3::zeros() {
@@ -59,7 +59,7 @@ pub fn visibility_at(
             } else if off < -along_ray {
                 num_nearer += 1;
             } else {
-                // The expected pixel first, then the nearest in depth.
+                // Prefer the expected pixel, then the nearest in depth.
                 let cost = if du == 0 && dv == 0 {
                     0.0
                 } else {
@@ -80,5 +80,5 @@ pub fn visibility_at(
     }
 }
 
-/// Fewer readings than this behind a place are an edge or a hole in the readings.
+/// Fewer readings than this behind a place mean an edge or a hole in the readings.
 const LEAST_THROUGH: usize = 6;

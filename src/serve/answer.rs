@@ -1,4 +1,4 @@
-//! What a client may ask for, and what it is answered.
+//! Requests that a client may send, and the answers to them.
 
 use std::time::{Duration, Instant};
 
@@ -10,21 +10,21 @@ use crate::{
     geometry::rigid::{RigidTransform, row_major},
 };
 
-/// What a client asks for.
+/// A client's request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Request {
-    /// Take a frame that is captured from now on, and inspect it.
+    /// Capture a frame from now on, and inspect it.
     Trigger,
-    /// How the camera is, and the last verdict without its numbers.
+    /// Send the camera's state, and the last verdict without its numbers.
     Status,
-    /// The last inspection again.
+    /// Send the last inspection again.
     Last,
-    /// A point of the part's spray path, carried by the last pose: its number from 1, or 0 for how many there are.
+    /// Send a point of the part's spray path, moved by the last pose: its number from 1, or 0 for the number of points.
     Path(u32),
 }
 
 impl Request {
-    /// The word for it, and the number of binary frames.
+    /// The word in text protocols, and the code in binary frames.
     pub(super) fn name(self) -> (&'static str, u16) {
         match self {
             Self::Trigger => ("TRIGGER", 1),
@@ -34,7 +34,7 @@ impl Request {
         }
     }
 
-    /// The request of this word, in any case, with the point that a path is asked for.
+    /// Finds a request by its word, ignoring case; `point` is the point of a path request.
     pub(super) fn of_name(word: &str, point: u32) -> Option<Self> {
         let all = [Self::Trigger, Self::Status, Self::Last, Self::Path(point)];
         let mut all = all.into_iter();
@@ -66,7 +66,7 @@ pub enum VerdictCode {
 }
 
 impl VerdictCode {
-    /// The word for it.
+    /// The word in text protocols.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -80,7 +80,7 @@ impl VerdictCode {
         }
     }
 
-    /// The number for it.
+    /// The code in binary protocols.
     pub fn code(self) -> u16 {
         self as u16
     }
@@ -102,7 +102,7 @@ pub enum CameraState {
 }
 
 impl CameraState {
-    /// The word for it.
+    /// The word in text protocols.
     pub fn name(self) -> &'static str {
         match self {
             Self::Opening => "opening",
@@ -112,7 +112,7 @@ impl CameraState {
         }
     }
 
-    /// The number for it.
+    /// The code in binary protocols.
     pub fn code(self) -> u16 {
         self as u16
     }
@@ -137,7 +137,7 @@ pub struct Trouble {
 }
 
 impl Trouble {
-    /// An error with its advice.
+    /// Puts an error and its advice into words.
     pub fn of<E: std::fmt::Display + Advice>(reason: impl Into<String>, error: &E) -> Self {
         Self {
             reason: reason.into(),
@@ -145,7 +145,7 @@ impl Trouble {
         }
     }
 
-    /// As many clients as are allowed are connected.
+    /// The maximum number of clients is connected.
     pub(super) fn full(max_clients: usize) -> Self {
         Self {
             reason: "full".into(),
@@ -157,47 +157,47 @@ impl Trouble {
     }
 }
 
-/// What happened and what to do about it, in one line.
+/// Joins what happened and what to do about it in one line.
 pub(super) fn in_words(what: &str, advice: &str) -> String {
     format!("{what} (to do: {advice})")
 }
 
-/// A place of the nozzle for the part as it hangs now.
+/// A nozzle pose of the spray path, for the part as it hangs now.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathStep {
-    /// The tool's frame, see [`crate::robot::spray`], in the robot's base frame.
+    /// Pose of the tool, see [`crate::robot::spray`], in the robot's base frame.
     pub robot_from_nozzle: RigidTransform,
-    /// Gun on from here to the next point: [`Answer::GUN_ON`]; within the band: [`Answer::IN_BAND`].
+    /// [`Answer::GUN_ON`]: the gun is on from here to the next point; [`Answer::IN_BAND`]: within the band.
     pub marks: u16,
-    /// Speed from here to the next point, m/s, where the path sets one.
+    /// Speed from here to the next point, m/s; none if the path sets none.
     pub speed: Option<f64>,
 }
 
-/// What an inspection came to.
+/// The result of an inspection.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
     /// [`VerdictCode::Accepted`], [`VerdictCode::Refused`], [`VerdictCode::NoPart`] or [`VerdictCode::Error`].
     pub verdict: VerdictCode,
     /// When the frame was captured; none without a frame.
     pub captured: Option<Instant>,
-    /// Name of the part; empty if it is none of the library.
+    /// Name of the part; empty if it is not in the library.
     pub part: String,
-    /// The number of the reference in whose coordinates the pose is; 0 if it has none.
+    /// Number of the reference in whose coordinates the pose is; 0 if it has none.
     pub number: u32,
-    /// [`Answer::APPROXIMATE`] and [`Answer::SIMULATED`].
+    /// Any of [`Answer::APPROXIMATE`] and [`Answer::SIMULATED`].
     pub marks: u16,
-    /// The pose in the robot's base frame. It goes out only while the verdict is accepted.
+    /// The pose in the robot's base frame. Sent only while the verdict is accepted.
     pub pose: Option<RigidTransform>,
-    /// The part's stored spray path, carried by that pose.
+    /// The part's stored spray path, moved by that pose.
     pub path: Vec<PathStep>,
-    /// The inspection as a line of JSON; empty if there was none.
+    /// The inspection as a JSON line; empty if there was none.
     pub report: String,
     /// Why there is no pose.
     pub trouble: Trouble,
 }
 
 impl Found {
-    /// There was nothing to inspect.
+    /// A result for a trigger after which nothing could be inspected.
     pub fn error(trouble: Trouble) -> Self {
         Self {
             verdict: VerdictCode::Error,
@@ -207,11 +207,11 @@ impl Found {
     }
 }
 
-/// Sequence and boot numbers, and ages in milliseconds, go up to here: whole numbers that a controller's 32-bit real
-/// still holds exactly.
+/// Maximum of sequence and boot numbers, and of ages in milliseconds: up to here a 32-bit real of a controller holds whole
+/// numbers exactly.
 pub const MAX_COUNT: u32 = (1 << 24) - 1;
 
-/// An inspection with its number.
+/// An inspection with its sequence number.
 #[derive(Debug, Default)]
 pub(super) struct Inspected {
     /// From 1; 0 before the first one.
@@ -220,82 +220,82 @@ pub(super) struct Inspected {
 }
 
 impl Inspected {
-    /// The number behind this one's.
+    /// The next inspection's number.
     pub(super) fn next_sequence(&self) -> u32 {
         self.sequence % MAX_COUNT + 1
     }
 }
 
-/// When and by whom an answer is given.
+/// What an answer depends on besides the inspection.
 #[derive(Clone, Debug)]
 pub(super) struct Situation {
-    /// The number of this start, 1..=[`MAX_COUNT`].
+    /// The boot number of this start, 1..=[`MAX_COUNT`].
     pub(super) boot: u32,
-    /// Older frames are stale.
+    /// Maximum age of a frame before it is stale.
     pub(super) max_age: Duration,
     pub(super) camera: CameraStatus,
     pub(super) now: Instant,
 }
 
-/// What a client is told, in whatever protocol.
+/// An answer to a client, independent of the protocol.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answer {
-    /// What was asked for; none if that could not be read or was not waited for.
+    /// The request answered; none if it could not be read, or if the client was refused before it sent one.
     pub request: Option<Request>,
-    /// What to think of it.
+    /// What the inspection, or else the request, came to.
     pub verdict: VerdictCode,
-    /// The number of the inspection, 1..=[`MAX_COUNT`]; 0 if there was none.
+    /// Sequence number of the inspection, 1..=[`MAX_COUNT`]; 0 if there was none.
     pub sequence: u32,
-    /// The number of this start of the server, 1..=[`MAX_COUNT`].
+    /// Boot number of this start of the server, 1..=[`MAX_COUNT`].
     pub boot: u32,
     /// Age of the frame, at most [`MAX_COUNT`] milliseconds; none without a frame.
     pub age_ms: Option<u32>,
-    /// How the camera is.
+    /// The camera's state.
     pub camera: CameraState,
     /// Name of the part; may be empty.
     pub part: String,
     /// Number of the reference; 0 if it has none.
     pub number: u32,
-    /// Of the constants of this type, but for [`Answer::POSE`]: see [`Answer::flags`].
+    /// The flags of this type except [`Answer::POSE`], which [`Answer::flags`] adds.
     pub marks: u16,
-    /// The point of the path, from 1; 0 otherwise.
+    /// Number of the path's point, from 1; 0 in other answers.
     pub point: u32,
-    /// Points of the path.
+    /// Number of points of the path.
     pub points: u32,
-    /// Speed from the point to the next one, mm/s.
+    /// Speed from this point to the next, mm/s.
     pub speed_mm_s: Option<f64>,
-    /// In the robot's base frame; only of an accepted part.
+    /// Pose in the robot's base frame; only with an accepted verdict.
     pub pose: Option<RigidTransform>,
-    /// Why there is no pose; the camera's trouble in an answer about the status.
+    /// Why there is no pose; in an answer to a status request, the camera's trouble.
     pub trouble: Trouble,
 }
 
 impl Answer {
-    /// Flag: the answer has the numbers of a pose.
+    /// Flag: the answer contains a pose.
     pub const POSE: u16 = 1;
     /// Flag: the part may be another model; its pose is only about right.
     pub const APPROXIMATE: u16 = 2;
-    /// Flag: no camera saw the scene, or none saw the part when it was enrolled.
+    /// Flag: the scene is simulated, or the part was enrolled from a simulation.
     pub const SIMULATED: u16 = 4;
-    /// Flag of a point of the path: the gun sprays from here to the next one.
+    /// Flag of a point of the path: the gun sprays from here to the next point.
     pub const GUN_ON: u16 = 8;
-    /// Flag of a point of the path: distance and angle to the surface that the camera saw are within the band.
+    /// Flag of a point of the path: distance and angle to the surface seen by the camera are within the band.
     pub const IN_BAND: u16 = 16;
 
-    /// The flags that hold.
+    /// All flags that are set, with [`Answer::POSE`] if there is a pose.
     pub fn flags(&self) -> u16 {
         let pose = if self.pose.is_some() { Self::POSE } else { 0 };
         self.marks | pose
     }
 
-    /// The age as a number: -1 without a frame.
+    /// The age in milliseconds; -1 without a frame.
     pub(super) fn age_or_none(&self) -> i32 {
         self.age_ms
             .and_then(|age| i32::try_from(age).ok())
             .unwrap_or(-1)
     }
 
-    /// To a client that is not waited for, or whose request could not be read.
+    /// An answer to a client that is refused, or whose request could not be read.
     pub(super) fn turned_away(verdict: VerdictCode, trouble: Trouble, at: &Situation) -> Self {
         Self {
             verdict,
@@ -306,7 +306,7 @@ impl Answer {
         }
     }
 
-    /// To a request, from the inspection that it is about.
+    /// Answers a request from the last inspection.
     pub(super) fn of(request: Request, last: &Inspected, at: &Situation) -> Self {
         let found = &last.found;
         let age = found
@@ -329,7 +329,7 @@ impl Answer {
         if let (Request::Status, Some(trouble)) = (request, &at.camera.trouble) {
             answer.trouble = trouble.clone();
         }
-        // The one place where numbers get into an answer.
+        // The only place where numbers get into an answer.
         if verdict == VerdictCode::Accepted {
             answer.points = u32::try_from(found.path.len()).unwrap_or(u32::MAX);
             match request {
@@ -369,7 +369,7 @@ fn in_milliseconds(age: Duration) -> u32 {
     age.min(MAX_COUNT)
 }
 
-/// The verdict as it holds now, and why it is not what it was.
+/// The verdict as it holds now, with the reason if it differs from the original.
 pub(super) fn judged(
     found: &Found,
     age: Option<Duration>,

@@ -1,9 +1,9 @@
-//! The source behind the server: a frame captured after a trigger, and how the camera is in between.
+//! The server's source: captures a frame after a trigger, and reports the camera's state in between.
 //!
-//! The source runs all the time, so that a trigger need not wait for it to be opened; frames that nobody asked for are
-//! dropped. A frame that arrives just after a trigger may have been exposed before it, so of a camera the second one that
-//! arrives is taken: it was exposed after the first. That costs one frame more, 33 ms of a Kinect. Of a watched folder it is a
-//! file that was written after the trigger.
+//! The source runs all the time, so that no trigger waits for it to open; frames that nobody requested are dropped. A frame
+//! that arrives just after a trigger may have been exposed before it. From a camera, the second frame to arrive is
+//! therefore used: it was exposed after the first one. This costs one more frame, 33 ms with a Kinect. From a watched
+//! folder, a file written after the trigger is used.
 
 use std::{
     sync::{Arc, Mutex},
@@ -25,16 +25,16 @@ use crate::{
     error::{Advice, lock},
 };
 
-/// A trigger looks this often whether the service is to end.
+/// How often a waiting trigger checks whether the service is ending.
 const TURN: Duration = Duration::from_millis(100);
 
-/// A source that goes on while nobody asks for frames.
+/// A source that keeps running while nobody requests frames.
 pub struct Camera {
     start: Box<dyn Fn() -> Result<(Feed, NewFrame), CaptureError> + Send + Sync>,
     opened: Mutex<Opened>,
 }
 
-/// A source at work, and which of its frames are new.
+/// A running source and the rule for its new frames.
 #[derive(Clone)]
 struct Opened {
     feed: Arc<Feed>,
@@ -50,17 +50,17 @@ impl From<(Feed, NewFrame)> for Opened {
     }
 }
 
-/// By what a frame is known to have been captured after a trigger.
+/// How a frame is known to have been captured after a trigger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NewFrame {
-    /// It is the second one that arrived since then.
+    /// It is the second frame to arrive after the trigger.
     SecondArrived,
-    /// It was written after that by the clock.
+    /// Its file was written after the trigger, by the wall clock.
     WrittenAfter,
 }
 
 impl NewFrame {
-    /// What suits a source.
+    /// The rule for a source.
     pub fn of_source(spec: &SourceSpec) -> Self {
         match spec {
             SourceSpec::Watched(_) => Self::WrittenAfter,
@@ -75,7 +75,7 @@ impl NewFrame {
 }
 
 impl NewFrame {
-    /// When a frame was captured, for its age.
+    /// The time of capture, from which the frame's age is computed.
     pub fn captured_at(self, captured: &Captured) -> Instant {
         match self {
             Self::SecondArrived => captured.arrived,
@@ -88,45 +88,45 @@ impl NewFrame {
     }
 }
 
-/// Why no frame came.
+/// Why a trigger got no frame.
 #[derive(Clone, Debug, Error)]
 pub enum NoFrame {
-    /// The camera is gone, and looked for by itself.
+    /// The camera is lost; reconnecting is automatic.
     #[error("{error}")]
     Lost {
-        /// Why.
+        /// The underlying error.
         error: Arc<CaptureError>,
     },
-    /// The camera cannot be used until somebody has done something about it.
+    /// The camera cannot be used until somebody intervenes.
     #[error("{error}")]
     Failed {
-        /// Why.
+        /// The underlying error.
         error: Arc<CaptureError>,
     },
-    /// The source has no more.
+    /// The source has no more frames.
     #[error("the source has ended")]
     Ended,
-    /// Nothing came in time.
+    /// No frame arrived in time.
     #[error("no frame came within {} s of the trigger", waited.as_secs_f64())]
     Late {
-        /// How long it was waited for.
+        /// How long the trigger waited.
         waited: Duration,
     },
-    /// Something came that cannot be read.
+    /// A frame arrived that cannot be read.
     #[error("{name}: {error}")]
     Unreadable {
-        /// What a person calls it.
+        /// Name of the frame, to show to the operator.
         name: String,
-        /// Why not.
+        /// The underlying error.
         error: Arc<CaptureError>,
     },
-    /// The service ends.
+    /// The service is ending.
     #[error("the service ends")]
     Stopping,
 }
 
 impl NoFrame {
-    /// The word for it in an answer.
+    /// The reason word in an answer.
     pub fn reason(&self) -> &'static str {
         match self {
             Self::Lost { .. } => "camera_lost",
@@ -155,7 +155,7 @@ impl Advice for NoFrame {
     }
 }
 
-/// How a source is, for a client.
+/// Converts a source's state into what a client is told.
 impl From<&FeedState> for CameraStatus {
     fn from(state: &FeedState) -> Self {
         let gone = |reason: &str, error: &Arc<CaptureError>| Some(Trouble::of(reason, &**error));
@@ -185,7 +185,7 @@ impl Camera {
         })
     }
 
-    /// As [`Self::start`], with another way to start the source; its feed has to drop what nobody takes.
+    /// As [`Self::start`], with a custom way to start the source. The feed must drop frames that nobody takes.
     pub fn start_with(
         start: impl Fn() -> Result<(Feed, NewFrame), CaptureError> + Send + Sync + 'static,
     ) -> Result<Self, CaptureError> {
@@ -200,23 +200,23 @@ impl Camera {
         lock(&self.opened).clone()
     }
 
-    /// How the source is, in full.
+    /// The full status of the source.
     pub fn feed_status(&self) -> FeedStatus {
         self.opened().feed.status()
     }
 
-    /// Starts the source anew, whatever it does: it may be another one by now.
+    /// Starts the source again even if it is running: `start` may yield another source by now.
     pub fn restart(&self) -> Result<(), NoFrame> {
         self.start_again(&mut lock(&self.opened))
     }
 
-    /// How the source is, for a client.
+    /// The source's status for a client.
     pub fn status(&self) -> CameraStatus {
         CameraStatus::from(&self.feed_status().state)
     }
 
-    /// The next frame that was captured after a trigger. A source that is over is opened again first; one that is lost is
-    /// looked for by itself, and that is the answer meanwhile.
+    /// Returns the next frame captured after a trigger. A source that is over is opened again first; a lost one is an error
+    /// until it has reconnected by itself.
     pub fn frame_after(
         &self,
         asked: &Asked,
@@ -229,7 +229,7 @@ impl Camera {
         let mut num_arrived = 0;
         let mut unreadable = None;
         while !is_ending() {
-            // Asked before: what was put there before the end is taken yet.
+            // Read the status first, so that frames delivered just before the end are still taken.
             let status = feed.status();
             match feed.wait(TURN) {
                 Some(FeedItem::Captured(captured)) => {
@@ -264,7 +264,7 @@ impl Camera {
         Err(NoFrame::Stopping)
     }
 
-    /// When the frame was captured, for its age.
+    /// The time of capture, from which the frame's age is computed.
     pub fn captured_at(&self, captured: &Captured) -> Instant {
         self.opened().rule.captured_at(captured)
     }
@@ -301,7 +301,7 @@ mod tests {
         kit::captured,
     };
 
-    /// Long enough for a machine at work with other things; what is waited for comes at once.
+    /// Long enough for a busy machine; normally what is waited for comes at once.
     const PATIENCE: Duration = Duration::from_mins(1);
 
     fn gone() -> CaptureError {
@@ -311,7 +311,7 @@ mod tests {
         }
     }
 
-    /// A camera that gives a frame at a time, as fast as it is asked.
+    /// A camera that delivers one frame per call, as fast as it is asked.
     struct Endless {
         number: u64,
         is_plugged_in: Arc<AtomicBool>,
@@ -336,7 +336,7 @@ mod tests {
         }
     }
 
-    /// Gives what it was told to give, then the end.
+    /// Delivers the given steps, then the end.
     struct Script(VecDeque<NextCapture>);
 
     impl DepthSource for Script {
@@ -382,7 +382,7 @@ mod tests {
                 let source: Box<dyn DepthSource> = Box::new(Script(steps().into()));
                 Ok(source)
             };
-            // Every step counts here, however the threads run.
+            // Deliver every step, however the threads are scheduled.
             let feed = Feed::start_with(open, BackpressurePolicy::Every, || ());
             feed.map(|feed| (feed, rule))
         };
@@ -399,7 +399,7 @@ mod tests {
                 .frame_after(&asked, PATIENCE, || false)
                 .expect("a frame");
             assert!(frame.arrived > asked.at);
-            // One lies between it and what had been captured before.
+            // At least one frame lies between it and the previous one.
             assert!(frame.number > last + 1, "{} after {last}", frame.number);
             last = frame.number;
         }
@@ -413,7 +413,7 @@ mod tests {
         let frame = || camera.frame_after(&Asked::now(), PATIENCE, || false);
         frame().expect("plugged in");
         is_plugged_in.store(false, Ordering::SeqCst);
-        // What is on its way arrives yet.
+        // Frames already on their way still arrive.
         let why = loop {
             if let Err(why) = frame() {
                 break why;

@@ -1,4 +1,4 @@
-//! One client: reads its requests one after the other and answers each.
+//! One client connection: reads its requests one after the other and answers each.
 
 use std::{
     io::{self, Read as _, Write as _},
@@ -14,12 +14,12 @@ use super::{
     server::{ClientNews, Job, LINGER, Shared, WRITE_TIMEOUT, answer_to},
 };
 
-/// How often a client that is silent is looked after.
+/// Read timeout, after which a silent client's time limits are checked.
 const TURN: Duration = Duration::from_millis(100);
-/// Bytes read at once. No protocol keeps more than a request of its own, so this and that is all the memory a client has.
+/// Bytes per read. A parser keeps at most one incomplete request, so this plus one request bounds a client's memory.
 const CHUNK: usize = 512;
 
-/// A connection and what it needs to be answered.
+/// A connection and what is needed to answer it.
 pub(super) struct Client {
     pub(super) stream: TcpStream,
     pub(super) peer: SocketAddr,
@@ -30,24 +30,24 @@ pub(super) struct Client {
 
 /// Why a connection is closed.
 enum EndReason {
-    /// The client hung up, was silent for too long, or the service ends.
+    /// The client hung up or was idle for too long, or the server stops.
     Silent,
-    /// The client is told what was wrong.
+    /// The request was bad; the client is told why.
     Told(BadRequest),
 }
 
 impl Client {
-    /// Until one of the two ends the connection.
+    /// Serves requests until either side ends the connection.
     pub(super) fn serve(mut self) {
         let protocol = self.listener.at.protocol.name();
         self.shared.tell(self.peer, protocol, ClientNews::Connected);
         let news = match self.talk() {
             Ok(EndReason::Told(why)) => {
-                // Who hung up need not be told.
+                // The client may have hung up; then it need not be told.
                 let _ = self.refuse(&why);
                 ClientNews::BadRequest(why)
             }
-            // A connection that breaks is one that ends.
+            // A broken connection counts as ended.
             Ok(EndReason::Silent) | Err(_) => ClientNews::Left,
         };
         self.shared.tell(self.peer, protocol, news);
@@ -62,7 +62,7 @@ impl Client {
         let mut bytes: Vec<u8> = Vec::new();
         let mut chunk = [0; CHUNK];
         let mut last_answer = Instant::now();
-        // When the request began whose end has not come yet.
+        // When the pending incomplete request began.
         let mut begun: Option<Instant> = None;
         while !self.shared.is_stopping() {
             let parsed = self.listener.at.protocol.parse(&bytes);
@@ -106,8 +106,8 @@ impl Client {
         self.stream.write_all(&bytes)
     }
 
-    /// Tells the client what was wrong, and closes the connection. What it still sends is read over for a moment: closed
-    /// with unread bytes, a connection is reset, and the client may not get to read the answer.
+    /// Sends the reason and closes the connection. Reads and discards what the client still sends for a moment: closing a
+    /// socket with unread bytes resets the connection, and the client might lose the answer.
     fn refuse(&mut self, why: &BadRequest) -> io::Result<()> {
         let trouble = Trouble::of(why.reason(), why);
         let at = self.shared.situation();
@@ -127,7 +127,7 @@ impl Client {
     }
 }
 
-/// True of an error that says that nothing came yet.
+/// True if the error only means that nothing has arrived yet.
 fn is_passing(error: &io::Error) -> bool {
     matches!(
         error.kind(),

@@ -1,4 +1,4 @@
-//! What an inspection means to a robot: a pose in its base frame, or why there is none.
+//! Converts an inspection into a robot's result: a pose in its base frame, or why there is none.
 
 use std::time::Instant;
 
@@ -28,46 +28,46 @@ pub enum PoseKind {
     RobotOffset,
 }
 
-/// What a client is told of a reference of the library besides its name.
+/// What a client is told about a reference of the library besides its name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NumberedPart {
-    /// From 1; 0 if it has none.
+    /// Number from 1; 0 if it has none.
     pub number: u32,
     /// Its stored spray path.
     pub path: Option<SprayPath>,
-    /// True if no camera saw it when it was enrolled.
+    /// True if it was enrolled from a simulation.
     pub is_simulated: bool,
 }
 
-/// Where a frame came from.
+/// When a frame was captured, and whether it is simulated.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameOrigin {
     /// When it was captured.
     pub captured: Instant,
-    /// True if no camera saw it.
+    /// True if the frame is simulated.
     pub is_simulated: bool,
 }
 
-/// Turns inspections into what a client is told.
+/// Converts inspections into results for clients.
 #[derive(Clone, Debug)]
 pub struct PartFinder {
-    /// Of each reference, in the order of the library.
+    /// One entry per reference, in the order of the library.
     pub parts: Vec<NumberedPart>,
-    /// Where the camera stands.
+    /// Position of the camera in the robot's base frame.
     pub robot: RobotFrame,
-    /// Which pose goes out.
+    /// Which pose is sent.
     pub kind: PoseKind,
 }
 
 impl PartFinder {
-    /// What an inspection by this recipe came to. Of what was accepted, a pose that is ambiguous does not count: a robot
-    /// cannot look which of the two it is.
+    /// Converts an inspection by `recipe` into its result. An accepted part with an ambiguous pose is refused: a robot
+    /// cannot look which of the poses is right.
     pub fn found(&self, inspection: &Inspection, recipe: &Recipe, origin: FrameOrigin) -> Found {
         let verdict = &inspection.verdict;
         let best = inspection.ranking.entries.first();
         let numbered = best.and_then(|best| self.parts.get(best.reference));
         let named = verdict.guess().filter(|_| !verdict.is_unknown());
-        // What nothing enrolled is like was not enrolled by a simulation either.
+        // An unknown part has no reference, so none that could be simulated.
         let of_named = named.and(numbered);
         let is_simulated = origin.is_simulated || of_named.is_some_and(|part| part.is_simulated);
         let mut found = Found {
@@ -224,7 +224,7 @@ mod tests {
             assert_eq!(found.path.len(), 2);
             let guns = found.path.iter().map(|step| step.marks & Answer::GUN_ON);
             assert_eq!(guns.collect::<Vec<_>>(), [0, Answer::GUN_ON]);
-            // The path hangs on the part, whichever pose goes out.
+            // The path follows the part, whichever pose is sent.
             let mouth = found.path[0].robot_from_nozzle.translation.vector;
             let taught = Point3::new(-0.1, 0.0, 1.0);
             let carried = finder.robot.robot_from_camera * (pose * taught);

@@ -1,4 +1,4 @@
-//! What another protocol than those of the listeners asks the server by.
+//! Access to a server for protocols other than those of its listeners.
 
 use std::{
     net::SocketAddr,
@@ -14,10 +14,10 @@ use super::{
 };
 use crate::error::lock;
 
-/// Fields of an inspection's line of JSON that hold poses or what a pose follows from.
+/// Fields of an inspection's JSON line that contain poses, or data from which a pose follows.
 const POSE_FIELDS: [&str; 3] = ["pose", "robot", "scan"];
 
-/// Asks a server: the same inspections, rules and limits as for its listeners.
+/// Queries a server: the same inspections, rules and limits as for its listeners.
 #[derive(Clone)]
 pub struct ServerHandle {
     pub(super) shared: Arc<Shared>,
@@ -30,23 +30,23 @@ impl ServerHandle {
         self.shared.settings
     }
 
-    /// The number of this start.
+    /// The boot number of this start.
     pub fn boot(&self) -> u32 {
         self.shared.boot
     }
 
-    /// True once the service ends.
+    /// True once the service is ending.
     pub fn is_stopping(&self) -> bool {
         self.shared.is_stopping()
     }
 
-    /// Clients of all protocols that are being served.
+    /// Number of connected clients of all protocols.
     pub fn num_clients(&self) -> usize {
         self.shared.num_clients()
     }
 
-    /// A place among the clients; none if as many are served as are allowed. Whoever triggers has to hold one until the
-    /// answer is there: only as many triggers may wait as there are places.
+    /// Takes a client place; none if all are taken. Whoever triggers has to hold one until the answer arrives: this bounds
+    /// the number of waiting triggers.
     pub fn slot(&self) -> Option<ClientSlot> {
         ClientSlot::take(&self.shared)
     }
@@ -57,12 +57,12 @@ impl ServerHandle {
         Answer::turned_away(VerdictCode::Full, trouble, &self.shared.situation())
     }
 
-    /// The answer to a request. For a trigger it blocks until the inspection is over.
+    /// Answers a request; for a trigger it blocks until the inspection is done.
     pub fn answer(&self, request: Request) -> Answer {
         answer_to(request, &self.shared, &self.jobs)
     }
 
-    /// The last inspection with the whole path, which is empty unless the pose may be used.
+    /// The last inspection and its whole path, which is empty unless the pose may be used.
     pub fn path(&self) -> (Answer, Vec<PathStep>) {
         let last = self.shared.last();
         let answer = Answer::of(Request::Last, &last, &self.shared.situation());
@@ -73,7 +73,8 @@ impl ServerHandle {
         (answer, path)
     }
 
-    /// The last inspection with its line of JSON, if there is one. Unless the pose may be used, the line has none either.
+    /// The last inspection and its JSON line, if there is one. Unless the pose may be used, all poses are removed from the
+    /// line.
     pub fn report(&self) -> (Answer, Option<Map<String, Value>>) {
         let last = self.shared.last();
         let answer = Answer::of(Request::Last, &last, &self.shared.situation());
@@ -93,7 +94,7 @@ impl ServerHandle {
         lock(&self.shared.tally).clone()
     }
 
-    /// Tells the person at the screen something about a client.
+    /// Reports a client's event to the operator.
     pub fn tell(&self, peer: SocketAddr, protocol: &'static str, news: ClientNews) {
         self.shared.tell(peer, protocol, news);
     }

@@ -1,4 +1,4 @@
-//! Where the server listens, and in which protocol.
+//! Listen addresses: a protocol, an IP address and a port.
 
 use std::{
     fmt,
@@ -12,49 +12,49 @@ use thiserror::Error;
 use super::protocol::{Protocol, binary::MAX_NUMBERS};
 use crate::{error::Advice, robot::Convention};
 
-/// A protocol and the address that it is spoken at, written `ascii=30100` or `eki=192.168.1.10:54600`.
+/// A protocol and the address to listen at, written `ascii=30100` or `eki=192.168.1.10:54600`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct ListenAddress {
-    /// The protocol.
+    /// The protocol spoken there.
     pub protocol: Protocol,
-    /// The address; port 0 is any free port.
+    /// The address; port 0 means any free port.
     pub address: SocketAddr,
 }
 
-/// Why nothing can listen there.
+/// Why a listen address cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ListenError {
-    /// A text that names no protocol and address.
+    /// The text is not of the form `PROTOCOL=ADDRESS`.
     #[error("{text:?} is no protocol and port")]
     Unreadable {
-        /// The text.
+        /// The text as given.
         text: String,
     },
-    /// Another word before the equals sign.
+    /// The word before the equals sign is not a protocol.
     #[error("{found:?} is no protocol, expected one of {}", Protocol::ALL.map(Protocol::name).join(", "))]
     UnknownProtocol {
-        /// The word.
+        /// The word as given.
         found: String,
     },
-    /// What stands behind the equals sign is no address.
+    /// The text after the equals sign is not an address.
     #[error("{found:?} is no port, and no IP address with a port")]
     NoAddress {
-        /// The text.
+        /// The text as given.
         found: String,
     },
-    /// The protocol leaves the convention open, and none was chosen.
+    /// The protocol does not fix the convention, and none was chosen.
     #[error("{} does not say in which numbers the robot expects a pose", protocol.name())]
     NoConvention {
-        /// The protocol.
+        /// The protocol that needs a convention.
         protocol: Protocol,
     },
-    /// The convention has more numbers than a frame has room for.
+    /// The convention has more numbers than a binary frame can hold.
     #[error("{} has {} numbers, a frame of {} has room for {}", convention.title(), convention.names().len(), protocol.name(), MAX_NUMBERS)]
     TooManyNumbers {
-        /// The protocol.
+        /// The binary protocol.
         protocol: Protocol,
-        /// The convention.
+        /// The convention that does not fit.
         convention: Convention,
     },
 }
@@ -96,7 +96,7 @@ impl FromStr for ListenAddress {
     }
 }
 
-/// A port of this computer alone, or an IP address and a port.
+/// Parses a port, which listens on localhost only, or an IP address with a port.
 pub fn parse_address(text: &str) -> Result<SocketAddr, ListenError> {
     let own = |port| SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port);
     let port = text.parse().ok().map(own);
@@ -120,24 +120,23 @@ impl From<ListenAddress> for String {
     }
 }
 
-/// As it is read again.
+/// Writes the form that [`FromStr`] reads.
 impl fmt::Display for ListenAddress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}={}", self.protocol.name(), self.address)
     }
 }
 
-/// A protocol at its address, with the convention of its poses.
+/// A listen address and the convention of the poses sent there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Listener {
     /// Protocol and address.
     pub at: ListenAddress,
-    /// The convention of its poses.
     pub(super) convention: Convention,
 }
 
 impl Listener {
-    /// With the protocol's own convention, or else the one chosen.
+    /// Uses the protocol's own convention, or else the chosen one.
     pub fn new(at: ListenAddress, chosen: Option<Convention>) -> Result<Self, ListenError> {
         let protocol = at.protocol;
         let convention = protocol.own_convention().or(chosen);
@@ -151,19 +150,19 @@ impl Listener {
         Ok(Self { at, convention })
     }
 
-    /// The convention of its poses.
+    /// The convention of the poses sent there.
     pub fn convention(&self) -> Convention {
         self.convention
     }
 
-    /// A doubt, if others than this computer reach it.
+    /// Returns a warning if other computers can reach the address.
     pub fn doubt(&self) -> Option<OpenToNetwork> {
         let is_open = !self.at.address.ip().is_loopback();
         is_open.then_some(OpenToNetwork { at: self.at })
     }
 }
 
-/// Others than this computer reach a listener, and nothing is encrypted.
+/// A listener is reachable by other computers without encryption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
     "{at} is open to the network without encryption: whoever reaches it can trigger inspections and read poses"

@@ -1,22 +1,22 @@
-//! A server that robots and PLCs ask for an inspection over plain TCP.
+//! An inspection server that robots and PLCs query over plain TCP.
 //!
 //! ```text
 //! client ─► Protocol::parse ─► Request ─► Server ─► Inspector ─► Found
 //!        ◄─ Protocol::write ◄─ Answer  ◄─ the last one, aged ◄──┘
 //! ```
 //!
-//! A thread for each listener and for each client, up to a limit, speaks with the robots; one thread inspects, that of
-//! [`Server::run`]. So there is one inspection at a time: triggers wait in the order in which they came, and a client
-//! waits for its answer before its next request is read, so that no more wait than there are clients. Each trigger is
-//! answered from a frame of its own, captured after it arrived ([`Camera`]).
+//! Each listener and each client, up to a limit, has a thread that talks to the robots; the thread that calls
+//! [`Server::run`] does all inspections. There is thus one inspection at a time: triggers queue in order of arrival. A
+//! client's next request is read only after its answer is sent, so the queue is never longer than the number of clients.
+//! Each trigger gets a frame of its own, captured after the trigger arrived ([`Camera`]).
 //!
-//! Two rules keep a robot from moving by a wrong pose, both in `answer.rs`: numbers go out with the verdict *accepted*
-//! only, and an accepted pose older than the limit becomes *stale*. Every answer has a sequence number, which counts the
-//! inspections since the start, and the boot number of this start, so that a client that connects again knows what it
-//! sees.
+//! Two rules in `answer.rs` keep a robot from moving to a wrong pose: numbers are sent only with the verdict *accepted*,
+//! and an accepted pose older than the limit becomes *stale*. Every answer carries a sequence number, which counts the
+//! inspections since the start, and the boot number of this start, so that a client that reconnects can tell which
+//! inspection it sees.
 //!
-//! Connections are neither encrypted nor authenticated: the network has to be the cell's own. Other protocols
-//! (`plant`) ask by a [`ServerHandle`].
+//! Connections are neither encrypted nor authenticated: use a network of the cell's own. Other protocols (`plant`) go
+//! through a [`ServerHandle`].
 
 mod answer;
 mod camera;

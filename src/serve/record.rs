@@ -1,4 +1,4 @@
-//! An inspection whose answer is wanted later.
+//! Records of inspections whose answers are needed later.
 
 use std::time::{Duration, Instant};
 
@@ -9,8 +9,8 @@ use super::{
     server::boot_number,
 };
 
-/// An inspection for others than the client that asked for it. It is judged anew whenever it is looked at, so that a
-/// pose that has become too old by then does not go out.
+/// An inspection, kept for receivers other than the client that triggered it. Its verdict is judged again at each access,
+/// so that a pose that has become too old is not sent.
 #[derive(Debug)]
 pub struct InspectionRecord {
     inspected: Inspected,
@@ -19,7 +19,7 @@ pub struct InspectionRecord {
 
 impl InspectionRecord {
     pub(super) fn of(inspected: &Inspected, at: Situation) -> Self {
-        // The path counts for this verdict; a record is kept without it, because it may be long.
+        // Judge with the path, then leave it out of the record: it may be long.
         let answer = Answer::of(Request::Last, inspected, &at);
         let found = Found {
             verdict: answer.verdict,
@@ -40,8 +40,8 @@ impl InspectionRecord {
         }
     }
 
-    /// The answer to [`Request::Last`] if it came now, but for the number of points of the path, which is 0. The camera
-    /// is as it was when the inspection ended.
+    /// The answer to [`Request::Last`] as of now, except that the path has 0 points and the camera's state is that at the
+    /// end of the inspection.
     pub fn answer(&self) -> Answer {
         let now = Situation {
             now: Instant::now(),
@@ -51,7 +51,7 @@ impl InspectionRecord {
     }
 }
 
-/// Makes records without a server, numbered as a server numbers its own.
+/// Makes records without a server, numbered as a server would.
 #[derive(Debug)]
 pub struct InspectionRecorder {
     boot: u32,
@@ -60,7 +60,7 @@ pub struct InspectionRecorder {
 }
 
 impl InspectionRecorder {
-    /// Before the first inspection. An accepted pose from an older frame than `max_age` is stale.
+    /// Starts the numbering. An accepted pose from a frame older than `max_age` is stale.
     pub fn new(max_age: Duration) -> Self {
         Self {
             boot: boot_number(Timestamp::now()),
@@ -69,12 +69,12 @@ impl InspectionRecorder {
         }
     }
 
-    /// The number of this start, 1..=[`MAX_COUNT`](super::MAX_COUNT).
+    /// The boot number of this start, 1..=[`MAX_COUNT`](super::MAX_COUNT).
     pub fn boot(&self) -> u32 {
         self.boot
     }
 
-    /// The next inspection, and how the camera is now.
+    /// Records the next inspection with the camera's present status.
     pub fn record(&mut self, found: Found, camera: CameraStatus) -> InspectionRecord {
         self.last = Inspected {
             sequence: self.last.next_sequence(),

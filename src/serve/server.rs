@@ -1,4 +1,4 @@
-//! The server: listeners, clients, and the one inspection at a time.
+//! The server: listeners, clients, and one inspection at a time.
 
 use std::{
     collections::VecDeque,
@@ -36,30 +36,30 @@ use crate::{
     files::words_of,
 };
 
-/// How often the thread that inspects looks up.
+/// How long the inspecting thread waits for a trigger before it calls [`Inspector::turn`] again.
 const TURN: Duration = Duration::from_millis(100);
-/// How often a listener looks whether somebody connects: std's accept cannot be interrupted.
+/// How often a listener polls for connections: std's `accept` cannot be interrupted.
 const ACCEPT_TURN: Duration = Duration::from_millis(10);
-/// A connection that was turned away stays open for so long, so that its client can read why.
+/// How long a refused connection stays open, so that its client can read why.
 pub(super) const LINGER: Duration = Duration::from_secs(1);
-/// At most so many of them.
+/// Most refused connections that are kept open at a time.
 const MAX_TURNED_AWAY: usize = 64;
-/// A client that does not take its answer for so long is let go.
+/// How long a client may take to accept its answer before it is disconnected.
 pub(super) const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
-/// The answer to a client that is turned away fits into an empty buffer.
+/// Short, because the answer to a refused client fits into the socket's empty send buffer.
 const TURN_AWAY_TIMEOUT: Duration = Duration::from_millis(100);
 
-/// A trigger came then.
+/// When a trigger came.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
-    /// By the clock that only runs forwards.
+    /// By the monotonic clock.
     pub at: Instant,
-    /// By the clock of files.
+    /// By the wall clock, for comparison with file times.
     pub by_clock: Timestamp,
 }
 
 impl Asked {
-    /// Now.
+    /// Returns the present time on both clocks.
     pub fn now() -> Self {
         Self {
             at: Instant::now(),
@@ -68,16 +68,16 @@ impl Asked {
     }
 }
 
-/// What takes frames and inspects them; lives on the thread of [`Server::run`].
+/// Captures and inspects frames, on the thread that calls [`Server::run`].
 pub trait Inspector {
-    /// Takes a frame that was captured after the trigger, and inspects it.
+    /// Captures a frame after the trigger and inspects it.
     fn inspect(&mut self, asked: &Asked) -> Found;
 
-    /// The last inspection with its number, for others than the client that asked. Called right after its answer was sent;
-    /// has to return soon.
+    /// Passes on the last inspection with its number, for receivers other than the client. Called right after the answer
+    /// was sent; has to return soon.
     fn recorded(&mut self, _record: InspectionRecord) {}
 
-    /// The answer to the last inspection is on its way: time for what nobody waits for.
+    /// Called after the answer to the last inspection was sent, for work that nobody waits for.
     fn answered(&mut self);
 
     /// Called before every inspection and about ten times a second in between; `Break` ends the service.
@@ -87,13 +87,13 @@ pub trait Inspector {
 /// Limits of a server.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ServerSettings {
-    /// An accepted pose from an older frame is stale.
+    /// Maximum age of the frame of an accepted pose; beyond it the pose is stale.
     pub max_age: Duration,
-    /// Connections at a time, of all listeners together, at least 1.
+    /// Maximum number of simultaneous connections of all listeners together, at least 1.
     pub max_clients: usize,
-    /// A client that asks for nothing for so long is let go.
+    /// How long a client may send no request before it is disconnected.
     pub idle_timeout: Duration,
-    /// A request that has begun has to be complete within this time.
+    /// How long a request may take from its first byte to its end.
     pub request_timeout: Duration,
 }
 
@@ -108,27 +108,27 @@ impl Default for ServerSettings {
     }
 }
 
-/// Something about a client, for the person at the screen.
+/// A client's event, to be shown to the operator.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClientEvent {
-    /// Whose connection.
+    /// The client's address.
     pub peer: SocketAddr,
     /// The name of its protocol.
     pub protocol: &'static str,
-    /// What.
+    /// What happened.
     pub news: ClientNews,
 }
 
-/// What happened.
+/// What happened to a client.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ClientNews {
     /// It connected.
     Connected,
-    /// Its connection is over.
+    /// Its connection ended.
     Left,
-    /// As many as are allowed were connected already.
+    /// It was refused because the maximum number of clients was connected.
     TurnedAway,
-    /// It sent this, was told so and let go.
+    /// It sent a bad request, was told so and disconnected.
     BadRequest(BadRequest),
     /// It sent no token or a wrong one, and was told so.
     WrongToken,
@@ -137,20 +137,20 @@ pub enum ClientNews {
 /// Why a server cannot start.
 #[derive(Debug, Error)]
 pub enum ServeError {
-    /// The system does not let it listen there.
+    /// The system refuses to listen at the address.
     #[error("cannot listen at {at}: {}", words_of_bind(source))]
     Bind {
-        /// Where, as it was given.
+        /// The address as given.
         at: String,
-        /// The option that gives it.
+        /// The command-line option that sets the address.
         option: &'static str,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// The system gives no thread for a listener.
+    /// The system refuses a thread for a listener.
     #[error("the listener's thread cannot be started: {source}")]
     NoThread {
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
 }
@@ -182,7 +182,7 @@ impl Advice for ServeError {
     }
 }
 
-/// What all threads of a server share.
+/// State shared by all threads of a server.
 pub(super) struct Shared {
     pub(super) settings: ServerSettings,
     pub(super) boot: u32,
@@ -225,7 +225,7 @@ impl Shared {
     }
 }
 
-/// One of the clients that are allowed at a time, until it is dropped.
+/// One of the limited number of client places; dropping it frees the place.
 pub struct ClientSlot {
     shared: Arc<Shared>,
 }
@@ -233,7 +233,7 @@ pub struct ClientSlot {
 impl ClientSlot {
     pub(super) fn take(shared: &Arc<Shared>) -> Option<Self> {
         let num_before = shared.num_clients.fetch_add(1, Ordering::SeqCst);
-        // Dropped, it is given back.
+        // If it is not returned, its drop undoes the count.
         let slot = Self {
             shared: Arc::clone(shared),
         };
@@ -247,13 +247,13 @@ impl Drop for ClientSlot {
     }
 }
 
-/// A trigger that waits for its turn.
+/// A trigger that waits for its inspection.
 pub(super) struct Job {
     pub(super) asked: Asked,
     pub(super) reply: SyncSender<Arc<Inspected>>,
 }
 
-/// A server that listens. Dropped, it lets its clients go and waits for its threads.
+/// A listening server. Dropping it disconnects its clients and joins its threads.
 pub struct Server {
     shared: Arc<Shared>,
     hand_over: SyncSender<Job>,
@@ -263,8 +263,8 @@ pub struct Server {
 }
 
 impl Server {
-    /// Listens; triggers are inspected once [`Self::run`] is called. `camera` and `on_event` are called by the threads of
-    /// the clients and have to return soon.
+    /// Binds the listeners and starts to accept clients; triggers wait until [`Self::run`] is called. `camera` and
+    /// `on_event` are called on the clients' threads and have to return soon.
     pub fn start(
         listeners: &[Listener],
         settings: ServerSettings,
@@ -273,7 +273,7 @@ impl Server {
     ) -> Result<Self, ServeError> {
         let bound = listeners.iter().map(|listener| bind(*listener));
         let bound = bound.collect::<Result<Vec<_>, ServeError>>()?;
-        // A client waits for its answer before it asks again, so no more than that ever wait.
+        // A client waits for its answer before it asks again, so there are never more jobs than clients.
         let (hand_over, jobs) = mpsc::sync_channel(settings.max_clients);
         let mut server = Self {
             shared: Arc::new(Shared {
@@ -302,17 +302,17 @@ impl Server {
         Ok(server)
     }
 
-    /// Where it listens, with the ports that the system chose, in the order of the listeners.
+    /// The addresses listened at, in the order of the listeners, with the ports that the system chose.
     pub fn addresses(&self) -> &[ListenAddress] {
         &self.addresses
     }
 
-    /// The number of this start, 1..=[`MAX_COUNT`].
+    /// The boot number of this start, 1..=[`MAX_COUNT`].
     pub fn boot(&self) -> u32 {
         self.shared.boot
     }
 
-    /// What another protocol than those of the listeners asks the server by.
+    /// Returns a handle by which other protocols query the server.
     pub fn handle(&self) -> ServerHandle {
         ServerHandle {
             shared: Arc::clone(&self.shared),
@@ -320,18 +320,18 @@ impl Server {
         }
     }
 
-    /// Inspects what is asked for, until the inspector ends the service. Once only.
+    /// Inspects trigger by trigger until the inspector ends the service. Returns at once if called again.
     pub fn run(&mut self, inspector: &mut dyn Inspector) {
         let Some(jobs) = self.jobs.take() else {
             return;
         };
         while inspector.turn().is_continue() {
-            // Nothing else ends the wait: the server itself keeps a sender.
+            // A timeout is the only error: the server itself keeps a sender.
             if let Ok(job) = jobs.recv_timeout(TURN) {
                 self.inspect(&job, inspector);
             }
         }
-        // Whoever waits is told that the service ends.
+        // Waiting clients are told that the service ends.
         drop(jobs);
         self.stop();
     }
@@ -347,9 +347,9 @@ impl Server {
             found,
         });
         *lock(&self.shared.last) = Arc::clone(&inspected);
-        // Of a client that went away meanwhile it is the last inspection all the same.
+        // Keep it as the last inspection even if the client has disconnected.
         let _ = job.reply.send(Arc::clone(&inspected));
-        // The camera is asked for it, whose fault costs one record and not the service.
+        // `situation` calls the camera's callback; if that panics, lose one record and not the service.
         if let Ok(record) = guarded(|| InspectionRecord::of(&inspected, self.shared.situation())) {
             inspector.recorded(record);
         }
@@ -360,7 +360,7 @@ impl Server {
         self.shared.is_stopping.store(true, Ordering::SeqCst);
         self.jobs = None;
         for thread in self.threads.drain(..) {
-            // A fault of a thread has cost its connections.
+            // A thread that panicked has only lost its connections.
             let _ = thread.join();
         }
     }
@@ -379,8 +379,8 @@ fn bind(listener: Listener) -> Result<(Listener, TcpListener), ServeError> {
     Ok((Listener { at, ..listener }, socket))
 }
 
-/// A socket that listens without blocking, and its address with the port that the system chose. `at` and `option` say in an
-/// error what was given and by which option.
+/// Binds a non-blocking listening socket. Returns it with its address, including the port that the system chose. `at` and
+/// `option` name the address and its command-line option in an error.
 pub(crate) fn bound(
     address: SocketAddr,
     at: &dyn fmt::Display,
@@ -397,20 +397,20 @@ pub(crate) fn bound(
     })
 }
 
-/// The number of a start: another one every second, for half a year.
+/// The boot number of a start: changes every second and repeats after half a year.
 pub(super) fn boot_number(now: Timestamp) -> u32 {
     let seconds = now.as_second().rem_euclid(i64::from(MAX_COUNT));
     u32::try_from(seconds).unwrap_or(0) + 1
 }
 
-/// Takes connections until the server stops, and then waits for their threads.
+/// Accepts connections until the server stops, then joins their threads.
 fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: &SyncSender<Job>) {
     let mut clients: Vec<JoinHandle<()>> = Vec::new();
     let mut turned_away: VecDeque<(TcpStream, Instant)> = VecDeque::new();
     while !shared.is_stopping() {
         turned_away.retain(|(_, since)| since.elapsed() < LINGER);
         let Ok((stream, peer)) = socket.accept() else {
-            // Nobody there, gone again, or no more connections in this computer.
+            // No connection, one that is gone again, or the system has no sockets left.
             thread::sleep(ACCEPT_TURN);
             continue;
         };
@@ -435,7 +435,7 @@ fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: 
             client.serve();
             drop(slot);
         });
-        // Without a thread the connection is closed, and its client may try again.
+        // If no thread can be started, the connection is dropped, and the client may try again.
         clients.extend(thread);
     }
     for client in clients {
@@ -443,7 +443,7 @@ fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: 
     }
 }
 
-/// Tells a client that there is no room for it.
+/// Tells a client that the server is full.
 fn turn_away(mut stream: &TcpStream, listener: Listener, shared: &Shared) {
     let trouble = Trouble::full(shared.settings.max_clients);
     let answer = Answer::turned_away(VerdictCode::Full, trouble, &shared.situation());
@@ -453,11 +453,11 @@ fn turn_away(mut stream: &TcpStream, listener: Listener, shared: &Shared) {
         .and_then(|()| stream.set_write_timeout(Some(TURN_AWAY_TIMEOUT)))
         .and_then(|()| stream.write_all(&bytes))
         .and_then(|()| stream.shutdown(Shutdown::Write));
-    // It is let go either way.
+    // The connection is dropped whether or not that succeeded.
     drop(told);
 }
 
-/// The answer to a request of a client; for a trigger it waits.
+/// Answers a client's request; for a trigger it blocks until the inspection is done.
 pub(super) fn answer_to(request: Request, shared: &Shared, jobs: &SyncSender<Job>) -> Answer {
     let inspected = match request {
         Request::Trigger => triggered(jobs),
@@ -473,7 +473,7 @@ pub(super) fn answer_to(request: Request, shared: &Shared, jobs: &SyncSender<Job
     }
 }
 
-/// An inspection of a frame from now on.
+/// Requests an inspection of a frame captured from now on, and waits for it.
 fn triggered(jobs: &SyncSender<Job>) -> Result<Arc<Inspected>, NoFrame> {
     let (reply, inspected) = mpsc::sync_channel(1);
     let job = Job {

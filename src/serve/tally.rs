@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::answer::VerdictCode;
 
-/// How many inspections came to what, and how long their triggers waited.
+/// Number of inspections by verdict, and how long their triggers waited.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     verdicts: [u64; Self::VERDICTS.len()],
@@ -13,7 +13,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// What an inspection can come to.
+    /// The verdicts that are counted.
     pub const VERDICTS: [VerdictCode; 5] = [
         VerdictCode::Accepted,
         VerdictCode::Refused,
@@ -22,11 +22,11 @@ impl Tally {
         VerdictCode::Error,
     ];
 
-    /// The waiting times that are counted, seconds. An inspection takes some 10 ms, the wait for its frame 30 to 70 ms of
-    /// a Kinect, and `--frame-timeout` is 5 s by default.
+    /// Upper bounds of the waiting times that are counted, seconds. An inspection takes about 10 ms, waiting for a Kinect's
+    /// frame 30 to 70 ms, and `--frame-timeout` is 5 s by default.
     pub const BOUNDS_S: [f64; 9] = [0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0];
 
-    /// One more inspection; `waited` is from its trigger to its verdict.
+    /// Counts an inspection; `waited` is the time from its trigger to its verdict.
     pub(super) fn add(&mut self, verdict: VerdictCode, waited: Duration) {
         for (count, counted) in self.verdicts.iter_mut().zip(Self::VERDICTS) {
             *count += u64::from(verdict == counted);
@@ -37,22 +37,22 @@ impl Tally {
         self.sum += waited;
     }
 
-    /// Inspections by verdict.
+    /// Number of inspections by verdict.
     pub fn by_verdict(&self) -> impl Iterator<Item = (VerdictCode, u64)> {
         Self::VERDICTS.into_iter().zip(self.verdicts)
     }
 
-    /// How many triggers waited no longer than each of [`Self::BOUNDS_S`].
+    /// For each of [`Self::BOUNDS_S`], how many triggers waited no longer than that.
     pub fn waited_within(&self) -> impl Iterator<Item = (f64, u64)> {
         Self::BOUNDS_S.into_iter().zip(self.within)
     }
 
-    /// All inspections.
+    /// Number of all inspections.
     pub fn count(&self) -> u64 {
         self.verdicts.iter().sum()
     }
 
-    /// How long all triggers waited together, seconds.
+    /// Total waiting time of all triggers, seconds.
     pub fn waited_s(&self) -> f64 {
         self.sum.as_secs_f64()
     }

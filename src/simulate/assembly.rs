@@ -1,4 +1,4 @@
-//! A mesh while it is being put together, in f64, with the few whole-mesh operations that parts need.
+//! A mesh under construction, in f64, with the few whole-mesh operations that parts need.
 
 use nalgebra::{Point3, Vector3};
 
@@ -12,7 +12,7 @@ pub(super) struct Assembly {
 }
 
 impl Assembly {
-    /// Adds a vertex and says its index.
+    /// Adds a vertex and returns its index.
     pub(super) fn vertex(&mut self, point: Point3<f64>) -> u32 {
         self.vertices.push(point);
         self.vertices.len() as u32 - 1
@@ -26,14 +26,14 @@ impl Assembly {
         }
     }
 
-    /// Adds a four-cornered face, corners in order around it.
+    /// Adds a face of four corners, given in order around it.
     pub(super) fn quad(&mut self, [a, b, c, d]: [u32; 4]) {
         self.triangle([a, b, c]);
         self.triangle([a, c, d]);
     }
 
-    /// As [`Assembly::quad`], split along the diagonal that passes nearer to `middle`, where the surface is: creases
-    /// that run across a grid stay smooth that way.
+    /// Like [`Assembly::quad`], split along the diagonal that passes nearer to `middle`, a point of the surface: creases that
+    /// run across a grid stay smooth that way.
     pub(super) fn quad_through(&mut self, corners: [u32; 4], middle: &Point3<f64>) {
         let [a, b, c, d] = corners.map(|i| self.vertices[i as usize]);
         let first = (nalgebra::center(&a, &c) - middle).norm_squared();
@@ -46,7 +46,7 @@ impl Assembly {
         }
     }
 
-    /// Adds a finished mesh, every vertex put through `place`.
+    /// Adds a finished mesh, every vertex transformed by `place`.
     pub(super) fn add(&mut self, mesh: &TriangleMesh, place: impl Fn(Point3<f64>) -> Point3<f64>) {
         let first = self.vertices.len() as u32;
         self.vertices
@@ -58,7 +58,7 @@ impl Assembly {
         );
     }
 
-    /// The middle of the bounding box; the origin for an empty assembly.
+    /// Returns the centre of the bounding box; the origin for an empty assembly.
     pub(super) fn middle(&self) -> Point3<f64> {
         let Some(&first) = self.vertices.first() else {
             return Point3::origin();
@@ -70,7 +70,7 @@ impl Assembly {
         nalgebra::center(&low, &high)
     }
 
-    /// The same moved by `shift`.
+    /// Moves the mesh by `shift`.
     pub(super) fn moved(mut self, shift: Vector3<f64>) -> Self {
         for vertex in &mut self.vertices {
             *vertex += shift;
@@ -78,13 +78,13 @@ impl Assembly {
         self
     }
 
-    /// The mesh with its middle at the origin.
+    /// Returns the mesh with the centre of its bounding box at the origin.
     pub(super) fn centred(self) -> TriangleMesh {
         let middle = self.middle();
         self.moved(-middle.coords).into_mesh()
     }
 
-    /// The mesh as it stands, without the vertices that no triangle uses.
+    /// Returns the mesh in place, without vertices that no triangle uses.
     pub(super) fn into_mesh(self) -> TriangleMesh {
         let mut new_index = vec![None; self.vertices.len()];
         let mut vertices = Vec::with_capacity(self.vertices.len());
@@ -107,7 +107,7 @@ impl Assembly {
     }
 }
 
-/// The mirror image about x = 0, wound so that outside stays outside.
+/// Mirrors a mesh about x = 0, and reverses the winding so that outside stays outside.
 pub(super) fn mirrored(mesh: &TriangleMesh) -> TriangleMesh {
     TriangleMesh {
         vertices: mesh

@@ -1,10 +1,10 @@
-//! Solid bars and turned bodies: a section swept along a path, a profile turned about an axis.
+//! Solid bars and bodies of revolution: a section swept along a path, a profile turned about an axis.
 
 use nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
 
 use super::assembly::Assembly;
 
-/// The section of a bar.
+/// The cross-section of a bar.
 #[derive(Clone, Copy)]
 pub(super) enum Section {
     /// A rectangle with bevelled edges: `width` across the facing direction, `depth` along it.
@@ -14,7 +14,7 @@ pub(super) enum Section {
 }
 
 impl Section {
-    /// The closed outline, (across, towards the facing direction), counter-clockwise.
+    /// Returns the closed outline as (across, towards the facing direction), counter-clockwise.
     fn outline(self) -> Vec<(f64, f64)> {
         match self {
             Self::Bar { width, depth } => {
@@ -42,8 +42,8 @@ impl Section {
     }
 }
 
-/// Adds a bar along `path` (two points or more). `facing` is where the front of a [`Section::Bar`] looks; it may not
-/// run along the path.
+/// Adds a bar along `path` (two points or more). The front of a [`Section::Bar`] points in the direction `facing`, which must
+/// not be parallel to the path.
 pub(super) fn sweep(
     assembly: &mut Assembly,
     path: &[Point3<f64>],
@@ -81,7 +81,7 @@ pub(super) fn sweep(
     }
 }
 
-/// Adds a box with its middle at `centre`, edges along the axes.
+/// Adds a box centred at `centre`, edges along the axes.
 pub(super) fn block(assembly: &mut Assembly, centre: Point3<f64>, size: Vector3<f64>) {
     let half = Vector3::y() * (size.y / 2.0);
     let section = Section::Bar {
@@ -96,9 +96,9 @@ pub(super) fn block(assembly: &mut Assembly, centre: Point3<f64>, size: Vector3<
     );
 }
 
-/// Adds the body of a closed profile turned about an axis through `centre`.
+/// Adds the body of revolution of a closed profile about an axis through `centre`.
 ///
-/// The profile lists (radius, height along the axis), radii above 0; it runs up the outside and down the inside.
+/// The profile lists (radius, height along the axis), radii above 0, up the outside and down the inside.
 pub(super) fn turn(
     assembly: &mut Assembly,
     centre: Point3<f64>,

@@ -19,27 +19,27 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 use crate::units::{Metres, Radians};
 
-/// What hangs before the camera.
+/// The object in front of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SimulatedObject {
     /// One of the eight parts.
     Part {
-        /// Which.
+        /// The kind of part.
         kind: PartKind,
-        /// The side of the car; without meaning for a part that is not sided.
+        /// The side of the car; ignored for parts without sides.
         side: Side,
         /// The car model; 0 is the standard car.
         model_seed: u64,
     },
-    /// Something that is no known part.
+    /// An object that is not a known part.
     Object(ObjectKind),
     /// Nothing: the empty cell.
     Nothing,
 }
 
 impl SimulatedObject {
-    /// Its surface in its own coordinates, metres.
+    /// Returns the surface in the object's own coordinates, in metres.
     pub fn mesh(&self) -> TriangleMesh {
         match *self {
             Self::Part {
@@ -53,54 +53,54 @@ impl SimulatedObject {
     }
 }
 
-/// Where the part hangs.
+/// The pose of the part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PartPose {
-    /// Exactly here: `camera_from_part`.
+    /// This pose, `camera_from_part`.
     Fixed(RigidTransform),
-    /// Drawn from a range by the cell's seed.
+    /// A pose drawn from a range with the cell's seed.
     Drawn(PoseRange),
 }
 
-/// What surrounds the part, and which kind of camera sees it.
+/// The part's surroundings and the kind of camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Surroundings {
-    /// One wall and a floor before a Kinect.
+    /// A wall and a floor, seen by a Kinect.
     #[default]
     Plain,
-    /// A paint booth before a depth camera on the robot's flange. The seed draws the pose, the tubes and clamps that hold
-    /// the part, the walls and the field of view; placement, stand, clutter, wall and floor of the setup do not matter.
+    /// A paint booth, seen by a depth camera on the robot's flange. The seed draws the pose, the tubes and clamps that hold
+    /// the part, the walls and the field of view. The setup's pose range, stand, clutter, wall and floor are ignored.
     Booth,
 }
 
-/// All that a simulated frame depends on.
+/// Everything that determines a simulated frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellSetup {
-    /// What hangs before the camera.
+    /// The object in front of the camera.
     pub subject: SimulatedObject,
-    /// Where it hangs.
+    /// Its pose.
     pub pose: PartPose,
-    /// What holds it.
+    /// The stand that holds it.
     pub stand: Stand,
-    /// What else is there.
+    /// Other things in the cell.
     pub clutter: Clutter,
-    /// The sensor's noise, with a seed of its own: the same scene can be captured again.
+    /// The sensor's noise, with its own seed, so that the same scene can be captured again.
     pub noise: SensorNoise,
-    /// The camera. The simulated one is a pinhole: a distortion is left out.
+    /// The camera. It is simulated as a pinhole camera: its distortion is ignored.
     pub intrinsics: Intrinsics,
-    /// Distance of the wall on the optical axis, 2.2 to 3.0 m; moved back where the part reaches farther.
+    /// Distance of the wall along the optical axis, 2.2 to 3.0 m; increased if the part reaches further.
     pub wall: Metres,
-    /// How far the floor lies below the camera; moved down where the part reaches lower, and up to what stands on it.
+    /// Depth of the floor below the camera; increased if the part reaches lower. A part standing on the floor determines it.
     pub floor: Metres,
-    /// Draws the pose, the tilt of wall and floor, and the clutter.
+    /// Seed of the pose, the tilt of wall and floor, and the clutter.
     pub seed: u64,
-    /// What surrounds the part.
+    /// The surroundings and the kind of camera.
     pub surroundings: Surroundings,
 }
 
 impl CellSetup {
-    /// A tidy cell: the subject at a drawn pose ([`PoseRange::placed`]) before wall and floor, a Kinect's noise.
+    /// A tidy cell: the subject at a drawn pose ([`PoseRange::placed`]) in front of wall and floor, with a Kinect's noise.
     pub fn new(subject: SimulatedObject, seed: u64) -> Self {
         Self {
             subject,
@@ -138,19 +138,19 @@ impl CellSetup {
     }
 }
 
-/// How far the wall stays behind the part, and the floor below it, metres: room for the stand's post.
+/// Least distance of the wall behind the part, and of the floor below it, in metres: room for the stand's post.
 const CLEARANCE: f64 = 0.15;
-/// Wall and floor are out of true by up to this.
+/// Largest tilt of wall and floor about each axis.
 const MAX_TILT: Radians = Radians(0.05);
 
-/// Keeps the draws of the cell apart from others made with the same seed.
+/// Separates the cell's random numbers from others with the same seed.
 const STREAM: u64 = 0x00ce_11ce_11ce_11ce;
 
-/// Everything in its place, in camera space.
+/// The arranged cell, in camera space.
 pub(super) struct Cell<'a> {
     pub(super) part: &'a TriangleMesh,
     pub(super) camera_from_part: RigidTransform,
-    /// Whether all of the part lies within the frame.
+    /// True if the whole part lies within the picture.
     pub(super) fits_frame: bool,
     /// Everything else, drawn in this order.
     pub(super) meshes: Vec<(TriangleMesh, SurfaceLabel)>,
@@ -159,7 +159,7 @@ pub(super) struct Cell<'a> {
 }
 
 impl<'a> Cell<'a> {
-    /// Hangs the part and arranges the rest around it.
+    /// Places the part and arranges the rest around it.
     pub(super) fn arrange(setup: &CellSetup, part: &'a TriangleMesh) -> Self {
         match setup.surroundings {
             Surroundings::Plain => Self::plain(setup, part),
@@ -245,7 +245,7 @@ impl<'a> Cell<'a> {
     }
 }
 
-/// True if all of the mesh lies within the picture.
+/// Returns true if the whole mesh lies within the picture.
 pub(super) fn is_in_frame(
     part: &TriangleMesh,
     camera_from_part: &RigidTransform,
@@ -259,7 +259,7 @@ pub(super) fn is_in_frame(
     })
 }
 
-/// A plane facing along `normal`, out of true, at the wished offset or as far as the part needs.
+/// Returns a slightly tilted plane with this normal, at the offset `wished` or further if the part needs it.
 fn beyond(normal: Vector3<f64>, wished: f64, hung: &[Point3<f64>], random: &mut Pcg64) -> Plane {
     let mut tilt = || MAX_TILT.0 * (2.0 * random.random::<f64>() - 1.0);
     let normal = Rotation3::from_euler_angles(tilt(), tilt(), 0.0) * normal;

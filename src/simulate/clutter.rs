@@ -1,4 +1,4 @@
-//! What else is in the cell.
+//! Clutter in the plain cell.
 
 use nalgebra::{Point3, Rotation3, Vector3};
 use rand::RngExt as _;
@@ -11,7 +11,7 @@ use super::object::ObjectKind;
 use super::rasteriser::{Plane, Rendering, SurfaceLabel};
 use crate::geometry::depth_frame::Intrinsics;
 
-/// What else is in the cell.
+/// Things in the cell besides the part and its stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Clutter {
@@ -20,11 +20,11 @@ pub enum Clutter {
     None,
     /// Two or three things on the floor, beside and behind the part.
     OnFloor,
-    /// As on the floor, and a plank between camera and part that hides 10 to 25 % of it.
+    /// Like `OnFloor`, plus a plank between camera and part that hides 10 to 25 % of it.
     InFront,
 }
 
-/// Two or three things on the floor that leave the part alone.
+/// Places two or three things on the floor that do not touch the part.
 pub(super) fn on_floor(
     hung: &[Point3<f64>],
     floor: &Plane,
@@ -72,10 +72,10 @@ pub(super) fn on_floor(
     clutter
 }
 
-/// An upright or level plank before the part that hides 12 to 22 % of what the camera would see of it.
+/// Adds an upright or horizontal plank in front of the part that hides 12 to 22 % of its visible surface.
 ///
-/// `draw_part` draws the part into a small picture: counting its pixels row by row says how far the plank has to
-/// reach in.
+/// `draw_part` draws the part into a small picture, whose pixels are counted line by line to find out how far the plank
+/// has to reach.
 pub(super) fn plank(
     clutter: &mut Assembly,
     hung: &[Point3<f64>],
@@ -116,7 +116,7 @@ pub(super) fn plank(
         num_hidden += part_pixels[line];
         num_hidden as f64 >= num_to_hide
     });
-    // The plank's near face; the part's nearest point is behind its far one.
+    // The plank's near face, 15 cm in front of the part where the camera leaves room.
     let nearest = hung.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
     let z = (nearest - 0.15).max(0.55);
     let outwards = if from_low_side { -1.0 } else { 1.0 };
@@ -142,9 +142,9 @@ pub(super) fn plank(
     }
 }
 
-/// The same view with a quarter of the pixels in either direction.
+/// Returns the same view with a quarter of the pixels in each direction.
 fn quartered(camera: &Intrinsics) -> Intrinsics {
-    // Pixel centres are at whole numbers: the corner of the picture is at -½.
+    // Pixel centres are at whole numbers, so the corner of the picture is at -½.
     let shrink = |c: f64| (c + 0.5) / 4.0 - 0.5;
     Intrinsics {
         width: camera.width.div_ceil(4),

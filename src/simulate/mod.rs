@@ -1,6 +1,6 @@
-//! A simulated cell: parametric car parts before wall and floor, seen by a depth camera with a Kinect's noise.
+//! A simulated cell: parametric car parts in front of wall and floor, seen by a depth camera with a Kinect's noise.
 //!
-//! Everything follows from seeds: the same [`CellSetup`] gives the same bits on every machine of one architecture.
+//! Everything is derived from seeds: the same [`CellSetup`] gives the same bits on every machine of one architecture.
 //!
 //! ```text
 //! PartModel / ObjectKind ─► TriangleMesh ─┐
@@ -8,7 +8,7 @@
 //! Stand, Clutter, wall, floor ────────────┘  cell    rasteriser    sensor
 //! ```
 //!
-//! [`Surroundings::Booth`] replaces the second line: a paint booth before a camera on the robot's flange.
+//! [`Surroundings::Booth`] replaces the lower two inputs by a paint booth, seen by a camera on the robot's flange.
 
 mod assembly;
 mod beam;

@@ -1,4 +1,4 @@
-//! Things that are not one of the eight parts: for rejection tests and as clutter.
+//! Objects other than the eight parts, for rejection tests and as clutter.
 
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use super::region::{Region, bend};
 use super::sheet::Sheet;
 use crate::geometry::mesh::TriangleMesh;
 
-/// A thing that may hang or stand in the cell without being a known part.
+/// An object that may hang or stand in the cell without being a known part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ObjectKind {
@@ -44,7 +44,7 @@ impl ObjectKind {
         Self::Bucket,
     ];
 
-    /// The name in files and on the command line.
+    /// Returns the name used in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Hood => "hood",
@@ -58,12 +58,12 @@ impl ObjectKind {
         }
     }
 
-    /// The kind called `name`.
+    /// Returns the kind of this name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// Its surface, metres: the origin is the middle of the bounding box, y is down, the front faces -z.
+    /// Returns the surface in metres: the origin is the centre of the bounding box, y is down, the front faces -z.
     pub fn mesh(self) -> TriangleMesh {
         match self {
             Self::Hood => hood(),

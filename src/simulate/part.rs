@@ -15,7 +15,7 @@ use crate::geometry::mesh::TriangleMesh;
 pub enum PartKind {
     /// The skin around the nose of the car, below grille and head lamps.
     FrontBumper,
-    /// The lid of the luggage space: deck and rear face.
+    /// The lid of the boot: deck and rear face.
     TrunkLid,
     /// The skin around the tail of the car.
     BackBumper,
@@ -44,7 +44,7 @@ impl PartKind {
         Self::Fender,
     ];
 
-    /// The name in files and on the command line.
+    /// Returns the name used in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::FrontBumper => "front_bumper",
@@ -58,7 +58,7 @@ impl PartKind {
         }
     }
 
-    /// The name for people.
+    /// Returns the name to display.
     pub fn title(self) -> &'static str {
         match self {
             Self::FrontBumper => "Front bumper",
@@ -72,12 +72,12 @@ impl PartKind {
         }
     }
 
-    /// The kind called `name`, as [`PartKind::name`] writes it.
+    /// Returns the kind of this name, as given by [`PartKind::name`].
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
-    /// True for parts that a car has once on either side, each the mirror image of the other.
+    /// Returns true for parts that a car has once on each side, as mirror images of each other.
     pub fn is_sided(self) -> bool {
         matches!(self, Self::BackDoor | Self::FrontDoor | Self::Fender)
     }
@@ -89,13 +89,13 @@ impl fmt::Display for PartKind {
     }
 }
 
-/// A side of the car, as its driver says it.
+/// A side of the car, as seen by its driver.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
 )]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
-    /// The left side. Its parts show the front of the car on the viewer's left.
+    /// The left side. On its parts, the front of the car is on the viewer's left.
     #[default]
     Left,
     /// The right side.
@@ -106,7 +106,7 @@ impl Side {
     /// Both sides.
     pub const ALL: [Self; 2] = [Self::Left, Self::Right];
 
-    /// The name in files and on the command line.
+    /// Returns the name used in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Left => "left",
@@ -114,7 +114,7 @@ impl Side {
         }
     }
 
-    /// The side called `name`.
+    /// Returns the side of this name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|side| side.name() == name)
     }
@@ -122,8 +122,8 @@ impl Side {
 
 /// One part of one car model.
 ///
-/// Part space, metres: the origin is the middle of the bounding box; x is right and y down for a viewer who faces
-/// the paint side, z points away from him. The paint side faces -z.
+/// Part space is in metres: the origin is the centre of the bounding box; for a viewer who faces the paint side, x is right,
+/// y down and z away. The paint side faces -z.
 #[derive(Clone, Debug)]
 pub struct PartModel {
     kind: PartKind,
@@ -133,10 +133,10 @@ pub struct PartModel {
 }
 
 impl PartModel {
-    /// The part of car model `model_seed`; 0 is the standard car, any other seed another car of the same class,
-    /// and from [`FIRST_OTHER_MAKE`](crate::simulate::FIRST_OTHER_MAKE) on one of another make.
+    /// Builds the part of car model `model_seed`: 0 is the standard car, any other seed another car of the same class, and
+    /// from [`FIRST_OTHER_MAKE`](crate::simulate::FIRST_OTHER_MAKE) on a car of another make.
     ///
-    /// A part that is not sided is the same whatever `side` says.
+    /// `side` is ignored for parts without sides.
     pub fn new(kind: PartKind, side: Side, model_seed: u64) -> Self {
         let left = parts::build(kind, &mut Variation::new(model_seed, kind as u64)).centred();
         let side = kind.is_sided().then_some(side);
@@ -152,27 +152,27 @@ impl PartModel {
         }
     }
 
-    /// Which part it is.
+    /// Returns the kind of part.
     pub fn kind(&self) -> PartKind {
         self.kind
     }
 
-    /// The side of the car it belongs to; `None` for a part without sides.
+    /// Returns the side of the car; `None` for parts without sides.
     pub fn side(&self) -> Option<Side> {
         self.side
     }
 
-    /// The car model.
+    /// Returns the seed of the car model.
     pub fn model_seed(&self) -> u64 {
         self.model_seed
     }
 
-    /// Its surface in part space.
+    /// Returns the surface in part space.
     pub fn mesh(&self) -> &TriangleMesh {
         &self.mesh
     }
 
-    /// Its surface in part space, without a copy.
+    /// Returns the surface in part space without copying it.
     pub fn into_mesh(self) -> TriangleMesh {
         self.mesh
     }

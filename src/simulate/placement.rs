@@ -1,8 +1,8 @@
-//! Where the part hangs: draws a pose within a range such that the part stays in the picture.
+//! Draws poses from a range such that the part stays in the picture.
 //!
-//! A point (x, y, z) of the turned part, shifted sideways by s, is seen right of column m exactly if
-//! `s ≥ (m - cx) / fx · (z + d) - x`. Over all points that bounds s from both sides, and the room between the
-//! two bounds grows linearly with the distance d. So the nearest distance at which the part fits has a closed form.
+//! A point (x, y, z) of the rotated part, shifted sideways by s, is seen right of column m exactly if
+//! `s ≥ (m - cx) / fx · (z + d) - x`. Taken over all points, this bounds s on both sides, and the gap between the bounds
+//! grows linearly with the distance d. So the nearest distance at which the part fits has a closed form.
 
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -14,24 +14,24 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 use crate::units::{Metres, Radians};
 
-/// Pixels that a fully visible part keeps from the frame's edges.
+/// Distance in pixels of a fully visible part from the frame's edges.
 const MARGIN: f64 = 8.0;
-/// How far a part hangs off the optical axis at most, where there is room, metres.
+/// Largest distance of a part from the optical axis where there is room, in metres.
 const OFF_AXIS: f64 = 0.15;
 
-/// Keeps the draws of the pose apart from others made with the same seed.
+/// Separates the pose's random numbers from others with the same seed.
 const STREAM: u64 = 0x705e_705e_705e_705e;
 
-/// A range of poses. Turned by yaw about its own upright axis first, then pitch, then roll about the optical axis.
+/// A range of poses: yaw about the part's own upright axis first, then pitch, then roll about the optical axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PoseRange {
-    /// Yaw is drawn from ± this angle.
+    /// Largest yaw in either direction.
     pub yaw: Radians,
-    /// Pitch is drawn from ± this angle.
+    /// Largest pitch in either direction.
     pub pitch: Radians,
-    /// Roll is drawn from ± this angle; half a turn is any roll.
+    /// Largest roll in either direction; half a turn allows any roll.
     pub roll: Radians,
-    /// Smallest depth of the part's origin, along the optical axis.
+    /// Least depth of the part's origin along the optical axis.
     pub nearest: Metres,
     /// Largest depth of the part's origin.
     pub farthest: Metres,
@@ -40,15 +40,15 @@ pub struct PoseRange {
 /// A drawn pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledPose {
-    /// Maps the part's coordinates to the camera's.
+    /// The drawn pose.
     pub camera_from_part: RigidTransform,
-    /// False if the part does not fit the frame anywhere in the range at this attitude; it then hangs at the far
-    /// end, cut off evenly.
+    /// False if the part does not fit the frame anywhere in the range with this rotation; it is then at the far end, cut off
+    /// evenly.
     pub fully_visible: bool,
 }
 
 impl PoseRange {
-    /// Hung with care: ± 10° about every axis, 1.0 to 1.4 m away.
+    /// A carefully hung part: ±10° about every axis, 1.0 to 1.4 m away.
     pub fn facing() -> Self {
         Self {
             yaw: Radians::from_degrees(10.0),
@@ -59,7 +59,7 @@ impl PoseRange {
         }
     }
 
-    /// Hung anyhow: ± 30° yaw, ± 20° pitch, any roll, 0.9 to 1.8 m away.
+    /// A carelessly hung part: ±30° yaw, ±20° pitch, any roll, 0.9 to 1.8 m away.
     pub fn placed() -> Self {
         Self {
             yaw: Radians::from_degrees(30.0),
@@ -70,7 +70,7 @@ impl PoseRange {
         }
     }
 
-    /// Turned far away: ± 45° yaw and pitch, any roll, 0.9 to 1.8 m away.
+    /// A strongly rotated part: ±45° yaw and pitch, any roll, 0.9 to 1.8 m away.
     pub fn hard() -> Self {
         Self {
             yaw: Radians::from_degrees(45.0),
@@ -79,10 +79,10 @@ impl PoseRange {
         }
     }
 
-    /// Draws a pose for `mesh`, metres in part space, before the camera.
+    /// Draws a pose for `mesh` (part space, metres).
     ///
-    /// The distance is drawn evenly; a part that would leave the frame moves away to the nearest distance within the
-    /// range at which it fits, and sideways as far as needed.
+    /// The distance is drawn uniformly. A part that would leave the frame is moved to the nearest distance within the range at
+    /// which it fits, and sideways as far as needed.
     pub fn draw(&self, mesh: &TriangleMesh, intrinsics: &Intrinsics, seed: u64) -> SampledPose {
         let mut random = Pcg64::seed_from_u64(seed ^ STREAM);
         let mut within = |limit: Radians| limit.0 * (2.0 * random.random::<f64>() - 1.0);
@@ -121,7 +121,7 @@ impl PoseRange {
     }
 }
 
-/// The sideways room of the part along one image axis: shifts from `low_slope·d + low` to `high_slope·d + high`.
+/// The allowed shifts along one image axis at distance d: `low_slope·d + low` to `high_slope·d + high`.
 struct ShiftRange {
     low_slope: f64,
     low: f64,
@@ -152,12 +152,12 @@ impl ShiftRange {
         }
     }
 
-    /// The distance from which on the two bounds leave room.
+    /// Returns the least distance at which the two bounds leave room.
     fn nearest_fit(&self) -> f64 {
         (self.low - self.high) / (self.high_slope - self.low_slope)
     }
 
-    /// The allowed shift at `distance` nearest to `wished`; the middle where none is allowed.
+    /// Returns the allowed shift nearest to `wished`; the middle of the bounds if none is allowed.
     fn shift(&self, distance: f64, wished: f64) -> f64 {
         let low = self.low_slope * distance + self.low;
         let high = self.high_slope * distance + self.high;

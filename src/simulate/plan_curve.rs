@@ -1,8 +1,8 @@
-//! The U that a bumper draws when seen from above.
+//! The U-shaped plan of a bumper, seen from above.
 
 use nalgebra::Vector2;
 
-/// How a bumper runs from the middle of the car to its end, all lengths in metres.
+/// The shape from the middle of the car to the bumper's end; lengths in metres.
 pub(super) struct PlanShape {
     /// Half of the overall width.
     pub(super) half_width: f64,
@@ -10,13 +10,13 @@ pub(super) struct PlanShape {
     pub(super) front_radius: f64,
     /// Radius of the corner.
     pub(super) corner_radius: f64,
-    /// Direction of the end against the front, radians: a little under a right angle.
+    /// Direction of the end relative to the front, in radians: a little under a right angle.
     pub(super) end_heading: f64,
     /// How far the ends lie behind the middle.
     pub(super) wrap: f64,
 }
 
-/// The right half of the curve by arc length.
+/// The right half of the curve, sampled by arc length.
 pub(super) struct PlanCurve {
     /// Position (x, z) and heading every [`STEP`] metres.
     samples: Vec<(Vector2<f64>, f64)>,
@@ -27,8 +27,8 @@ const STEP: f64 = 0.001;
 impl PlanCurve {
     /// Draws the curve: bow, corner, straight end.
     pub(super) fn new(shape: &PlanShape) -> Self {
-        // The corner starts where the end comes out at the asked half width. A later start moves the end out by
-        // nearly as much, so a few corrections settle it.
+        // Find the start of the corner for which the end has the required half width. A later start moves the end out by
+        // nearly as much, so a few corrections suffice.
         let mut corner_start = shape.half_width - shape.corner_radius;
         let mut samples = Vec::new();
         for _ in 0..6 {
@@ -39,12 +39,12 @@ impl PlanCurve {
         Self { samples }
     }
 
-    /// Arc length from the middle to the end.
+    /// Returns the arc length from the middle to the end.
     pub(super) fn half_length(&self) -> f64 {
         (self.samples.len() - 1) as f64 * STEP
     }
 
-    /// The point at arc length `u` (negative to the left) pushed outwards by `bulge`, as (x, z).
+    /// Returns the point at arc length `u` (negative to the left), moved outwards by `bulge`, as (x, z).
     pub(super) fn at(&self, u: f64, bulge: f64) -> (f64, f64) {
         let place = u.abs() / STEP;
         let index = (place as usize).min(self.samples.len() - 2);
@@ -61,7 +61,7 @@ impl PlanCurve {
 fn draw(shape: &PlanShape, corner_start: f64) -> Vec<(Vector2<f64>, f64)> {
     let (mut position, mut heading) = (Vector2::zeros(), 0.0_f64);
     let mut samples = vec![(position, heading)];
-    // A bumper is under 2 m from the middle to the end: the bound only guards against a shape without an end.
+    // A bumper measures under 2 m from the middle to the end; the bound only guards against a shape without an end.
     while position.y < shape.wrap && samples.len() < 2000 {
         let bending = if position.x < corner_start {
             1.0 / shape.front_radius

@@ -1,8 +1,8 @@
 //! Draws triangles into a depth image, a label image and an image of the viewing angle.
 //!
-//! Coverage by edge functions (Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988), sampled at
-//! pixel centres. The reciprocal of depth is linear over the image of a plane, so each triangle's depth is that of
-//! its plane exactly. Both faces of a triangle are drawn: sheet metal is seen through openings from inside.
+//! Coverage is tested by edge functions (Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988) at pixel
+//! centres. The reciprocal of depth is linear over the image of a plane, so each triangle's depth is exactly that of its
+//! plane. Both faces of a triangle are drawn: sheet metal is seen from inside through openings.
 
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -11,11 +11,11 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 use crate::geometry::{depth_frame::Intrinsics, distortion::Distortion};
 
-/// What a pixel shows.
+/// The surface that a pixel shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SurfaceLabel {
-    /// Nothing: the ray leaves the cell.
+    /// No surface: the ray leaves the cell.
     #[default]
     Background,
     /// The wall behind the part.
@@ -24,15 +24,15 @@ pub enum SurfaceLabel {
     Floor,
     /// The part, or the unknown object in its place.
     Part,
-    /// What holds the part.
+    /// The stand that holds the part.
     Stand,
     /// Anything else in the cell.
     Clutter,
 }
 
-/// Nothing nearer than this is drawn, metres.
+/// Nothing nearer than this is drawn, in metres.
 const NEAR: f64 = 0.05;
-/// Slack of the edge test in pixel², so that no crack opens between neighbours.
+/// Slack of the edge test in pixel², so that no gaps open between neighbouring triangles.
 const EDGE_SLACK: f64 = 1e-7;
 
 /// An infinite plane in camera space: the points p with normal · p = offset.
@@ -43,16 +43,16 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// The y at which a plane that is about level has the given x and z.
+    /// Returns the y at this x and z of a roughly horizontal plane.
     pub(super) fn height_at(&self, x: f64, z: f64) -> f64 {
         (self.offset - self.normal.x * x - self.normal.z * z) / self.normal.y
     }
 }
 
-/// The images while they are drawn. Row by row from the top left.
+/// The images being drawn, row by row from the top left.
 pub(super) struct Rendering {
     pub(super) intrinsics: Intrinsics,
-    /// Depth along the optical axis, metres; infinite where nothing is.
+    /// Depth along the optical axis in metres; infinite where nothing is drawn.
     pub(super) depth: Vec<f32>,
     /// |cosine| of the angle between the viewing ray and the surface normal, 0..1.
     pub(super) facing: Vec<f32>,
@@ -60,7 +60,7 @@ pub(super) struct Rendering {
 }
 
 impl Rendering {
-    /// Empty images of a pinhole camera: straight edges are drawn as straight lines.
+    /// Creates empty images of the camera without its lens distortion, so that straight edges stay straight.
     pub(super) fn new(intrinsics: Intrinsics) -> Self {
         let num_pixels = intrinsics.width * intrinsics.height;
         Self {
@@ -74,7 +74,7 @@ impl Rendering {
         }
     }
 
-    /// The number of pixels that show `label`.
+    /// Counts the pixels that show `label`.
     pub(super) fn num_pixels(&self, label: SurfaceLabel) -> usize {
         self.labels.iter().filter(|&&l| l == label).count()
     }
@@ -104,7 +104,7 @@ impl Rendering {
         }
     }
 
-    /// Draws a plane wherever it lies before the camera.
+    /// Draws a plane wherever it lies in front of the camera.
     pub(super) fn draw_plane(&mut self, plane: &Plane, label: SurfaceLabel) {
         let camera = self.intrinsics;
         for v in 0..camera.height {
@@ -122,7 +122,7 @@ impl Rendering {
         }
     }
 
-    /// Puts what was drawn elsewhere, by the same camera, behind and between what is drawn here.
+    /// Merges another rendering by the same camera; the nearer surface wins.
     pub(super) fn draw_behind(&mut self, other: &Self) {
         for pixel in 0..self.depth.len() {
             if other.depth[pixel] < self.depth[pixel] {
@@ -162,7 +162,7 @@ impl Rendering {
         let inverse_u = normal.x / camera.fx / offset;
         let inverse_v = normal.y / camera.fy / offset;
         let inverse_0 = normal.z / offset - inverse_u * camera.cx - inverse_v * camera.cy;
-        // Beyond its corners' depths a triangle cannot be; edge-on ones would otherwise run off within the slack.
+        // Depths are clamped to those of the corners: triangles seen edge-on could exceed them within the slack.
         let nearest = corners[0].z.min(corners[1].z).min(corners[2].z);
         let farthest = corners[0].z.max(corners[1].z).max(corners[2].z);
         let sight = corners[0].coords + corners[1].coords + corners[2].coords;
@@ -193,7 +193,7 @@ impl Rendering {
     }
 }
 
-/// What of a triangle lies beyond the near plane (Sutherland and Hodgman, "Reentrant Polygon Clipping", CACM 1974).
+/// Returns the part of a triangle beyond the near plane (Sutherland and Hodgman, "Reentrant Polygon Clipping", CACM 1974).
 fn clip_near(corners: &[Point3<f64>; 3]) -> Vec<Point3<f64>> {
     let mut kept = Vec::with_capacity(4);
     for k in 0..3 {
@@ -223,7 +223,7 @@ mod tests {
         distortion: Distortion::NONE,
     };
 
-    /// Moeller-Trumbore, for every triangle: slow and obvious.
+    /// Moeller-Trumbore for every triangle: slow and obvious.
     fn cast(mesh: &TriangleMesh, pose: &RigidTransform, direction: &Vector3<f64>) -> f64 {
         let mut nearest = f64::INFINITY;
         for corners in &mesh.triangles {
@@ -279,7 +279,7 @@ mod tests {
                 }
             }
             assert!(num_hit > 200, "{kind:?} fills {num_hit} pixels");
-            // A ray through an edge may fall on either side by rounding.
+            // Rounding may put a ray through an edge on either side.
             assert!(
                 num_different <= 2,
                 "{kind:?}: {num_different} of {num_hit} differ"

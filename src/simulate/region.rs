@@ -1,27 +1,27 @@
 //! Flat regions with rounded outlines and openings, as signed distances.
 //!
-//! A region answers one question: how far is this point from my edge, negative inside. Regions are cut out of
-//! one another by taking the larger or the smaller distance. Such a combination is exact at the edge and a lower
-//! bound elsewhere, which is all that trimming a sheet needs.
+//! A region is a function that returns the distance of a point from the region's edge, negative inside. Regions are combined
+//! by taking the larger or the smaller distance. The result is exact at the edge and a lower bound elsewhere, which is
+//! enough for trimming a sheet.
 
 use nalgebra::{Point2, Vector2};
 
-/// A corner of an outline: where the straight edges would meet, and the radius that rounds it.
+/// A corner of an outline: u and v where the straight edges would meet, and the radius that rounds it.
 pub(super) type Corner = (f64, f64, f64);
 
-/// A region of the sheet's own flat coordinates, metres.
+/// A region in the sheet's own flat coordinates, in metres.
 pub(super) struct Region(Box<dyn Fn(Point2<f64>) -> f64>);
 
 impl Region {
-    /// The inside of a closed outline; the last corner joins the first. Either direction.
+    /// The inside of a closed outline, given in either direction; the last corner joins the first.
     pub(super) fn outline(corners: &[Corner]) -> Self {
         let edges = edges(&rounded(corners));
         Self(Box::new(move |p| distance_to_polygon(&edges, p)))
     }
 
-    /// As [`Region::outline`], from the right half of a shape that is the same on both sides of u = 0.
+    /// Like [`Region::outline`], from the right half of a shape that is symmetric about u = 0.
     ///
-    /// The corners run from the top to the bottom; the left half is added in the opposite order.
+    /// The corners run from top to bottom; the left half is added in reverse order.
     pub(super) fn symmetric_outline(right_half: &[Corner]) -> Self {
         let left_half = right_half.iter().rev().map(|&(u, v, r)| (-u, v, r));
         let corners: Vec<Corner> = right_half.iter().copied().chain(left_half).collect();
@@ -34,7 +34,7 @@ impl Region {
         Self(Box::new(move |p| (p - centre).norm() - radius))
     }
 
-    /// A rectangle with rounded corners: width, height and corner radius.
+    /// A rectangle with rounded corners. `size` is width and height.
     pub(super) fn slot(centre: (f64, f64), size: (f64, f64), radius: f64) -> Self {
         let centre = Point2::new(centre.0, centre.1);
         let half = Vector2::new(size.0 / 2.0 - radius, size.1 / 2.0 - radius);
@@ -44,42 +44,42 @@ impl Region {
         }))
     }
 
-    /// What is in this region and not in `opening`.
+    /// Subtracts `opening` from this region.
     pub(super) fn minus(self, opening: Self) -> Self {
         Self(Box::new(move |p| self.0(p).max(-opening.0(p))))
     }
 
-    /// What is in both regions.
+    /// Intersects two regions.
     pub(super) fn and(self, other: Self) -> Self {
         Self(Box::new(move |p| self.0(p).max(other.0(p))))
     }
 
-    /// The region together with its mirror image about u = 0.
+    /// Adds the region's mirror image about u = 0.
     pub(super) fn on_both_sides(self) -> Self {
         Self(Box::new(move |p| {
             self.0(p).min(self.0(Point2::new(-p.x, p.y)))
         }))
     }
 
-    /// Signed distance to the edge, metres, negative inside.
+    /// Returns the signed distance to the edge in metres, negative inside.
     pub(super) fn distance(&self, u: f64, v: f64) -> f64 {
         self.0(Point2::new(u, v))
     }
 
-    /// 1 well inside, 0 outside, with a smooth shoulder of the given width inside the edge: the shape of a
-    /// pressed recess.
+    /// Returns the depth of a pressed recess: 1 well inside, 0 outside, with a smooth shoulder of this width (in metres)
+    /// inside the edge.
     pub(super) fn pressing(&self, u: f64, v: f64, shoulder: f64) -> f64 {
         smooth_step(-self.distance(u, v) / shoulder)
     }
 }
 
-/// 0 up to 0, 1 from 1 on, and a smooth S in between.
+/// Rises smoothly from 0 at t ≤ 0 to 1 at t ≥ 1.
 pub(super) fn smooth_step(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
-/// max(0, t), with the kink at 0 rounded over ± `radius`: a bend line of a pressed sheet.
+/// Returns max(0, t) with the kink at 0 rounded over ±`radius`: a bend line of a pressed sheet.
 pub(super) fn bend(t: f64, radius: f64) -> f64 {
     if t <= -radius {
         0.0
@@ -90,7 +90,7 @@ pub(super) fn bend(t: f64, radius: f64) -> f64 {
     }
 }
 
-/// A closed polygon with every corner replaced by an arc.
+/// Returns a closed polygon with every corner rounded.
 fn rounded(corners: &[Corner]) -> Vec<Point2<f64>> {
     let at = |i: usize| {
         let (u, v, _) = corners[i % corners.len()];
@@ -104,14 +104,14 @@ fn rounded(corners: &[Corner]) -> Vec<Point2<f64>> {
         let (last_length, next_length) = (to_last.norm(), to_next.norm());
         let (a, b) = (to_last / last_length, to_next / next_length);
         let half_angle = a.dot(&b).clamp(-1.0, 1.0).acos() / 2.0;
-        // Neighbouring arcs may use half of their shared edge each.
+        // Neighbouring curves may each use half of their shared edge.
         let longest = 0.5 * last_length.min(next_length);
         let tangent = (corners[i].2 / half_angle.tan()).min(longest);
         if tangent < 1e-4 || half_angle > 1.56 {
             polygon.push(corner);
             continue;
         }
-        // A quadratic Bézier between the tangent points: no arc, but as round to the eye and never out of order.
+        // A quadratic Bézier between the tangent points: not an arc, but as round to the eye, and its points stay in order.
         let (start, end) = (corner + a * tangent, corner + b * tangent);
         let num_steps = 8;
         for step in 0..=num_steps {
@@ -124,7 +124,7 @@ fn rounded(corners: &[Corner]) -> Vec<Point2<f64>> {
     polygon
 }
 
-/// One edge of a polygon, prepared for many distances.
+/// One edge of a polygon, prepared for many distance queries.
 struct Edge {
     start: Point2<f64>,
     along: Vector2<f64>,
@@ -145,7 +145,7 @@ fn edges(polygon: &[Point2<f64>]) -> Vec<Edge> {
         .collect()
 }
 
-/// Signed distance to a closed polygon, negative inside (even-odd rule).
+/// Returns the signed distance to a closed polygon, negative inside (even-odd rule).
 fn distance_to_polygon(edges: &[Edge], p: Point2<f64>) -> f64 {
     let mut nearest_sq = f64::INFINITY;
     let mut sign = 1.0;
@@ -156,7 +156,7 @@ fn distance_to_polygon(edges: &[Edge], p: Point2<f64>) -> f64 {
         let starts_below = to_p.y >= 0.0;
         let ends_below = to_p.y >= edge.along.y;
         if starts_below != ends_below {
-            // The level line through p crosses the edge: on p's right?
+            // The horizontal line through p crosses the edge: is it to the right of p?
             let right = to_p.x * edge.along.y < edge.along.x * to_p.y;
             if right == (edge.along.y > 0.0) {
                 sign = -sign;

@@ -1,8 +1,8 @@
 //! A simulated scan: a part that stands still in a cell, seen by a camera that a robot carries around it.
 //!
-//! Unlike [`super::cell`], which arranges wall and floor around one camera, everything here has its place in the robot's
-//! base frame (z up), so that frames from several sides show the same cell. The poses that the robot tells are off the
-//! true ones by as much as is asked for.
+//! Unlike in [`super::cell`], which arranges wall and floor around one camera, everything here is placed in the robot's
+//! base frame (z up), so that frames from several sides show the same cell. The poses that the robot reports differ from the
+//! true ones by given errors.
 
 use nalgebra::{
     Isometry3, Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3,
@@ -19,31 +19,31 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 use crate::units::{Metres, Radians};
 
-/// All that a simulated scan depends on.
+/// Everything that determines a simulated scan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScanSetup {
-    /// What stands in the cell.
+    /// The object in the cell.
     pub subject: SimulatedObject,
-    /// Frames.
+    /// Number of frames.
     pub num_shots: usize,
-    /// How far the camera is from where the robot says.
+    /// Distance of the camera from the position that the robot reports.
     pub place_error: Metres,
-    /// How far it is turned from what the robot says.
+    /// Angle of the camera from the orientation that the robot reports.
     pub turn_error: Radians,
     /// Scales the camera's noise, 0..5; 1 is a Kinect's.
     pub noise: f64,
-    /// Draws the places of the camera, the robot's errors and the noise.
+    /// Seed of the camera's positions, the robot's errors and the noise.
     pub seed: u64,
 }
 
 /// One frame of a simulated scan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedShot {
-    /// The frame.
+    /// The camera's frame.
     pub frame: DepthFrame,
-    /// Where the camera truly was.
+    /// The camera's true pose.
     pub base_from_camera: RigidTransform,
-    /// Where the robot says that it was.
+    /// The camera's pose as the robot reports it.
     pub given: RigidTransform,
 }
 
@@ -52,19 +52,19 @@ pub struct SimulatedScan {
     setup: ScanSetup,
     part: TriangleMesh,
     cell: TriangleMesh,
-    /// Where the part's model stands.
+    /// Pose of the part's model in the base frame.
     pub base_from_model: RigidTransform,
 }
 
-/// The middle of the part, base frame, metres.
+/// The middle of the part in the base frame, in metres.
 const MIDDLE: [f64; 3] = [1.9, 0.0, 1.1];
-/// Keeps the draws apart from others made with the same seed.
+/// Separates these random numbers from others with the same seed.
 const STREAM: u64 = 0x5ca9_5ca9_5ca9_5ca9;
 
 impl SimulatedScan {
     /// Builds the part and the cell around it.
     pub fn new(setup: ScanSetup) -> Self {
-        // The model looks at a camera with x right, y down and z away; the part looks back along the base's x.
+        // The model faces a camera with x right, y down and z away; the part faces back along the base's x axis.
         let axes = Matrix3::new(0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0);
         let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
         let [x, y, z] = MIDDLE;
@@ -76,18 +76,18 @@ impl SimulatedScan {
         }
     }
 
-    /// The part's surface in its own coordinates.
+    /// Returns the part's surface in its own coordinates.
     pub fn part(&self) -> &TriangleMesh {
         &self.part
     }
 
-    /// Takes all frames, with the part where it stands.
+    /// Takes all frames, with the part at its own pose.
     pub fn shots(&self) -> Vec<SimulatedShot> {
         let all = (0..self.setup.num_shots).map(|k| self.shot(k, &self.base_from_model));
         all.collect()
     }
 
-    /// Takes the frame of number `k` with the part at a place of its own.
+    /// Takes frame `k` with the part at the given pose.
     pub fn shot(&self, k: usize, base_from_model: &RigidTransform) -> SimulatedShot {
         let setup = &self.setup;
         let seed = setup.seed.wrapping_mul(1000).wrapping_add(k as u64);
@@ -115,7 +115,7 @@ impl SimulatedScan {
         }
     }
 
-    /// From left to right around the part, by turns from above and below, 1.2 to 1.5 m away.
+    /// Poses the camera: from left to right around the part, alternately from above and below, 1.2 to 1.5 m away.
     fn camera(&self, k: usize, random: &mut Pcg64) -> RigidTransform {
         let mut jitter = |range: f64| range * (2.0 * random.random::<f64>() - 1.0);
         let along = k as f64 / (self.setup.num_shots.max(2) - 1) as f64;
@@ -139,7 +139,7 @@ impl SimulatedScan {
     }
 }
 
-/// A direction, evenly from all.
+/// Draws a direction uniformly from the sphere.
 fn direction(random: &mut Pcg64) -> Unit<Vector3<f64>> {
     let z = 2.0 * random.random::<f64>() - 1.0;
     let turn = std::f64::consts::TAU * random.random::<f64>();
@@ -147,7 +147,7 @@ fn direction(random: &mut Pcg64) -> Unit<Vector3<f64>> {
     Unit::new_normalize(Vector3::new(r * turn.cos(), r * turn.sin(), z))
 }
 
-/// Floor, two walls and three boxes, base frame.
+/// Builds floor, two walls and three boxes in the base frame.
 fn cell() -> TriangleMesh {
     let mut cell = Assembly::default();
     let mut face = |corner: [f64; 3], along: [f64; 3], up: [f64; 3]| {
@@ -204,7 +204,7 @@ mod tests {
             assert!((error.rotation.degrees() - 0.3).abs() < 1e-6);
             let middle = shot.base_from_camera.inverse() * Point3::from(MIDDLE);
             assert!((1.0..1.7).contains(&middle.z), "{middle}");
-            // Floor and walls fill what the part leaves.
+            // Floor and walls fill the rest of the picture.
             let num_readings = shot.frame.depth.iter().filter(|d| **d > 0).count();
             assert!(num_readings as f64 > 0.95 * shot.frame.depth.len() as f64);
         }

@@ -1,17 +1,17 @@
-//! A structured-light depth sensor: what it adds to, and loses of, a perfect depth image.
+//! A structured-light depth sensor: the errors and losses that it adds to a perfect depth image.
 //!
-//! The sensor sees a projected dot pattern, matches small blocks of it against a stored one, and turns the disparity
-//! d = f·b/z into depth. From that follow, in this order:
+//! The sensor sees a projected dot pattern, matches small blocks of it against a stored one, and converts the disparity
+//! d = f·b/z to depth. The effects, in order:
 //!
-//! 1. *Shadow*: what the projector, a baseline b to the right of the camera, does not light has no depth. Beside a
-//!    near edge that is a band `f·b·(1/z_near - 1/z_far)` pixels wide, on the left.
-//! 2. *Ragged edges*: a matching block that straddles a jump in depth picks either side, or nothing.
+//! 1. *Shadow*: surfaces that the projector, a baseline b to the right of the camera, does not light have no depth. Beside
+//!    a near edge this is a band `f·b·(1/z_near - 1/z_far)` pixels wide, on the left.
+//! 2. *Ragged edges*: a matching block across a depth discontinuity yields either side, or nothing.
 //! 3. *Lateral noise*: the block's centre of mass is off by about half a pixel.
-//! 4. *Axial noise*: an error of the disparity, equal at all depths, so that the error of z grows with z². It is
-//!    smooth over a few pixels because neighbouring blocks share most of their dots. Slanted surfaces add to it.
+//! 4. *Axial noise*: an error of the disparity, equal at all depths, so that the error of z grows with z². It is smooth
+//!    over a few pixels, because neighbouring blocks share most of their dots. Slanted surfaces increase it.
 //! 5. *Quantisation* of the disparity to 1/8 pixel.
-//! 6. *Grazing*: surfaces seen at more than about 70° fade out. *Dropouts*: small blobs without a match anywhere.
-//! 7. *Range*: nothing nearer than 0.5 m or farther than 4 m.
+//! 6. *Grazing*: surfaces seen at more than about 70° fade out. *Dropouts*: small blobs without a match, anywhere.
+//! 7. *Range*: no readings nearer than 0.5 m or farther than 4 m.
 //!
 //! Sources: K. Khoshelham and S. O. Elberink, "Accuracy and Resolution of Kinect Depth Data for Indoor Mapping
 //! Applications", Sensors 12(2), 2012 (random error ∝ z², about 1.5 mm at 1 m and 4 cm at 5 m);
@@ -23,8 +23,8 @@
 //! SLAM", ICRA 2014 (the order of shift, disparity noise and quantisation). Ours: the smoothing of all noise fields,
 //! the thresholds of the losses, and one multiplier for noise and losses together.
 //!
-//! Known limits: no lens distortion, no slow bowing of depth over the frame, no interference or specular loss, and
-//! the error is drawn afresh per seed where a real sensor repeats part of it from frame to frame.
+//! Known limits: no lens distortion, no slow bowing of depth over the frame, no interference, no specular loss. The error
+//! is drawn anew for each seed, whereas a real sensor repeats part of it from frame to frame.
 
 use rand::{Rng as _, SeedableRng as _};
 use rand_pcg::Pcg64;
@@ -34,28 +34,28 @@ use super::booth::RegisteredCamera;
 use super::rasteriser::{Rendering, SurfaceLabel};
 use crate::geometry::depth_frame::{DepthFrame, Intrinsics};
 
-/// Distance of projector and camera, metres.
+/// Distance between projector and camera, in metres.
 pub(super) const BASELINE: f64 = 0.075;
 /// Steps of the disparity per pixel.
 const STEPS_PER_PIXEL: f64 = 8.0;
-/// Axial noise at 1 m before quantisation, metres. Rounding to a step of 3.17 mm adds 0.92 mm; together 1.5 mm.
+/// Axial noise at 1 m before quantisation, in metres. Rounding to a step of 3.17 mm adds 0.92 mm; together 1.5 mm.
 const AXIAL_AT_1M: f64 = 1.19e-3;
-/// Lateral noise, pixels.
+/// Lateral noise in pixels.
 const LATERAL: f64 = 0.5;
-/// Readings outside this range are lost, metres.
+/// Readings outside this range are lost, in metres.
 const RANGE: (f64, f64) = (0.5, 4.0);
-/// One unit of the frame: 0.2 mm, so that 65 535 units reach 13 m.
+/// One unit of the frame in metres: 0.2 mm, so that 65 535 units reach 13 m.
 const METRES_PER_UNIT: f64 = 0.0002;
-/// A step of disparity between neighbours that is an edge, not a slope: 1 px is 38 mm at 1.2 m.
+/// A step of disparity between neighbours that is an edge and not a slope: 1 px is 38 mm at 1.2 m.
 const EDGE_STEP: f32 = 1.0;
 
 /// How much a frame is disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SensorNoise {
-    /// Scales noise and losses: 1 is a Kinect's, 3 a bad day, 0 a perfect depth image without shadow,
-    /// quantisation or range. From 0 up; above 5 little is left of the frame.
+    /// Scales noise and losses: 1 is a Kinect's, 3 is severe, 0 a perfect depth image without shadow, quantisation or range
+    /// limits. At least 0; above 5 little is left of the frame.
     pub multiplier: f64,
-    /// Draws the noise; the same seed gives the same noise.
+    /// Seed of the noise; the same seed gives the same noise.
     pub seed: u64,
 }
 
@@ -79,14 +79,14 @@ impl SensorNoise {
 
 /// The kinds of sensor.
 pub(super) enum Sensor {
-    /// See the [module](self).
+    /// The sensor of this [module](self).
     Kinect,
-    /// See [`RegisteredCamera`].
+    /// A structured-light camera registered to a colour picture, see [`RegisteredCamera`].
     Registered(Box<RegisteredCamera>),
 }
 
 impl Sensor {
-    /// The frame of a perfect rendering.
+    /// Turns a perfect rendering into a frame.
     pub(super) fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
         match self {
             Self::Kinect => sense(rendering, noise),
@@ -94,7 +94,7 @@ impl Sensor {
         }
     }
 
-    /// How many pixels of the rendering show the part and lie within the field of view.
+    /// Counts the pixels of the rendering that show the part and lie within the field of view.
     pub(super) fn num_part_pixels(&self, rendering: &Rendering) -> usize {
         match self {
             Self::Kinect => rendering.num_pixels(SurfaceLabel::Part),
@@ -103,7 +103,7 @@ impl Sensor {
     }
 }
 
-/// The frame that a Kinect delivers of a perfect rendering.
+/// Returns the frame that a Kinect delivers for a perfect rendering.
 fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
     let depth = if noise.multiplier > 0.0 {
         with_noise(rendering, noise)
@@ -123,7 +123,7 @@ fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
 }
 
 fn in_units(metres: f64) -> u16 {
-    // A cast cuts off, which after adding a half is rounding. Too far is no reading.
+    // The cast truncates, so adding a half rounds. Larger distances become no reading.
     let units = metres / METRES_PER_UNIT + 0.5;
     if units < f64::from(u16::MAX) {
         units as u16
@@ -135,7 +135,7 @@ fn in_units(metres: f64) -> u16 {
 fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
     let camera = &rendering.intrinsics;
     let focal_baseline = camera.fx * BASELINE;
-    // Infinite depth becomes no disparity.
+    // Infinite depth becomes disparity 0.
     let disparity: Vec<f32> = rendering
         .depth
         .iter()
@@ -148,7 +148,7 @@ fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
     let mut rows: [Vec<f32>; 4] = std::array::from_fn(|_| vec![0.0; camera.width]);
 
     let lateral = (LATERAL * noise.multiplier) as f32;
-    // Losses grow more slowly than noise: at 3 the dropouts are five times as many.
+    // Losses grow more slowly than noise: a multiplier of 3 gives five times the dropouts.
     let loss_scale = noise.multiplier.sqrt().sqrt() as f32;
     let mut depth = vec![0; disparity.len()];
     for v in 0..camera.height {
@@ -175,7 +175,7 @@ fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
             let sigma = disparity_sigma(true_disparity, facing, focal_baseline, AXIAL_AT_1M)
                 * noise.multiplier;
             let error = f64::from(axial[u]) * sigma;
-            // A cast cuts off, which after adding a half is rounding; a negative disparity is out of range anyway.
+            // The cast truncates, so adding a half rounds; a negative disparity is out of range anyway.
             let steps = ((true_disparity + error) * STEPS_PER_PIXEL + 0.5) as u32;
             let z = focal_baseline * STEPS_PER_PIXEL / f64::from(steps);
             if (RANGE.0..=RANGE.1).contains(&z) {
@@ -186,20 +186,20 @@ fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
     depth
 }
 
-/// Standard deviation of the disparity before quantisation, pixels, on a surface at |cosine| `facing`; `axial_at_1m` is
-/// that of the depth at 1 m, metres, on a surface that faces the camera.
+/// Returns the standard deviation of the disparity before quantisation, in pixels, on a surface at |cosine| `facing`.
+/// `axial_at_1m` is that of the depth at 1 m, in metres, on a surface that faces the camera.
 pub(super) fn disparity_sigma(
     disparity: f64,
     facing: f64,
     focal_baseline: f64,
     axial_at_1m: f64,
 ) -> f64 {
-    // dd = f·b/z² dz: an error of z that grows with z² is one of the disparity that is the same everywhere.
+    // dd = f·b/z² dz: an error of z that grows with z² is a constant error of the disparity.
     let upright = axial_at_1m * focal_baseline;
     if facing > 0.7 {
         return upright;
     }
-    // The angle's term of Nguyen, Izadi and Lovell's axial model; held below 1 cm where their data end.
+    // The angle's term of Nguyen, Izadi and Lovell's axial model, limited to 1 cm where their data end.
     let z = focal_baseline / disparity;
     let angle = facing.clamp(0.0, 1.0).acos();
     let steep = (std::f64::consts::FRAC_PI_2 - angle).max(0.02);
@@ -207,15 +207,15 @@ pub(super) fn disparity_sigma(
     upright.hypot(slanted * disparity / z)
 }
 
-/// The loss field (unit variance) above which a pixel is lost. Tuned by eye to pictures of real frames.
+/// Returns the value of the loss field (unit variance) above which a pixel is lost. Tuned by eye to real frames.
 fn loss_threshold(edge_nearness: u8, facing: f32) -> f32 {
-    // One pixel in 400 anywhere, half of the pixels at a jump, a quarter of those next to them.
+    // Lost are one pixel in 400 anywhere, half of the pixels at a discontinuity, a quarter of those next to them.
     let at_edge: f32 = match edge_nearness {
         0 => 2.8,
         1 => 0.7,
         _ => 0.0,
     };
-    // cos 68° = 0.375: nothing lost; cos 84° = 0.105: nearly all.
+    // Below cos 68° = 0.375 readings begin to be lost; at cos 84° = 0.105 nearly all are.
     let grazing = if facing < 0.375 {
         2.8 - (0.375 - facing) / (0.375 - 0.105) * 4.3
     } else {
@@ -224,13 +224,13 @@ fn loss_threshold(edge_nearness: u8, facing: f32) -> f32 {
     at_edge.min(grazing)
 }
 
-/// For each pixel whether the projector reaches it.
+/// Returns for each pixel whether the projector lights it.
 ///
-/// A surface point at column u with disparity d lies on the projector's column u - d. In each row the largest
-/// disparity on a projector column is lit, the others lie in its shadow.
+/// A surface point at column u with disparity d lies on the projector's column u - d. On each projector column of a row the
+/// largest disparity is lit; the others lie in its shadow.
 pub(super) fn lit_by_projector(disparity: &[f32], camera: &Intrinsics) -> Vec<bool> {
     let width = camera.width;
-    // Disparity at the sensor's nearest range; nearer things cast a cut-off shadow.
+    // Disparity at the sensor's nearest range; nearer objects cast a shadow that is cut off.
     let margin = (camera.fx * BASELINE / RANGE.0).ceil() as usize;
     let mut lit = vec![true; disparity.len()];
     let mut nearest = vec![0.0_f32; width + margin + 2];
@@ -260,7 +260,7 @@ pub(super) fn lit_by_projector(disparity: &[f32], camera: &Intrinsics) -> Vec<bo
     lit
 }
 
-/// 2 at a jump of the disparity, 1 one pixel further away, 0 elsewhere.
+/// Returns 2 at a discontinuity of the disparity, 1 one pixel further away, 0 elsewhere.
 pub(super) fn edge_nearness(disparity: &[f32], camera: &Intrinsics) -> Vec<u8> {
     let (width, height) = (camera.width, camera.height);
     let mut nearness = vec![0_u8; disparity.len()];
@@ -289,7 +289,7 @@ pub(super) fn edge_nearness(disparity: &[f32], camera: &Intrinsics) -> Vec<u8> {
     nearness
 }
 
-/// The disparity between pixel centres: bilinear on one surface, the nearest pixel's across a jump.
+/// Samples the disparity between pixel centres: bilinear on one surface, the nearest pixel's value across a discontinuity.
 pub(super) fn sample(disparity: &[f32], camera: &Intrinsics, u: f32, v: f32) -> f32 {
     let (width, height) = (camera.width, camera.height);
     let u = u.clamp(0.0, (width - 1) as f32);
@@ -315,15 +315,15 @@ pub(super) fn sample(disparity: &[f32], camera: &Intrinsics, u: f32, v: f32) -> 
     top + (bottom - top) * t
 }
 
-/// A field of unit variance, smooth over a few pixels, row after row: even noise under the binomial filter
-/// (1 4 6 4 1)/16 both ways.
+/// A field of unit variance, smooth over a few pixels, produced row by row: uniform noise filtered with the binomial
+/// (1 4 6 4 1)/16 in both directions.
 ///
-/// 25 weighted even draws are as good as normal out to three deviations, at a tenth of the cost of normal ones.
+/// 25 weighted uniform draws are nearly normal out to three standard deviations, at a tenth of the cost of normal draws.
 pub(super) struct SmoothNoise {
     random: Pcg64,
-    /// Even noise of one row on ± 1.
+    /// Uniform noise on ±1 for one row.
     draws: Vec<f32>,
-    /// The last five rows filtered along themselves, row r at r modulo 5.
+    /// The last five rows, filtered along the row; row r is at index r modulo 5.
     along: [Vec<f32>; 5],
     num_drawn: usize,
 }
@@ -331,11 +331,11 @@ pub(super) struct SmoothNoise {
 impl SmoothNoise {
     const WEIGHTS: [f32; 5] = [1.0, 4.0, 6.0, 4.0, 1.0];
 
-    /// Of several fields of one seed the one with this number: each draws where the one before ends.
+    /// Creates the field of this number among those of one seed: each uses the random numbers after those of the one before.
     pub(super) fn new(camera: &Intrinsics, seed: u64, number: usize) -> Self {
         let num_draws = (camera.width + 4).next_multiple_of(4);
         let mut random = Pcg64::seed_from_u64(seed);
-        // Four draws come out of one number of the generator.
+        // One number of the generator yields four draws.
         random.advance((number * (camera.height + 4) * num_draws / 4) as u128);
         let mut field = Self {
             random,
@@ -358,7 +358,7 @@ impl SmoothNoise {
             }
         }
         let row = &mut self.along[self.num_drawn % 5];
-        // All five in one pass: this is most of the time that a frame takes.
+        // Sum all five in one pass: this takes most of the time of a frame.
         let near = std::array::from_fn(|k| &self.draws[k..][..row.len()]);
         add_up(&Self::WEIGHTS, near, row);
         self.num_drawn += 1;
@@ -366,14 +366,14 @@ impl SmoothNoise {
 
     pub(super) fn next_row(&mut self, row: &mut [f32]) {
         self.draw();
-        // Even noise on ± 1 has variance 1/3; the filter's squared weights add up to 70 per direction.
+        // Uniform noise on ±1 has variance 1/3; the filter's squared weights add up to 70 per direction.
         let scale = 3.0_f32.sqrt() / 70.0;
         let near = std::array::from_fn(|k| &self.along[(self.num_drawn + k) % 5][..]);
         add_up(&Self::WEIGHTS.map(|weight| scale * weight), near, row);
     }
 }
 
-/// Puts the weighted sum of five rows, added up from the first to the last, into a sixth.
+/// Stores the weighted sum of five rows, added in order, in `sum`.
 fn add_up(weights: &[f32; 5], rows: [&[f32]; 5], sum: &mut [f32]) {
     let [v, w, x, y, z] = weights;
     let [a, b, c, d, e] = rows.map(|row| &row[..sum.len()]);
@@ -399,7 +399,7 @@ mod tests {
         rendering
     }
 
-    /// Standard deviation of the readings on flat walls about `z`, so that no step of the disparity is favoured.
+    /// Standard deviation of the readings on flat walls around `z`, so that no step of the disparity is favoured.
     fn sigma(z: f64, multiplier: f64) -> f64 {
         let (mut sum_sq, mut num) = (0.0, 0.0);
         for k in 0..6 {

@@ -1,37 +1,37 @@
-//! Pressed sheet: a flat region lifted into space, its edges folded back.
+//! Pressed sheet: a flat region lifted into space, with its edges folded back.
 //!
 //! The region is trimmed out of a square grid by marching squares (Lorensen and Cline, "Marching Cubes: A High
-//! Resolution 3D Surface Construction Algorithm", SIGGRAPH 1987, in two dimensions), with every edge vertex
-//! bisected onto the true outline, so outlines are smooth at any grid spacing. A web narrower than the spacing may
-//! be lost, and a corner sharper than the spacing is cut off: choose the spacing by the narrowest web.
+//! Resolution 3D Surface Construction Algorithm", SIGGRAPH 1987, in two dimensions). Every edge vertex is bisected onto the
+//! true outline, so outlines are smooth at any grid spacing. A web narrower than the spacing may be lost, and a corner
+//! sharper than the spacing is cut off: choose the spacing by the narrowest web.
 
 use nalgebra::{Point3, Vector3};
 
 use super::assembly::Assembly;
 use super::region::Region;
 
-/// How far the edge vertices keep from the grid's own nodes, as a share of the spacing: no needle-thin triangles.
+/// Least distance of edge vertices from the grid's nodes, as a share of the spacing; avoids needle-thin triangles.
 const SNAP: f64 = 0.04;
-/// Outer radius of a fold, metres: about three times the thickness of body sheet.
+/// Outer radius of a fold in metres: about three times the thickness of body sheet.
 const FOLD_RADIUS: f64 = 0.003;
 
-/// A sheet to be pressed. `u` runs to the right and `v` down as the viewer of the paint side sees it.
+/// A sheet to be pressed. `u` runs right and `v` down for a viewer of the paint side.
 pub(super) struct Sheet<'a> {
     /// The flat shape.
     pub(super) region: &'a Region,
-    /// Smallest and largest u and v that the region may reach.
+    /// Smallest and largest u that the region may reach.
     pub(super) u_range: (f64, f64),
-    /// See `u_range`.
+    /// Smallest and largest v that the region may reach.
     pub(super) v_range: (f64, f64),
-    /// Grid spacing, metres.
+    /// Grid spacing in metres.
     pub(super) spacing: f64,
-    /// Where a flat point goes.
+    /// Maps a flat point to its place in space.
     pub(super) lift: &'a dyn Fn(f64, f64) -> Point3<f64>,
-    /// How deep the edge at a flat point is folded back, metres; 0 leaves it raw.
+    /// Depth in metres to which the edge at a flat point is folded back; up to [`FOLD_RADIUS`] the edge stays raw.
     pub(super) fold: &'a dyn Fn(f64, f64) -> f64,
 }
 
-/// A vertex on the outline and its flat coordinates.
+/// A vertex on the outline with its flat coordinates.
 #[derive(Clone, Copy)]
 struct EdgeVertex {
     index: u32,
@@ -71,7 +71,7 @@ impl Sheet<'_> {
         let stride = columns + 1;
         let mut nodes = Vec::with_capacity(stride * (rows + 1));
         for row in 0..=rows {
-            // The distance cannot change faster than one metre per metre, so it names whole runs of nodes at once.
+            // The distance changes by at most one metre per metre, so one value classifies a whole run of nodes.
             let (mut is_inside, mut known_up_to) = (false, f64::NEG_INFINITY);
             for column in 0..=columns {
                 let (u, v) = flat(column, row);
@@ -120,7 +120,7 @@ impl Sheet<'_> {
                         cell.push(CellVertex::Edge(crossing));
                     }
                 }
-                // Against the walk: u × v points away from the viewer, the paint side towards him.
+                // Reverse the order of the corners: u × v points away from the viewer, the paint side towards the viewer.
                 if corners
                     .iter()
                     .all(|&(i, j)| nodes[j * stride + i].is_some())
@@ -137,7 +137,7 @@ impl Sheet<'_> {
                     if let (CellVertex::Edge(a), CellVertex::Edge(b)) =
                         (cell[k], cell[(k + 1) % cell.len()])
                     {
-                        // The walk leaves the region at `a` and is back in it at `b`.
+                        // The outline of the cell leaves the region at `a` and enters it again at `b`.
                         edges.push((a, b));
                     }
                 }
@@ -146,7 +146,7 @@ impl Sheet<'_> {
         self.fold_edges(assembly, &edges);
     }
 
-    /// The point of the outline between two neighbouring nodes, as a new vertex.
+    /// Adds the point of the outline between two neighbouring nodes as a vertex.
     fn outline_vertex(
         &self,
         assembly: &mut Assembly,
@@ -177,7 +177,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Folds the outline back: a small radius, then a flange against the paint side's normal.
+    /// Folds the outline back: a small radius, then a flange opposite to the paint side's normal.
     fn fold_edges(&self, assembly: &mut Assembly, edges: &[(EdgeVertex, EdgeVertex)]) {
         let mut rings: std::collections::HashMap<u32, Option<[u32; 3]>> =
             std::collections::HashMap::new();
@@ -198,14 +198,14 @@ impl Sheet<'_> {
         }
     }
 
-    /// The vertices of the fold behind one vertex of the outline; `None` where the edge stays raw.
+    /// Adds the vertices of the fold behind one vertex of the outline; returns `None` where the edge stays raw.
     fn fold_ring(&self, assembly: &mut Assembly, vertex: &EdgeVertex) -> Option<[u32; 3]> {
         let EdgeVertex { u, v, .. } = *vertex;
         let depth = (self.fold)(u, v);
         if depth <= FOLD_RADIUS {
             return None;
         }
-        // Half a millimetre is small against every radius and large against rounding.
+        // Half a millimetre is small compared with every radius, and large compared with rounding errors.
         let h = 5e-4;
         let along_u = ((self.lift)(u + h, v) - (self.lift)(u - h, v)) / (2.0 * h);
         let along_v = ((self.lift)(u, v + h) - (self.lift)(u, v - h)) / (2.0 * h);

@@ -1,4 +1,4 @@
-//! A simulated frame and the truth about it.
+//! A simulated frame with its truth.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,28 +10,28 @@ use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 use crate::geometry::sixteen_numbers;
 
-/// What is known about a simulated frame.
+/// The truth about a simulated frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameTruth {
-    /// What hangs before the camera.
+    /// The object in front of the camera.
     pub subject: SimulatedObject,
-    /// Maps the model's own coordinates to the camera's; written as `camera_from_model`, 16 numbers row after row. An
-    /// enrolled part has other coordinates: those of the camera that saw it.
+    /// Transform from the model's own coordinates to the camera's; written as `camera_from_model`, 16 numbers in row-major
+    /// order. An enrolled part has other coordinates: those of the camera that captured it.
     #[serde(rename = "camera_from_model", with = "sixteen_numbers")]
     pub camera_from_part: RigidTransform,
-    /// Whether all of the part lies within the field of view. Something may still stand before it.
+    /// True if the whole part lies within the field of view. Something may still hide it.
     pub fully_visible: bool,
-    /// Pixels of the field of view that show the part, as a share of those that would with nothing before it and a
-    /// picture without edges: the share of its camera-facing surface that is in sight.
+    /// Share of the part's camera-facing surface that is visible: its pixels in the field of view, divided by those it
+    /// would have with nothing in front of it and in an unlimited picture.
     pub visible_share: f64,
-    /// What each pixel shows, row by row from the top left, before any noise: a pixel without a reading still has
+    /// The surface that each pixel shows, row by row from the top left, before any noise: a pixel without a reading still has
     /// its label.
     #[serde(skip)]
     pub labels: Vec<SurfaceLabel>,
 }
 
 impl FrameTruth {
-    /// The part, if it is one of the eight.
+    /// Returns the kind of part, if the object is one of the eight.
     pub fn part(&self) -> Option<PartKind> {
         match self.subject {
             SimulatedObject::Part { kind, .. } => Some(kind),
@@ -40,12 +40,12 @@ impl FrameTruth {
     }
 }
 
-/// A frame as the sensor delivers it, with the truth about it.
+/// A frame as the sensor delivers it, with its truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedFrame {
-    /// The frame.
+    /// The camera's frame.
     pub frame: DepthFrame,
-    /// The truth.
+    /// The truth about the frame.
     pub truth: FrameTruth,
 }
 
@@ -54,7 +54,7 @@ pub fn frame(setup: &CellSetup) -> SimulatedFrame {
     frame_of_mesh(setup, &setup.subject.mesh())
 }
 
-/// As [`frame`], with the subject's mesh already built: for many frames of one subject.
+/// Like [`frame`], with the subject's mesh already built, for many frames of one subject.
 pub fn frame_of_mesh(setup: &CellSetup, mesh: &TriangleMesh) -> SimulatedFrame {
     let cell = Cell::arrange(setup, mesh);
     let mut rendering = Rendering::new(setup.intrinsics);
@@ -80,7 +80,7 @@ pub fn frame_of_mesh(setup: &CellSetup, mesh: &TriangleMesh) -> SimulatedFrame {
     }
 }
 
-/// The part's pixels in a picture three times as wide and high: all of them, unless it nearly touches the camera.
+/// Counts the part's pixels in a picture three times as wide and high, which holds the part unless it is very near.
 fn num_pixels_without_edges(
     part: &TriangleMesh,
     camera_from_part: &RigidTransform,

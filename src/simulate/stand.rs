@@ -1,4 +1,4 @@
-//! What holds the part.
+//! Stands of the plain cell.
 
 use nalgebra::{Point3, Vector2, Vector3};
 use rand::RngExt as _;
@@ -9,33 +9,33 @@ use super::assembly::Assembly;
 use super::beam::{Section, sweep};
 use super::rasteriser::Plane;
 
-/// What holds the part.
+/// The stand that holds the part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stand {
-    /// Nothing in sight.
+    /// No stand in sight.
     #[default]
     None,
     /// A post behind the part with a cross bar and two hooks over the part's upper edge.
     Post,
-    /// The floor: it stands there on an edge or on two corners, and the camera looks down at it.
+    /// The part stands on the floor, on an edge or on two corners, and the camera looks down at it.
     Floor,
 }
 
-/// How far the camera looks down at what stands on the floor.
+/// How far the camera looks down at a part on the floor, in radians.
 const LOOKING_DOWN: std::ops::Range<f64> = 0.0..0.45;
 
-/// Which way is down for a camera that looks down at the floor.
+/// Draws the downward direction for a camera that looks down at the floor.
 pub(super) fn down_from_above(random: &mut Pcg64) -> Vector3<f64> {
     let (sin, cos) = random.random_range(LOOKING_DOWN).sin_cos();
     Vector3::new(0.0, cos, sin)
 }
 
-/// The floor that a part stands on as it hangs there: about square to `down`, turned in the picture until it touches
-/// the part below its middle from both sides.
+/// Returns the floor below a part at its present pose: roughly perpendicular to `down`, rolled in the picture so that it
+/// touches the part on both sides of its middle.
 pub(super) fn floor_below(hung: &[Point3<f64>], down: &Vector3<f64>) -> Option<Plane> {
     let aside = Vector3::x();
-    // Sideways and down.
+    // Coordinates sideways and down.
     let mut flat: Vec<[f64; 2]> = hung
         .iter()
         .map(|p| [aside.dot(&p.coords), down.dot(&p.coords)])
@@ -44,7 +44,7 @@ pub(super) fn floor_below(hung: &[Point3<f64>], down: &Vector3<f64>) -> Option<P
     let middle = flat.iter().map(|p| p[0]).sum::<f64>() / flat.len().max(1) as f64;
     let mut lower: Vec<[f64; 2]> = Vec::new();
     for p in flat {
-        // The convex hull's lower side: no corner may lie above the line past it.
+        // Lower side of the convex hull: drop corners above the line between their neighbours.
         while let [.., a, b] = lower[..]
             && (b[0] - a[0]) * (p[1] - a[1]) >= (b[1] - a[1]) * (p[0] - a[0])
         {
@@ -63,7 +63,7 @@ pub(super) fn floor_below(hung: &[Point3<f64>], down: &Vector3<f64>) -> Option<P
     })
 }
 
-/// A post behind the part, a cross bar at its upper edge, two hooks over that edge.
+/// Builds a post behind the part, a cross bar at its upper edge, and two hooks over that edge.
 pub(super) fn post(hung: &[Point3<f64>], floor: &Plane) -> Assembly {
     let mut stand = Assembly::default();
     let Some(&first) = hung.first() else {
@@ -75,7 +75,7 @@ pub(super) fn post(hung: &[Point3<f64>], floor: &Plane) -> Assembly {
     let x = 0.5 * (low.x + high.x);
     let z = high.z + 0.05;
     let reach = 0.2 * (high.x - low.x);
-    // The upper edge where a hook takes hold: the highest point within 2 cm to either side.
+    // The upper edge at a hook: the highest point within 2 cm to either side.
     let edge_above = |x: f64| {
         hung.iter()
             .filter(|p| (p.x - x).abs() < 0.02)

@@ -1,4 +1,4 @@
-//! A cell that stands still while many frames are taken of it: what does not move is drawn once.
+//! A fixed cell for many frames: everything that does not move is drawn once.
 
 use super::cell::{Cell, CellSetup, SimulatedObject, is_in_frame};
 use super::rasteriser::{Rendering, SurfaceLabel};
@@ -8,7 +8,7 @@ use crate::geometry::depth_frame::Intrinsics;
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 
-/// A cell that stands still; only the part moves, and the sensor's noise changes.
+/// A fixed cell in which only the part moves and the sensor's noise changes.
 pub struct StandingCell {
     subject: SimulatedObject,
     mesh: TriangleMesh,
@@ -20,7 +20,7 @@ pub struct StandingCell {
 }
 
 impl StandingCell {
-    /// Arranges the cell around the part as it hangs at rest. `mesh` is the subject's.
+    /// Arranges the cell around the part at rest. `mesh` is the subject's mesh.
     pub fn arrange(setup: &CellSetup, mesh: TriangleMesh) -> Self {
         let cell = Cell::arrange(setup, &mesh);
         let mut backdrop = Rendering::new(setup.intrinsics);
@@ -36,12 +36,12 @@ impl StandingCell {
         }
     }
 
-    /// Where the part hangs at rest: `camera_from_part`.
+    /// Returns the part's pose at rest, `camera_from_part`.
     pub fn rest_pose(&self) -> RigidTransform {
         self.camera_from_part
     }
 
-    /// A frame with the part at this pose. A part of which nothing is in the picture is not there: the truth says
+    /// Takes a frame with the part at this pose. If no pixel shows the part, the truth is
     /// [`SimulatedObject::Nothing`].
     pub fn frame(&self, camera_from_part: &RigidTransform, noise: &SensorNoise) -> SimulatedFrame {
         let mut rendering = Rendering::new(self.intrinsics);
@@ -52,7 +52,7 @@ impl StandingCell {
         let num_alone = if fully_visible || num_in_frame == 0 {
             num_in_frame
         } else {
-            // Rounded: the pixels at its own rim are counted coarsely.
+            // The coarse count may fall below the exact number of pixels in the picture.
             num_in_frame.max(self.num_pixels_without_edges(camera_from_part))
         };
         rendering.draw_behind(&self.backdrop);
@@ -73,8 +73,8 @@ impl StandingCell {
         }
     }
 
-    /// About as many pixels as the part would have in a picture without edges: from one that shows three times as much
-    /// at a third of the resolution, since a part that moves in has to be counted at the camera's rate.
+    /// Estimates the part's pixels in an unlimited picture, from one that shows three times as much at a third of the
+    /// resolution: it must keep up with the camera while a part moves in.
     fn num_pixels_without_edges(&self, camera_from_part: &RigidTransform) -> usize {
         const COARSER: usize = 3;
         let camera = self.intrinsics;
@@ -138,7 +138,7 @@ mod tests {
         let truth = cell.frame(&half, &setup.noise).truth;
         assert_eq!(truth.subject, setup.subject);
         assert!(!truth.fully_visible && truth.visible_share < 0.9);
-        // Counted to the pixel where all of it is drawn for this one frame.
+        // For this single frame the pixels are counted exactly.
         let cut = CellSetup {
             pose: crate::simulate::PartPose::Fixed(half),
             ..setup

@@ -1,4 +1,4 @@
-//! What the camera's thread and its owner share: what came and was not taken yet, and how the thread is.
+//! State shared by the camera's thread and the feed: items not yet taken, and the status.
 
 use std::{
     collections::VecDeque,
@@ -13,24 +13,24 @@ use crate::{
     error::lock,
 };
 
-/// So many notes of unreadable things wait at most; the oldest go first.
+/// Maximum number of waiting notes about unreadable things; the oldest are dropped first.
 const MAX_SKIPPED: usize = 64;
 
 pub(super) struct Slot {
     delivery: BackpressurePolicy,
     on_news: Box<dyn Fn() + Send + Sync>,
     inner: Mutex<Inner>,
-    /// Something was put, taken, or changed its state.
+    /// Signals that an item was put or taken, or the state changed.
     changed: Condvar,
 }
 
 struct Inner {
-    /// At most one capture.
+    /// At most one capture, and notes about unreadable things.
     waiting: VecDeque<FeedItem>,
     is_stopping: bool,
     status: FeedStatus,
     rate: FrameRate,
-    /// Those that get everything that this one gets.
+    /// Slots that receive everything this one receives.
     taps: Vec<Weak<Slot>>,
 }
 
@@ -64,7 +64,7 @@ impl Slot {
         }
     }
 
-    /// Nothing panics while the lock is held, so what it guards is whole even if it is poisoned.
+    /// Nothing panics while the lock is held, so the data are consistent even if it is poisoned.
     fn lock(&self) -> MutexGuard<'_, Inner> {
         lock(&self.inner)
     }
@@ -74,7 +74,7 @@ impl Slot {
         (self.on_news)();
     }
 
-    // The owner's side.
+    // Calls of the feed's owner.
 
     pub(super) fn take(&self, at_most: Duration) -> Option<FeedItem> {
         let inner = self.lock();
@@ -102,12 +102,12 @@ impl Slot {
         self.changed.notify_all();
     }
 
-    /// Another slot, which gets what this one gets from now on and keeps the newest.
+    /// Returns another slot, which receives what this one receives from now on and keeps the newest.
     pub(super) fn tap(&self) -> Arc<Self> {
         let tap = Arc::new(Self::new(BackpressurePolicy::Newest, Box::new(|| ())));
         let mut inner = self.lock();
         {
-            // Nobody else knows it yet.
+            // This lock cannot block: nobody else knows the tap yet.
             let mut theirs = tap.lock();
             theirs.status.state = inner.status.state.clone();
             theirs.status.title.clone_from(&inner.status.title);
@@ -119,7 +119,7 @@ impl Slot {
         tap
     }
 
-    // The thread's side. A slot is locked before its taps.
+    // Calls of the camera's thread. A slot is locked before its taps.
 
     pub(super) fn is_stopping(&self) -> bool {
         self.lock().is_stopping
@@ -154,7 +154,8 @@ impl Slot {
         self.tell();
     }
 
-    /// Hands an item over. Where every capture counts, waits until the one before was taken, or nobody wants it.
+    /// Delivers an item. With [`BackpressurePolicy::Every`], waits until the previous one was taken or the feed is
+    /// stopping.
     pub(super) fn put(&self, item: FeedItem) {
         let mut inner = self.lock();
         for tap in inner.taps() {
@@ -195,7 +196,7 @@ impl Slot {
         self.tell();
     }
 
-    /// Waits, or is woken to stop.
+    /// Waits for a time; being told to stop ends the wait.
     pub(super) fn sleep(&self, time: Duration) {
         let inner = self.lock();
         drop(
@@ -204,7 +205,7 @@ impl Slot {
         );
     }
 
-    /// Reports a fault of the thread as its state when dropped by it.
+    /// Returns a guard that, dropped by a panic of the thread, reports it as the state.
     pub(super) fn guard(&self) -> Guard<'_> {
         Guard { slot: self }
     }

@@ -9,7 +9,7 @@ use jiff::Timestamp;
 use super::*;
 use crate::{files::FileError, kit};
 
-/// Long enough for a machine at work with other things; what is waited for comes at once.
+/// Long enough for a busy machine; normally what is waited for comes at once.
 const PATIENCE: Duration = Duration::from_mins(1);
 
 fn captured(number: u64) -> Captured {
@@ -29,7 +29,7 @@ fn hopeless() -> CaptureError {
     }
 }
 
-/// Gives what it was told to give, then nothing more, or the end.
+/// Delivers the given steps, then nothing more, or the end.
 struct Script {
     steps: VecDeque<Result<NextCapture, CaptureError>>,
     open: Arc<AtomicUsize>,
@@ -77,7 +77,7 @@ fn numbers(range: std::ops::RangeInclusive<u64>) -> Vec<Result<NextCapture, Capt
         .collect()
 }
 
-/// A feed of what `script` makes at its first, second, ... opening.
+/// A feed of what `script` returns for the first, second, ... opening.
 fn feed_of(
     delivery: BackpressurePolicy,
     mut script: impl FnMut(usize) -> Result<Vec<Result<NextCapture, CaptureError>>, CaptureError>
@@ -269,7 +269,7 @@ fn a_tap_gets_the_newest_of_what_comes_and_takes_nothing_away() {
     for number in 2..=5 {
         assert_eq!(number_of(feed.wait(PATIENCE)), number);
     }
-    // It was there before the feed itself had it.
+    // It was put there before the feed itself received it.
     assert_eq!(number_of(tap.wait(PATIENCE)), 5);
     assert!(tap.wait(Duration::ZERO).is_none());
     let status = tap.status();
@@ -299,7 +299,7 @@ fn a_tap_knows_how_the_source_was_before_and_a_failed_feed_why() {
     assert!(matches!(failed.status().state, FeedState::Failed(_)));
 }
 
-/// Of this process, by the name that the camera's thread has.
+/// Threads of this process with the camera thread's name.
 #[cfg(target_os = "linux")]
 fn num_camera_threads(name: &str) -> usize {
     std::fs::read_dir("/proc/self/task")
@@ -323,6 +323,6 @@ fn a_thousand_starts_and_stops_leave_no_thread_and_no_open_source() {
         drop(feed);
         assert_eq!(open.load(Ordering::SeqCst), 0, "round {round}");
     }
-    // Other tests of this process have feeds of their own at the same time, but few.
+    // Other tests of this process have feeds at the same time, but few.
     assert!(num_camera_threads("camera") < 50);
 }

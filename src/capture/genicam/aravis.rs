@@ -1,12 +1,12 @@
-//! aravis, loaded while the program runs, and all unsafe code that calls it.
+//! aravis, loaded at run time, and all unsafe code that calls it.
 //!
-//! The functions are those of the headers of aravis 0.8.26, and three of GLib's, which are found through aravis because
-//! it needs GLib itself. All are looked up when the library is loaded, so that one that is missing is an error there.
+//! The functions are those of the headers of aravis 0.8.26, and three of GLib, which are found through aravis because it
+//! depends on GLib. All are looked up when the library is loaded, so that a missing one is reported then.
 //!
-//! What the rest of the crate relies on, and C does not promise by itself:
-//! - the library is never unloaded: it keeps threads of its own;
-//! - the list of devices is read under a lock, because the next search frees its texts;
-//! - a buffer belongs either to the stream or to one [`Frame`], which borrows the device and gives the buffer back.
+//! Guarantees to the rest of the crate that C does not give by itself:
+//! - the library is never unloaded: it has threads of its own;
+//! - the list of devices is read under a lock, because the next search frees its strings;
+//! - a buffer belongs either to the stream or to one [`Frame`], which borrows the device and returns the buffer.
 
 #![expect(
     unsafe_code,
@@ -26,14 +26,14 @@ use crate::{capture::driver_search::driver_functions, error::lock};
 
 /// `ARV_BUFFER_STATUS_SUCCESS`.
 const SUCCESS: c_int = 0;
-/// Frames that the library may fill while another is looked at.
+/// Number of buffers that the library may fill while another is being read.
 const NUM_BUFFERS: usize = 4;
-/// A frame of more bytes is refused before the buffers for it are made: points of 22 million pixels.
+/// Larger frames are refused before buffers are allocated; enough for points of 22 million pixels.
 const MAX_FRAME_BYTES: usize = 256 << 20;
 
 /// A `GObject`: an `ArvCamera`, `ArvDevice`, `ArvStream` or `ArvBuffer`.
 type Object = *mut c_void;
-/// Where a call leaves its error.
+/// Where a call stores its error.
 type ErrorPlace = *mut *mut GError;
 
 /// `GError`.
@@ -82,7 +82,7 @@ driver_functions! {
 }
 
 impl Functions {
-    /// Calls what may fail, with the place for its error; the library's message is the error.
+    /// Makes a call that may fail and passes it the place for its error; returns the library's message as the error.
     fn checked<T>(&self, call: impl FnOnce(ErrorPlace) -> T) -> Result<T, String> {
         let mut error: *mut GError = ptr::null_mut();
         let result = call(&raw mut error);
@@ -92,13 +92,13 @@ impl Functions {
         };
         // SAFETY: the message of an error is a C string that lives as long as the error.
         let message = unsafe { text(*message) };
-        // SAFETY: the caller's, freed once.
+        // SAFETY: the error is the caller's, and freed once.
         unsafe { (self.g_error_free)(error) };
         Err(message.unwrap_or_default())
     }
 }
 
-/// A copy of a C string; `None` for null.
+/// Copies a C string; `None` for null.
 ///
 /// # Safety
 /// The pointer is null, or a C string that lives during the call.
@@ -110,14 +110,14 @@ unsafe fn text(string: *const c_char) -> Option<String> {
 
 /// A camera that answered the search.
 pub(super) struct FoundDevice {
-    /// What it is opened by.
+    /// ID by which it is opened.
     pub(super) id: String,
-    /// Its IP address, or the place of a USB camera.
+    /// Its IP address, or the location of a USB camera.
     pub(super) address: Option<String>,
 }
 
 impl Library {
-    /// The library if it has every function, else the first that it lacks.
+    /// Returns the library if it has every function, else the name of the first missing one.
     pub(super) fn complete(&'static self) -> Result<Aravis, &'static str> {
         match &self.functions {
             Ok(functions) => Ok(Aravis { functions }),
@@ -126,14 +126,14 @@ impl Library {
     }
 }
 
-/// A library that has every function.
+/// A library with every function.
 #[derive(Clone, Copy)]
 pub(super) struct Aravis {
     functions: &'static Functions,
 }
 
 impl Aravis {
-    /// Searches every network interface and the USB for cameras. Takes about a second, for which cameras may answer.
+    /// Searches every network interface and USB for cameras. Takes about a second, the time cameras have to answer.
     pub(super) fn devices(self) -> Vec<FoundDevice> {
         static SEARCH: Mutex<()> = Mutex::new(());
         let _guard = lock(&SEARCH);
@@ -153,7 +153,7 @@ impl Aravis {
             .collect()
     }
 
-    /// Opens the camera of that ID or address.
+    /// Opens the camera with that ID or address.
     pub(super) fn open(self, id: &str) -> Result<Device, String> {
         let id = CString::new(id).map_err(|error| error.to_string())?;
         let functions = self.functions;
@@ -170,7 +170,7 @@ impl Aravis {
     }
 }
 
-/// An open camera. Dropped, it stops the stream and lets the camera go.
+/// An open camera. Dropping it stops the stream and closes the camera.
 pub(super) struct Device {
     functions: &'static Functions,
     camera: NonNull<c_void>,
@@ -180,7 +180,7 @@ pub(super) struct Device {
 }
 
 impl Device {
-    /// False of a GigE camera that another program controls, or that no longer answers the library's heartbeat.
+    /// False if another program controls a GigE camera, or if it no longer answers the library's heartbeat.
     pub(super) fn has_control(&self) -> bool {
         let (functions, camera) = (self.functions, self.camera.as_ptr());
         // SAFETY: the camera is open.
@@ -194,7 +194,7 @@ impl Device {
         }
     }
 
-    /// Names of the pixel formats that it offers now.
+    /// Names of the pixel formats that the camera offers at present.
     pub(super) fn pixel_formats(&self) -> Result<Vec<String>, String> {
         let (functions, camera) = (self.functions, self.camera.as_ptr());
         let mut num: c_uint = 0;
@@ -221,7 +221,7 @@ impl Device {
         Ok(formats)
     }
 
-    /// True if the camera has a node of that name, and it can be used now.
+    /// True if the camera has a node of that name that is available at present.
     pub(super) fn has(&self, node: &CStr) -> Result<bool, String> {
         let (functions, camera) = (self.functions, self.camera.as_ptr());
         functions.checked(|error| {
@@ -232,14 +232,14 @@ impl Device {
         })
     }
 
-    /// The value of a number; `None` without such a node.
+    /// Reads a number; `None` without such a node.
     pub(super) fn number(&self, node: &CStr) -> Result<Option<f64>, String> {
         let functions = self.functions;
         let read = self.read(node, |camera, node, error| {
             // SAFETY: the camera is open, the string lives during the call.
             unsafe { (functions.arv_camera_get_float)(camera, node, error) }
         });
-        // Cameras also have whole numbers where the standard has others.
+        // Some cameras have integer nodes where the standard has floating-point ones.
         read.or_else(|said| {
             let whole = self.read(node, |camera, node, error| {
                 // SAFETY: as above.
@@ -251,7 +251,7 @@ impl Device {
         })
     }
 
-    /// Whether a switch is on; `None` without such a node.
+    /// Reads a boolean; `None` without such a node.
     pub(super) fn flag(&self, node: &CStr) -> Result<Option<bool>, String> {
         self.read(node, |camera, node, error| {
             // SAFETY: the camera is open, the string lives during the call.
@@ -259,7 +259,7 @@ impl Device {
         })
     }
 
-    /// What a choice or a text is; `None` without such a node.
+    /// Reads an enumeration or a string; `None` without such a node.
     pub(super) fn text(&self, node: &CStr) -> Result<Option<String>, String> {
         let text = self.read(node, |camera, node, error| {
             // SAFETY: the camera is open, the string lives during the call; the result is the camera's and copied.
@@ -282,7 +282,7 @@ impl Device {
         value.map(Some)
     }
 
-    /// Sets a choice or a text.
+    /// Sets an enumeration or a string.
     pub(super) fn set(&self, node: &CStr, value: &CStr) -> Result<(), String> {
         let (functions, camera) = (self.functions, self.camera.as_ptr());
         functions.checked(|error| {
@@ -293,7 +293,7 @@ impl Device {
         })
     }
 
-    /// Asks the camera for the bytes of a frame. An error if it does not answer, which may take some seconds.
+    /// Asks the camera for the size of a frame, bytes. Fails if it does not answer, which may take some seconds.
     pub(super) fn frame_bytes(&self) -> Result<usize, String> {
         let (functions, camera) = (self.functions, self.camera.as_ptr());
         let num = functions.checked(|error| {
@@ -314,7 +314,7 @@ impl Device {
         }
         let (functions, camera) = (self.functions, self.camera.as_ptr());
         let stream = functions.checked(|error| {
-            // SAFETY: the camera is open; without a function to be called back there is nothing to hand it.
+            // SAFETY: the camera is open; without a callback there is no data to pass to it.
             unsafe {
                 (functions.arv_camera_create_stream)(
                     camera,
@@ -340,7 +340,7 @@ impl Device {
         })
     }
 
-    /// The newest frame that is there, whole or not, after waiting at most `wait` for it.
+    /// Returns the newest frame, complete or not, waiting at most `wait` for the first.
     pub(super) fn receive(&self, wait: Duration) -> Option<Frame<'_>> {
         let (functions, stream) = (self.functions, self.stream?);
         let frame = |buffer: Object| {
@@ -371,44 +371,44 @@ impl Drop for Device {
     fn drop(&mut self) {
         let (functions, camera) = (self.functions, self.camera.as_ptr());
         if let Some(stream) = self.stream {
-            // A camera that is gone would be waited for.
+            // Stopping a camera that is gone would block.
             if self.has_control() {
-                // Nobody can do anything about an error of a camera that is let go.
+                // Nothing can be done about an error of a camera that is being closed.
                 let _ = functions.checked(|error| {
                     // SAFETY: the camera is open.
                     unsafe { (functions.arv_camera_stop_acquisition)(camera, error) };
                 });
             }
-            // SAFETY: the stream is ours and not used any more: a `Frame` borrows the device.
+            // SAFETY: the stream is ours and no longer used: a `Frame` borrows the device.
             unsafe { (functions.g_object_unref)(stream.as_ptr()) };
         }
-        // SAFETY: the camera is ours and not used any more.
+        // SAFETY: the camera is ours and no longer used.
         unsafe { (functions.g_object_unref)(camera) };
     }
 }
 
-/// A filled buffer. Dropped, it goes back to the stream.
+/// A filled buffer. Dropping it returns it to the stream.
 pub(super) struct Frame<'a> {
     device: &'a Device,
     stream: NonNull<c_void>,
     buffer: NonNull<c_void>,
 }
 
-/// A picture within a frame.
+/// An image within a frame.
 #[derive(Clone, Copy)]
 pub(super) struct Part<'a> {
-    /// Pixels in a row.
+    /// Pixels per row.
     pub(super) width: usize,
-    /// Rows.
+    /// Number of rows.
     pub(super) height: usize,
-    /// Bytes behind each row.
+    /// Bytes of padding after each row.
     pub(super) row_padding: usize,
-    /// What came; perhaps fewer or more bytes than the pixels have.
+    /// The bytes received; possibly fewer or more than the pixels need.
     pub(super) bytes: &'a [u8],
 }
 
 impl Frame<'_> {
-    /// `Ok` if every packet of it arrived, else what is wrong.
+    /// `Ok` if all its packets arrived, else what is wrong.
     pub(super) fn whole(&self) -> Result<(), &'static str> {
         // SAFETY: the buffer is ours.
         match unsafe { (self.device.functions.arv_buffer_get_status)(self.buffer.as_ptr()) } {
@@ -428,8 +428,8 @@ impl Frame<'_> {
         unsafe { (self.device.functions.arv_buffer_get_system_timestamp)(self.buffer.as_ptr()) }
     }
 
-    /// The picture of that pixel format, which is a number of the Pixel Format Naming Convention; `None` without one, and
-    /// where several have it: one of them may be grey values.
+    /// Returns the image with a pixel format, given by its number in the Pixel Format Naming Convention. `None` if there is
+    /// none, or several: one of them may be grey values.
     pub(super) fn part(&self, format: u32) -> Option<Part<'_>> {
         let (functions, buffer) = (self.device.functions, self.buffer.as_ptr());
         // SAFETY: the buffer is ours, here and below.
@@ -466,8 +466,8 @@ impl Frame<'_> {
         let all = NonNull::new(all.cast_mut().cast::<u8>())?;
         let place = bytes.addr().checked_sub(all.addr().get())?;
         let place = within(place, num_bytes, num_received.min(self.device.buffer_bytes))?;
-        // SAFETY: the library owns the buffer's bytes from `all` on, and does not write into a buffer that the stream
-        // does not have.
+        // SAFETY: the library owns the buffer's bytes from `all` on, and does not write into a buffer that is not in the
+        // stream.
         let received = unsafe { slice::from_raw_parts(all.as_ptr(), place.end) };
         Some(Part {
             width: usize::try_from(width).ok()?,
@@ -478,8 +478,8 @@ impl Frame<'_> {
     }
 }
 
-/// Where a part is within what came. Place and size of a part are the camera's own words, which the library does not
-/// compare with its buffer; what was not sent is cut off.
+/// Range of a part within the received bytes. Start and size come from the camera, and the library does not check them
+/// against its buffer; what was not received is cut off.
 fn within(start: usize, num_bytes: usize, num_received: usize) -> Option<Range<usize>> {
     let end = start.saturating_add(num_bytes).min(num_received);
     (start <= end).then_some(start..end)
@@ -487,7 +487,7 @@ fn within(start: usize, num_bytes: usize, num_received: usize) -> Option<Range<u
 
 impl Drop for Frame<'_> {
     fn drop(&mut self) {
-        // SAFETY: the buffer is ours and goes to the stream that it came from, which the device keeps.
+        // SAFETY: the buffer is ours and returns to the stream that it came from, which the device keeps alive.
         unsafe {
             (self.device.functions.arv_stream_push_buffer)(
                 self.stream.as_ptr(),

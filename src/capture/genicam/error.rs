@@ -1,4 +1,4 @@
-//! Why there is no picture from a GenICam camera, and what to do about it.
+//! Errors and warnings of GenICam cameras, with advice.
 
 use std::path::PathBuf;
 
@@ -10,106 +10,106 @@ use crate::{
     error::Advice,
 };
 
-/// Why a GenICam camera cannot be used, gives nothing more, or one frame of it cannot be read.
+/// Why a GenICam camera cannot be used or delivers no more, or why a frame cannot be read.
 #[derive(Debug, Error)]
 pub enum GenicamError {
-    /// The system has no aravis.
+    /// aravis is not installed.
     #[error("aravis, the library for GenICam cameras, is not installed")]
     NoLibrary,
-    /// The place that a setting names has none.
+    /// The place in a setting has no aravis.
     #[error("{}: no aravis there", path.display())]
     LibraryNotAt {
-        /// The file or folder, as it was given.
+        /// The file or folder as given.
         path: PathBuf,
     },
-    /// There is one and the system cannot load it.
+    /// aravis was found, but the system cannot load it.
     #[error("{library} cannot be loaded: {reason}")]
     LibraryUnusable {
-        /// Its name or path.
+        /// Name or path of the library.
         library: String,
-        /// The system's words.
+        /// The system's message.
         reason: String,
     },
-    /// It is older, or no aravis at all.
+    /// The library is an older aravis, or not aravis.
     #[error("{library} has no function {symbol}: not aravis 0.8.26 or a newer 0.8")]
     MissingSymbol {
-        /// Its name or path.
+        /// Name or path of the library.
         library: String,
-        /// The function.
+        /// The missing function.
         symbol: &'static str,
     },
     /// No camera answered.
     #[error("no GenICam camera answers on any network interface or USB port")]
     NoDevice,
-    /// Others answered than the one asked for.
+    /// Other cameras answered, but not the requested one.
     #[error("no GenICam camera {device} answers, only {}", found.join(", "))]
     NoSuchDevice {
-        /// The one asked for.
+        /// The requested camera.
         device: String,
-        /// Those there are.
+        /// IDs of the cameras that answered.
         found: Vec<String>,
     },
-    /// It is there and does not open, or one of its nodes cannot be read.
+    /// The camera cannot be opened, or one of its nodes cannot be read.
     #[error("the camera does not open: {said}")]
     NotOpened {
-        /// What the library says.
+        /// The library's message.
         said: String,
     },
-    /// Another program controls it.
+    /// Another program controls the camera.
     #[error("the camera is in use by another program")]
     InUse,
-    /// It offers nothing that is known to be depth.
+    /// The camera offers no format that is known to be depth.
     #[error("the camera offers no depth, only {}", offered.join(", "))]
     NoDepthFormat {
         /// Its pixel formats.
         offered: Vec<String>,
     },
-    /// It does not offer the pixel format asked for.
+    /// The camera does not offer the requested pixel format.
     #[error("the camera does not offer {format}, only {}", offered.join(", "))]
     FormatNotOffered {
-        /// The one asked for.
+        /// The requested format.
         format: &'static str,
         /// Its pixel formats.
         offered: Vec<String>,
     },
-    /// It does not say what is needed to turn its pixels into lengths.
+    /// The camera lacks a value that is needed to convert its pixels into lengths.
     #[error("the camera does not tell its {node}, which its depth images need")]
     Untold {
-        /// The node that it lacks.
+        /// The missing node.
         node: &'static str,
     },
-    /// It sends something else than depth along the optical axis, or points in its own frame.
+    /// The camera is set to something other than depth along the optical axis, or points in its own frame.
     #[error("{node} of the camera is {found}, expected {expected}")]
     WrongSetting {
         /// The node.
         node: &'static str,
         /// Its value.
         found: String,
-        /// Values that can be read.
+        /// The value to set.
         expected: &'static str,
     },
-    /// It opens, and its stream does not start.
+    /// The camera opens, but its stream does not start.
     #[error("the camera does not start: {said}")]
     NotStarted {
-        /// What the library says.
+        /// The library's message.
         said: String,
     },
-    /// One frame did not arrive whole, or is no picture of the expected kind.
+    /// A frame is incomplete, or not an image of the expected kind.
     #[error("a frame of the camera cannot be used: {what}")]
     BadFrame {
         /// What is wrong with it.
         what: String,
     },
-    /// It was unplugged, its power went, or another program took it.
+    /// The camera was unplugged, lost its power, or was taken by another program.
     #[error("the camera is gone{}", said.as_ref().map(|said| format!(": {said}")).unwrap_or_default())]
     Lost {
-        /// What the library says.
+        /// The library's message.
         said: Option<String>,
     },
-    /// It answers and sends nothing.
+    /// The camera answers but sends nothing.
     #[error("the camera sent nothing for {seconds} s")]
     Silent {
-        /// How long.
+        /// For how long, seconds.
         seconds: u64,
     },
 }
@@ -125,7 +125,7 @@ impl From<NotLoaded> for GenicamError {
 }
 
 impl GenicamError {
-    /// What helps: a camera may be plugged in, let go or set at any time, a library does not come by itself.
+    /// How to recover: a camera may be plugged in, released or configured at any time; a library does not appear by itself.
     pub(crate) fn recovery(&self) -> Recovery {
         match self {
             Self::NoDevice
@@ -212,10 +212,10 @@ impl Advice for GenicamError {
     }
 }
 
-/// What is odd about a GenICam camera that can be used nevertheless.
+/// Something odd about a GenICam camera that can be used nevertheless.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum GenicamWarning {
-    /// It has no `Scan3dDistanceUnit`.
+    /// The camera has no `Scan3dDistanceUnit`.
     #[error("the camera does not tell its unit of length, millimetres are assumed")]
     UnitAssumed,
 }

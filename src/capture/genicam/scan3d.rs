@@ -1,12 +1,12 @@
-//! From a camera's pixels to depths and points, by what its nodes say.
+//! Conversion of a camera's pixels into depths and points, according to its nodes.
 //!
 //! Source: GenICam Standard Features Naming Convention 2.7, chapter "3D Scan Control". A coordinate is
-//! `Scan3dCoordinateScale` · value + `Scan3dCoordinateOffset`, in `Scan3dDistanceUnit`; the value
-//! `Scan3dInvalidDataValue` is no reading where `Scan3dInvalidDataFlag` is set. Coordinate A is x, B is y, C is z.
+//! `Scan3dCoordinateScale` · value + `Scan3dCoordinateOffset`, in `Scan3dDistanceUnit`; the value `Scan3dInvalidDataValue`
+//! means no reading if `Scan3dInvalidDataFlag` is set. Coordinate A is x, B is y, C is z.
 //!
-//! Only depth along the optical axis and points in the camera's own frame are taken. Disparities, distances along a
-//! ray, heights on a rectified grid, points in a frame that somebody set, and mirrored depth images are errors, because
-//! they would be read as parts of another shape or in another place.
+//! Only depth along the optical axis and points in the camera's own frame are accepted. Disparities, distances along a ray,
+//! heights on a rectified grid, points in a user-defined frame, and mirrored depth images are errors, because parts would
+//! appear with a wrong shape or in a wrong place.
 
 use std::ffi::CStr;
 
@@ -26,34 +26,34 @@ use crate::{
     },
 };
 
-/// How the pixels of one format become an image.
+/// Converts the pixels of one format into an image.
 pub(super) enum Decoder {
     /// A depth image.
     Depth {
         camera: DepthCamera,
-        /// Depth of every value, in the camera's units; 0 is no reading.
+        /// Depth for every pixel value, in the camera's units; 0 means no reading.
         units: Vec<u16>,
     },
     /// Points.
     Points {
         axes: [Axis; 3],
-        /// True if they keep the camera's rows and columns.
+        /// True if the points keep the camera's rows and columns.
         is_organised: bool,
     },
 }
 
-/// How the values of one coordinate become metres.
+/// Converts the values of one coordinate into metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axis {
-    /// Metres of a step.
+    /// Metres per step.
     scale: f64,
-    /// Metres of the value 0.
+    /// Metres at the value 0.
     offset: f64,
-    /// The value that is no reading.
+    /// The value that means no reading.
     invalid: Option<f64>,
 }
 
-/// What the camera's nodes say; `None` where it has no such node.
+/// Values of the camera's nodes; `None` without the node.
 #[derive(Clone, Default)]
 pub(super) struct Scan3d {
     output_mode: Option<String>,
@@ -62,14 +62,14 @@ pub(super) struct Scan3d {
     distance_unit: Option<String>,
     axes: [AxisNodes; 3],
     focal_length: Option<f64>,
-    /// Focal length in rows over that in columns.
+    /// Focal length along rows divided by that along columns.
     aspect_ratio: Option<f64>,
     principal_point: [Option<f64>; 2],
     /// Columns and rows.
     size: [Option<f64>; 2],
-    /// Columns and rows that the region leaves out before its first.
+    /// Number of columns and rows before the region.
     region_offset: [Option<f64>; 2],
-    /// Whether the order of columns, and that of rows, is reversed.
+    /// Whether columns, and rows, are in reverse order.
     is_reversed: [Option<bool>; 2],
 }
 
@@ -80,18 +80,18 @@ struct AxisNodes {
     invalid: Option<f64>,
 }
 
-/// Says the focal length, in pixels.
+/// Node of the focal length, in pixels.
 pub(super) const FOCAL_LENGTH: &CStr = c"Scan3dFocalLength";
 
 impl Scan3d {
-    /// Reads the nodes; that pixel format is set.
+    /// Reads the nodes for the pixel format, which has to be set already.
     pub(super) fn read(device: &Device, format: GenicamFormat) -> Result<Self, String> {
         let axis = |selected: &CStr| -> Result<AxisNodes, String> {
-            // A camera with one coordinate need not have the selector.
+            // A camera with one coordinate may lack the selector.
             if device.has(c"Scan3dCoordinateSelector")? {
                 device.set(c"Scan3dCoordinateSelector", selected)?;
             }
-            // A camera that has the value and no switch for it means the value.
+            // A camera that has the value but no flag always uses the value.
             let is_flagged = device.flag(c"Scan3dInvalidDataFlag")?.unwrap_or(true);
             let invalid = device.number(c"Scan3dInvalidDataValue")?;
             Ok(AxisNodes {
@@ -112,7 +112,7 @@ impl Scan3d {
                 axis(c"CoordinateB")?,
                 axis(c"CoordinateC")?,
             ],
-            // All else is the file's.
+            // Everything else comes from the file.
             GenicamFormat::Mono16 => {
                 return Ok(Self {
                     is_reversed,
@@ -138,7 +138,7 @@ impl Scan3d {
         })
     }
 
-    /// How to read that format; the numbers of a depth image are those of the file where there is one.
+    /// Returns the decoder for a format; for depth images, a file takes precedence over the camera's nodes.
     pub(super) fn decoder(
         &self,
         format: GenicamFormat,
@@ -166,7 +166,7 @@ impl Scan3d {
         let [.., nodes] = &self.axes;
         let (camera, axis, warnings) = if let Some(camera) = file {
             self.check_order(&camera)?;
-            // An offset is no number of the file, so the camera's counts.
+            // The file has no offset, so that of the camera is used.
             let (unit, warnings) = match nodes.offset {
                 None | Some(0.0) => (1.0, Vec::new()),
                 Some(_) => self.unit()?,
@@ -204,8 +204,8 @@ impl Scan3d {
         Ok((decoder, warnings))
     }
 
-    /// An error unless the output is one of `modes` and its coordinates are x, y, z of the camera's own frame. The
-    /// first argument is the mode to advise.
+    /// Fails unless the output mode is one of `modes` and the coordinates are x, y, z in the camera's own frame. `advised`
+    /// is the mode named in the error.
     fn check_frame(&self, advised: &'static str, modes: &[&str]) -> Result<(), GenicamError> {
         let checks = [
             ("Scan3dOutputMode", &self.output_mode, advised, modes),
@@ -236,8 +236,8 @@ impl Scan3d {
         Ok(())
     }
 
-    /// An error if the camera reverses rows or columns of its depth images, unless the file says how they are stored: a
-    /// left part would be taken for a right one.
+    /// Fails if the camera reverses rows or columns of its depth images, unless the file specifies how they are stored:
+    /// otherwise a left part would be taken for a right one.
     fn check_order(&self, camera: &DepthCamera) -> Result<(), GenicamError> {
         let is_told = camera.stored != StoredOrientation::default();
         for (node, is_reversed) in ["ReverseX", "ReverseY"].into_iter().zip(self.is_reversed) {
@@ -252,8 +252,8 @@ impl Scan3d {
         Ok(())
     }
 
-    /// An error if the region begins beside the first pixel: makers disagree on whether the principal point counts from
-    /// there.
+    /// Fails if the region does not begin at the first pixel: manufacturers disagree on whether the principal point is
+    /// relative to the region.
     fn check_region(&self) -> Result<(), GenicamError> {
         for (node, offset) in ["OffsetX", "OffsetY"].into_iter().zip(self.region_offset) {
             if let Some(found) = offset.filter(|offset| offset.abs() > 0.0) {
@@ -267,7 +267,7 @@ impl Scan3d {
         Ok(())
     }
 
-    /// Metres of the camera's unit of length.
+    /// Metres per unit of length of the camera.
     fn unit(&self) -> Result<(f64, Vec<CaptureWarning>), GenicamError> {
         match self.distance_unit.as_deref() {
             None => Ok((0.001, vec![GenicamWarning::UnitAssumed.into()])),
@@ -302,7 +302,7 @@ impl Scan3d {
     }
 }
 
-/// Points without the camera's rows and columns.
+/// Output mode: points without the camera's rows and columns.
 const POINT_CLOUD: &str = "CalibratedABC_PointCloud";
 
 impl AxisNodes {
@@ -319,11 +319,11 @@ fn told(value: Option<f64>, node: &'static str) -> Result<f64, GenicamError> {
     value.ok_or(GenicamError::Untold { node })
 }
 
-/// The depth of every 16-bit value, and the metres of its unit; 0 is no reading.
+/// Returns the depth for every 16-bit value, and the metres per unit of these depths; 0 means no reading.
 ///
-/// Without an offset the depths are the values themselves. An offset would push some beyond 16 bits, so the unit is
-/// chosen that the largest value just fits; rounding is half a unit at most. The value 0 is never a reading: it is what
-/// cameras without `Scan3dInvalidDataFlag` send where they have none.
+/// Without an offset the depths are the values themselves. With an offset some might exceed 16 bits, so the unit is chosen
+/// such that the largest value just fits; the rounding error is at most half a unit. The value 0 never is a reading:
+/// cameras without `Scan3dInvalidDataFlag` send it where they have none.
 fn depth_table(axis: &Axis) -> Result<(Vec<u16>, f64), GenicamError> {
     let largest = f64::from(u16::MAX);
     let metres_per_unit = axis.scale.max(0.0) + axis.offset / largest;
@@ -346,7 +346,7 @@ fn depth_table(axis: &Axis) -> Result<(Vec<u16>, f64), GenicamError> {
 
 impl Axis {
     fn is_invalid(&self, value: f64) -> bool {
-        // Both are what the camera sent; the narrower of the two types is that of the pixels.
+        // Both numbers come from the camera; compare them in the narrower type, that of the pixels.
         self.invalid
             .is_some_and(|invalid| (invalid as f32).to_bits() == (value as f32).to_bits())
     }
@@ -357,12 +357,12 @@ impl Axis {
 }
 
 impl Decoder {
-    /// True if a file says that the camera is simulated.
+    /// True if the file says that the camera is simulated.
     pub(super) fn is_simulated(&self) -> bool {
         matches!(self, Self::Depth { camera, .. } if camera.is_simulated)
     }
 
-    /// The image of a picture in that format, or what is wrong with the picture.
+    /// Decodes an image in this format; the error says what is wrong with it.
     pub(super) fn image(&self, part: Part<'_>) -> Result<Image, String> {
         match self {
             Self::Depth { camera, units, .. } => {
@@ -393,7 +393,7 @@ impl Decoder {
     }
 }
 
-/// What the pixels of N bytes stand for, row after row without padding.
+/// Decodes pixels of N bytes each, row by row without the padding.
 fn pixels<const N: usize, T>(
     part: Part<'_>,
     read: impl Fn(&[u8; N]) -> T,
@@ -421,7 +421,7 @@ fn pixels<const N: usize, T>(
         .collect())
 }
 
-/// A point in metres; three NaN without a reading.
+/// Decodes a point, in metres; three NaN if there is no reading.
 fn point(pixel: &[u8; 12], axes: &[Axis; 3]) -> Point3<f32> {
     let &[a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3] = pixel;
     let values = [[a0, a1, a2, a3], [b0, b1, b2, b3], [c0, c1, c2, c3]].map(f32::from_le_bytes);

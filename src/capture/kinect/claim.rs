@@ -1,14 +1,14 @@
-//! The right to the one context of the process.
+//! The lock on the process's only context.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static IS_TAKEN: AtomicBool = AtomicBool::new(false);
 
-/// The right, given back when it is dropped.
+/// Exclusive right to a context; dropping it releases the right.
 pub(super) struct DeviceLock(());
 
 impl DeviceLock {
-    /// The right, unless somebody has it.
+    /// Takes the right, unless it is already taken.
     pub(super) fn take() -> Option<Self> {
         let was_free = IS_TAKEN.compare_exchange(false, true, Ordering::Acquire, Ordering::Relaxed);
         was_free.ok().map(|_| Self(()))

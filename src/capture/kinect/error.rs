@@ -1,4 +1,4 @@
-//! Why there is no picture from a Kinect, and what to do about it.
+//! Errors and warnings of a Kinect, with advice.
 
 use std::path::PathBuf;
 
@@ -10,97 +10,97 @@ use super::{
 };
 use crate::{capture::Recovery, error::Advice};
 
-/// Why a Kinect cannot be used, or gives nothing more.
+/// Why a Kinect cannot be used, or delivers no more.
 #[derive(Debug, Error)]
 pub enum KinectError {
-    /// The system has no libfreenect.
+    /// libfreenect is not installed.
     #[error("libfreenect is not installed (looked for {})", tried.join(", "))]
     NoLibrary {
-        /// The names that were looked for.
+        /// The names that were tried.
         tried: Vec<&'static str>,
     },
-    /// The place that a setting names has none.
+    /// The place in a setting has no libfreenect.
     #[error("{}: no libfreenect there", path.display())]
     LibraryNotAt {
-        /// The file or folder, as it was given.
+        /// The file or folder as given.
         path: PathBuf,
     },
-    /// There is one and the system cannot load it.
+    /// libfreenect was found, but the system cannot load it.
     #[error("{library} cannot be loaded: {reason}")]
     LibraryUnusable {
-        /// Its name or path.
+        /// Name or path of the library.
         library: String,
-        /// The system's words.
+        /// The system's message.
         reason: String,
     },
-    /// It is another version, or no libfreenect at all.
+    /// The library is another version, or not libfreenect.
     #[error("{library} has no function {symbol}: not libfreenect 0.5")]
     MissingSymbol {
-        /// Its name or path.
+        /// Name or path of the library.
         library: String,
-        /// The function.
+        /// The missing function.
         symbol: &'static str,
     },
-    /// The library cannot speak to USB.
+    /// The library cannot access USB.
     #[error("libfreenect cannot start: USB error {code}")]
     NoUsb {
-        /// libusb's code.
+        /// libusb's error code.
         code: i32,
     },
-    /// Nothing is plugged in.
+    /// No Kinect is plugged in.
     #[error("no Kinect is plugged in")]
     NoDevice,
-    /// Another one than the one asked for is plugged in.
+    /// Other Kinects are plugged in, but not the requested one.
     #[error("no Kinect with serial number {serial} is plugged in{}", others(found))]
     NoSuchSerial {
-        /// The one asked for.
+        /// The requested serial number.
         serial: String,
-        /// Those there are.
+        /// Serial numbers of those that are plugged in.
         found: Vec<String>,
     },
-    /// The system does not let this user open it.
+    /// The system does not permit this user to open the Kinect.
     #[error("a Kinect is plugged in, and the system does not permit to open it")]
     NoPermission {
-        /// The udev rule that should permit it, if there is one.
+        /// The installed udev rule that should permit it, if any.
         rule: Option<&'static str>,
     },
-    /// Another program, or a driver of the system, has it.
+    /// Another program, or a driver of the system, uses the Kinect.
     #[error("the Kinect is in use by another program")]
     Busy,
-    /// This program has it.
+    /// This program already uses a Kinect.
     #[error("the Kinect is in use by Partsight itself")]
     InUse,
-    /// It does not open, for no reason that is known here.
+    /// The Kinect cannot be opened for another reason.
     #[error("the Kinect does not open{}", words(said))]
     NotOpened {
-        /// What the library says.
+        /// The library's messages.
         said: Vec<String>,
     },
-    /// It has no depth in a form that is read here.
+    /// The Kinect offers depth in no supported format.
     #[error("the Kinect offers depth in none of the forms that are read (millimetres, 11 bits)")]
     NoDepthMode,
-    /// It opens, and its stream does not start.
+    /// The Kinect opens, but its stream does not start.
     #[error("the Kinect does not start{}", words(said))]
     NotStarted {
-        /// What the library says.
+        /// The library's messages.
         said: Vec<String>,
     },
-    /// It was unplugged, or its power went.
+    /// The Kinect was unplugged, or lost its power.
     #[error("the Kinect is gone{}", words(said))]
     Lost {
-        /// What the library says.
+        /// The library's messages.
         said: Vec<String>,
     },
-    /// It is there and sends nothing.
+    /// The Kinect is there but sends nothing.
     #[error("the Kinect sent nothing for {seconds} s")]
     Silent {
-        /// How long.
+        /// For how long, seconds.
         seconds: u64,
     },
-    /// The library plays recorded sessions, and none is named.
+    /// The library plays recorded sessions, and none is given.
     #[error("{library} plays recorded sessions, and FAKENECT_PATH names none")]
     NoSession {
-        /// Its name or path.
+        /// Name or path of the library.
         library: String,
     },
     /// The recorded session is damaged.
@@ -113,7 +113,7 @@ pub enum KinectError {
     },
 }
 
-/// The udev rules that let a user open a Kinect: as distributions name them, and our own package's.
+/// Udev rules that let a user open a Kinect, under the names used by distributions and by our own package.
 const RULES: [&str; 6] = [
     "/lib/udev/rules.d/60-libfreenect0.5.rules",
     "/usr/lib/udev/rules.d/60-libfreenect.rules",
@@ -124,7 +124,7 @@ const RULES: [&str; 6] = [
 ];
 
 impl KinectError {
-    /// What helps: a Kinect may be plugged in, let go or permitted at any time, a library does not come by itself.
+    /// How to recover: a Kinect may be plugged in, released or permitted at any time; a library does not appear by itself.
     pub(crate) fn recovery(&self) -> Recovery {
         match self {
             Self::NoDevice
@@ -163,8 +163,8 @@ impl KinectError {
         }
     }
 
-    /// Why a camera that is plugged in does not open. The library gives -1 for everything, and tells the reason in
-    /// words that end with libusb's code, or its name.
+    /// Classifies the failure to open a camera. The library returns -1 for every failure and logs the reason as a line that
+    /// ends with libusb's code or contains its name.
     pub(super) fn of_opening(failed: Failed) -> Self {
         let says = |code: i32, name: &str| {
             let tail = format!(": {code}");
@@ -259,16 +259,16 @@ impl Advice for KinectError {
     }
 }
 
-/// What is odd about a Kinect that can be used nevertheless.
+/// Something odd about a Kinect that can be used nevertheless.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum KinectWarning {
-    /// The library does not tell the camera's focal length.
+    /// The library does not reveal the camera's focal length.
     #[error("the Kinect's focal length is not known, {pixels:.1} pixels are assumed")]
     FocalLengthAssumed {
-        /// Along columns and rows.
+        /// The assumed focal length along columns and rows, pixels.
         pixels: f64,
     },
-    /// The library gives steps of disparity and not the values to turn them into lengths.
+    /// The library delivers steps of disparity without the values to convert them into lengths.
     #[error("the Kinect's own calibration is not known, depths are those of a usual one")]
     DepthScaleAssumed,
 }

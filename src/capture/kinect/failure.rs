@@ -1,23 +1,23 @@
-//! What a call of the library comes to when it fails.
+//! Failures of the library's calls.
 
 use std::ffi::c_int;
 
-/// Why no context was made.
+/// Why no context was created.
 #[derive(Clone, Copy)]
 pub(super) enum NoContext {
     /// The library lacks this function.
     MissingSymbol(&'static str),
-    /// There is one already.
+    /// Another context exists already.
     InUse,
-    /// `freenect_init` returned this.
+    /// `freenect_init` returned this code.
     Failed(c_int),
 }
 
 /// A call that returned a negative code.
 #[derive(Debug)]
 pub(super) struct Failed {
-    /// The code; libusb's, or -1.
+    /// The returned code; libusb's, or -1.
     pub(super) code: i32,
-    /// What the library said meanwhile, a sentence each.
+    /// What the library logged during the call, one line each.
     pub(super) said: Vec<String>,
 }

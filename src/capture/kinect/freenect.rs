@@ -1,11 +1,11 @@
-//! libfreenect, loaded while the program runs and called by unsafe code.
+//! libfreenect, loaded at run time, and all unsafe code that calls it.
 //!
-//! The functions are those of `libfreenect.h` 0.5, looked up by name when a [`Context`] is made, so that a library
-//! without one of them is an error there and nowhere else. Motor, LED and microphones are not even looked up.
+//! The functions are those of `libfreenect.h` 0.5. They are looked up when a library is loaded; a missing one is an error
+//! only when a [`Context`] is made. Those of motor, LED and microphones are not looked up.
 //!
-//! What the rest of the crate relies on, and C does not promise by itself:
-//! - one [`Context`] at a time in the process, since the builds that play recorded sessions keep global state;
-//! - the library is never unloaded: it, and libusb below it, may keep threads and handlers of their own;
+//! Guarantees to the rest of the crate that C does not give by itself:
+//! - one [`Context`] at a time in the process, since the builds that play recorded sessions have global state;
+//! - the library is never unloaded: it, and libusb below it, may have threads and handlers of their own;
 //! - it never holds a pointer into our memory: a frame is copied inside its callback, which only runs inside
 //!   [`Device::receive`], on the same thread.
 
@@ -34,10 +34,10 @@ use super::{
 };
 use crate::error::lock;
 
-/// What the library says of one call is a few lines; more is not kept.
+/// Maximum number of log lines kept per call.
 const MOST_SAID: usize = 8;
 
-/// The functions by name, and their types as the header has them. Those of the second list may be missing.
+/// Defines `Functions`: the functions with their types as in the header. Those of the second list are optional.
 macro_rules! functions {
     (
         required { $($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)* }
@@ -99,23 +99,23 @@ impl Functions {
     }
 }
 
-/// A loaded library. It stays so until the process ends.
+/// A library, loaded until the process ends.
 pub(super) struct Library {
-    /// Or the first function that is missing.
+    /// The functions, or the name of the first missing one.
     functions: Result<Functions, &'static str>,
     num_turns: AtomicUsize,
 }
 
 impl Library {
-    /// Loads the library of that name or path, or says why that cannot be done in the system's own words.
+    /// Loads the library of that name or path; the error is the system's message.
     pub(super) fn load(name: &OsStr) -> Result<&'static Self, String> {
         static LOADED: Mutex<Vec<(OsString, &'static Library)>> = Mutex::new(Vec::new());
         let mut loaded = lock(&LOADED);
         if let Some((_, library)) = loaded.iter().find(|(known, _)| known == name) {
             return Ok(library);
         }
-        // SAFETY: loading runs the library's initialisers. libfreenect has none, and libusb's only set up locks; a
-        // person who names another library by a setting runs that one's as if it had been started as a program.
+        // SAFETY: loading runs the library's initialisers. libfreenect has none, and libusb's only set up locks; if
+        // a setting names another library, that one's run as if the user had started it as a program.
         let library =
             unsafe { libloading::Library::new(name) }.map_err(|error| error.to_string())?;
         let functions = Functions::look_up(Box::leak(Box::new(library)));
@@ -127,19 +127,19 @@ impl Library {
         Ok(library)
     }
 
-    /// True if it is a build that plays recorded sessions: those cannot list serial numbers.
+    /// True for a build that plays recorded sessions, which cannot list serial numbers.
     pub(super) fn plays_sessions(&self) -> bool {
         self.functions
             .is_ok_and(|functions| functions.list().is_none())
     }
 
-    /// How often it was let work since it was loaded.
+    /// Number of calls that processed events since the library was loaded.
     pub(super) fn num_turns(&self) -> usize {
         self.num_turns.load(Ordering::Relaxed)
     }
 }
 
-/// A running library: no device is open yet.
+/// A running library without an open device.
 pub(super) struct Context {
     library: &'static Library,
     functions: Functions,
@@ -148,7 +148,7 @@ pub(super) struct Context {
 }
 
 impl Context {
-    /// Starts the library, with cameras only.
+    /// Starts the library with cameras only.
     pub(super) fn new(library: &'static Library) -> Result<Self, NoContext> {
         let functions = library.functions.map_err(NoContext::MissingSymbol)?;
         let claim = DeviceLock::take().ok_or(NoContext::InUse)?;
@@ -158,7 +158,7 @@ impl Context {
         let context = NonNull::new(context)
             .filter(|_| code >= 0)
             .ok_or(NoContext::Failed(code))?;
-        // SAFETY: the context is initialised; the callback may be called from here on, and needs no more than that.
+        // SAFETY: the context is initialised; the callback may be called from here on, and needs nothing else.
         unsafe {
             (functions.freenect_set_log_callback)(context.as_ptr(), on_log);
             (functions.freenect_set_log_level)(context.as_ptr(), LOG_ERROR);
@@ -172,7 +172,7 @@ impl Context {
         })
     }
 
-    /// Cameras that are plugged in, whether they can be opened or not.
+    /// Number of cameras that are plugged in, whether they can be opened or not.
     pub(super) fn num_devices(&self) -> Result<usize, Failed> {
         // SAFETY: the context is initialised.
         let num =
@@ -180,7 +180,7 @@ impl Context {
         Ok(num as usize)
     }
 
-    /// Serial numbers of the cameras that could be asked for them. Empty where the library cannot list any.
+    /// Serial numbers of the cameras that could be queried. Empty if the library cannot list them.
     pub(super) fn serials(&self) -> Result<Vec<String>, Failed> {
         let Some((list, free)) = self.functions.list() else {
             return Ok(Vec::new());
@@ -204,7 +204,7 @@ impl Context {
         Ok(serials)
     }
 
-    /// Opens the camera of that serial number, or the first one.
+    /// Opens the camera with that serial number, or the first one.
     pub(super) fn open(self, serial: Option<&CStr>) -> Result<Device, Failed> {
         let mut device = ptr::null_mut();
         let (functions, context) = (self.functions, self.handle.as_ptr());
@@ -220,7 +220,7 @@ impl Context {
             // SAFETY: as above.
             None => unsafe { (functions.freenect_open_device)(context, &raw mut device, 0) },
         });
-        // A device that failed half-way is closed by the shutdown of its context.
+        // A half-opened device is closed by the shutdown of its context.
         opened?;
         let device = NonNull::new(device).ok_or(Failed {
             code: -1,
@@ -238,12 +238,12 @@ impl Context {
 
 impl Drop for Context {
     fn drop(&mut self) {
-        // SAFETY: the context was initialised and is not used any more: a `Device` owns its context and drops it last.
+        // SAFETY: the context was initialised and is no longer used: a `Device` owns its context and drops it last.
         unsafe { (self.functions.freenect_shutdown)(self.handle.as_ptr()) };
     }
 }
 
-/// An open camera. Dropped, it stops the stream, closes the camera and shuts the library down, in this order.
+/// An open camera. Dropping it stops the stream, closes the camera and shuts the library down, in this order.
 pub(super) struct Device {
     context: Context,
     handle: NonNull<c_void>,
@@ -251,7 +251,7 @@ pub(super) struct Device {
     is_streaming: bool,
 }
 
-/// Where the callback leaves a frame.
+/// Where the callback stores a frame.
 #[derive(Default)]
 struct FrameSlot {
     depth: Vec<u16>,
@@ -259,7 +259,7 @@ struct FrameSlot {
 }
 
 impl Device {
-    /// The modes with one `u16` per pixel that the camera has.
+    /// The camera's modes with one `u16` per pixel.
     pub(super) fn depth_modes(&self) -> Vec<FrameMode> {
         let functions = &self.context.functions;
         // SAFETY: takes nothing, and gives a number.
@@ -271,7 +271,7 @@ impl Device {
             .collect()
     }
 
-    /// Where on x and y, in millimetres, the library puts what a pixel shows at `depth_mm`; `None` if it cannot say.
+    /// The x and y, in millimetres, that the library computes for a pixel at `depth_mm`; `None` if it cannot.
     pub(super) fn point_mm(&self, column: i32, row: i32, depth_mm: i32) -> Option<(f64, f64)> {
         let camera_to_world = self.context.functions.freenect_camera_to_world?;
         let (device, mut x, mut y) = (self.handle.as_ptr(), 0.0, 0.0);
@@ -296,7 +296,7 @@ impl Device {
         Ok(())
     }
 
-    /// Lets the library work for at most about `wait`, and gives the newest frame that it finished, row after row.
+    /// Lets the library process events for about `wait`, and returns the newest complete frame, row by row.
     pub(super) fn receive(&mut self, wait: Duration) -> Result<Option<&[u16]>, Failed> {
         let mut wait = TimeVal::from(wait);
         self.inbox.is_new = false;
@@ -313,7 +313,7 @@ impl Device {
         });
         RECEIVING.set(ptr::null_mut());
         match outcome {
-            // A frame that came before the trouble is given first; the trouble stays and is told next time.
+            // Deliver a frame that came before an error first; the error persists and is returned by the next call.
             _ if self.inbox.is_new => Ok(Some(&self.inbox.depth)),
             Err(failed) if failed.code != INTERRUPTED => Err(failed),
             _ => Ok(None),
@@ -322,7 +322,7 @@ impl Device {
 
     fn stop(&mut self) {
         if self.is_streaming {
-            // SAFETY: the device is open. Where the library stopped the stream itself, the call does nothing.
+            // SAFETY: the device is open. If the library has stopped the stream itself, the call does nothing.
             unsafe { (self.context.functions.freenect_stop_depth)(self.handle.as_ptr()) };
             self.is_streaming = false;
         }
@@ -332,19 +332,19 @@ impl Device {
 impl Drop for Device {
     fn drop(&mut self) {
         self.stop();
-        // SAFETY: the device is open, has no stream, and is not used any more.
+        // SAFETY: the device is open, has no stream, and is no longer used.
         unsafe { (self.context.functions.freenect_close_device)(self.handle.as_ptr()) };
     }
 }
 
 thread_local! {
-    /// The inbox of the device that receives on this thread just now, or null.
+    /// Slot of the device that is receiving on this thread, or null.
     static RECEIVING: Cell<*mut FrameSlot> = const { Cell::new(ptr::null_mut()) };
-    /// What the library said during the call that runs on this thread.
+    /// What the library has logged during the current call on this thread.
     static SAID: RefCell<Vec<String>> = const { RefCell::new(Vec::new()) };
 }
 
-/// A frame is finished.
+/// Callback for a complete frame.
 extern "C" fn on_depth(_device: *mut c_void, depth: *mut c_void, _ticks: u32) {
     // SAFETY: either null or set by `receive`, which waits for this call to end and touches nothing meanwhile.
     let Some(inbox) = (unsafe { RECEIVING.get().as_mut() }) else {
@@ -354,8 +354,8 @@ extern "C" fn on_depth(_device: *mut c_void, depth: *mut c_void, _ticks: u32) {
         return;
     }
     let num_bytes = size_of_val(inbox.depth.as_slice());
-    // SAFETY: the inbox has the size of a frame in the mode that is set, and the library finished a frame of it; that a
-    // recorded one is whole was looked at before. Bytes are copied, because it need not be aligned for more.
+    // SAFETY: the inbox has the size of a frame in the current mode, and the library completed such a frame; that recorded
+    // frames are complete was checked before. Bytes are copied, because the source need not be aligned for more.
     unsafe {
         ptr::copy_nonoverlapping(
             depth.cast::<u8>(),
@@ -366,14 +366,14 @@ extern "C" fn on_depth(_device: *mut c_void, depth: *mut c_void, _ticks: u32) {
     inbox.is_new = true;
 }
 
-/// The library says something.
+/// Callback for a log line.
 extern "C" fn on_log(_context: *mut c_void, _level: c_int, message: *const c_char) {
     if message.is_null() {
         return;
     }
     // SAFETY: a C string that lives for the duration of the call.
     let message = unsafe { CStr::from_ptr(message) }.to_string_lossy();
-    // Not there only while the thread ends: then nobody listens.
+    // The thread-local is missing only while the thread ends; then nobody reads it.
     let _ = SAID.try_with(|said| {
         if let Ok(mut said) = said.try_borrow_mut()
             && said.len() < MOST_SAID
@@ -383,7 +383,7 @@ extern "C" fn on_log(_context: *mut c_void, _level: c_int, message: *const c_cha
     });
 }
 
-/// Calls the library and takes down what it says meanwhile. A negative code is an error.
+/// Calls the library and collects what it logs. A negative code is an error.
 fn checked(call: impl FnOnce() -> c_int) -> Result<c_int, Failed> {
     SAID.take();
     let code = call();

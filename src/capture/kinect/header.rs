@@ -1,21 +1,21 @@
-//! Types and numbers of `libfreenect.h` 0.5 and of what it is built on.
+//! Types and constants of `libfreenect.h` 0.5 and of its dependencies.
 
 use std::{
     ffi::{c_char, c_int, c_long, c_void},
     time::Duration,
 };
 
-/// `freenect_device_flags`: the camera and nothing else.
+/// `freenect_device_flags`: only the camera.
 pub(super) const DEVICE_CAMERA: c_int = 0x02;
-/// `FREENECT_LOG_ERROR`. The next level is about single packets, many a second on a bad cable.
+/// `FREENECT_LOG_ERROR`. The next level logs single packets, many per second on a bad cable.
 pub(super) const LOG_ERROR: c_int = 1;
-/// `LIBUSB_ERROR_INTERRUPTED`: a signal came while waiting; nothing is wrong.
+/// `LIBUSB_ERROR_INTERRUPTED`: a signal interrupted the wait; not an error.
 pub(super) const INTERRUPTED: c_int = -10;
 /// `FREENECT_DEPTH_11BIT`: steps of disparity, 11 bits in 16.
 pub(super) const DEPTH_11BIT: i32 = 0;
-/// `FREENECT_DEPTH_MM`: millimetres, as the depth camera sees them.
+/// `FREENECT_DEPTH_MM`: millimetres, in the depth camera's geometry.
 pub(super) const DEPTH_MM: i32 = 5;
-/// `FREENECT_DEPTH_MM_MAX_VALUE`: what is farther, or nonsense, is set to this.
+/// `FREENECT_DEPTH_MM_MAX_VALUE`: stands for readings that are farther away or invalid.
 pub(super) const DEPTH_MM_MAX: u16 = 10_000;
 
 /// `freenect_frame_mode`.
@@ -38,12 +38,12 @@ pub(super) struct FrameMode {
 }
 
 impl FrameMode {
-    /// Pixels of a frame.
+    /// Number of pixels in a frame.
     pub(super) fn num_pixels(&self) -> usize {
         usize::try_from(self.width).unwrap_or(0) * usize::try_from(self.height).unwrap_or(0)
     }
 
-    /// True if a frame is one `u16` a pixel, row after row.
+    /// True if a frame has one `u16` per pixel and nothing else.
     pub(super) fn is_sixteen_bit(&self) -> bool {
         self.is_valid != 0
             && self.num_pixels() > 0
@@ -51,7 +51,7 @@ impl FrameMode {
     }
 }
 
-/// `struct timeval`. On macOS its second field has half the width, and the low half of ours lies in its place.
+/// `struct timeval`. On macOS its second field has half the width; the low half of ours is in its place.
 #[repr(C)]
 pub(super) struct TimeVal {
     seconds: c_long,
@@ -62,7 +62,7 @@ impl From<Duration> for TimeVal {
     fn from(duration: Duration) -> Self {
         Self {
             seconds: c_long::try_from(duration.as_secs()).unwrap_or(c_long::MAX),
-            // Below a million, and an `i32` fits a `c_long` everywhere.
+            // Below a million, and an `i32` fits into a `c_long` on every platform.
             microseconds: c_long::from(duration.subsec_micros() as i32),
         }
     }
@@ -71,7 +71,7 @@ impl From<Duration> for TimeVal {
 /// `struct freenect_device_attributes`.
 #[repr(C)]
 pub(super) struct Attributes {
-    /// The next one, or null.
+    /// The next entry, or null.
     pub(super) next: *mut Self,
     /// A C string, or null.
     pub(super) camera_serial: *const c_char,

@@ -1,32 +1,32 @@
-//! From the sensor's own steps of disparity to millimetres.
+//! Conversion of the sensor's steps of disparity to millimetres.
 //!
-//! Only for libraries that do not do it themselves, such as those that play recorded sessions. The sensor compares the
-//! dots that it sees with those of a reference plane at z₀. What lies at z shows them shifted, measured on that plane,
-//! by b·(1 - z₀/z), with b the distance of projector and camera. libfreenect turns this around in
-//! `freenect_raw_to_mm`; each Kinect tells its own z₀, b and pixel size, and the values below are those that
-//! libfreenect took while it could not ask (commit 05cadba). Ours: rounding instead of cutting off.
+//! Needed only for libraries that do not convert themselves, such as those that play recorded sessions. The sensor compares
+//! the dots it sees with those of a reference plane at z₀. Dots at z appear shifted, measured on that plane, by b·(1 -
+//! z₀/z), where b is the distance between projector and camera. libfreenect inverts this in `freenect_raw_to_mm`. Each
+//! Kinect has its own z₀, b and pixel size; the values below are those that libfreenect used before it read them from the
+//! device (commit 05cadba). The only difference: we round instead of truncating.
 
-/// Values that 11 bits can have.
+/// Number of 11-bit values.
 const NUM_STEPS: u16 = 1 << 11;
-/// The step that stands for no reading.
+/// The step that means no reading.
 const NO_READING: u16 = NUM_STEPS - 1;
-/// Distance of projector and camera, cm.
+/// Distance between projector and camera, cm.
 const BASELINE: f64 = 7.5;
 /// Distance of the reference plane, cm.
 const REFERENCE_DISTANCE: f64 = 120.0;
-/// One pixel of the 1280 across, on the reference plane, cm.
+/// Size of a pixel on the reference plane, in a picture 1280 pixels wide, cm.
 const PIXEL_SIZE: f64 = 0.1042;
 /// Disparity of the reference plane, pixels.
 const SHIFT: f64 = 200.0 + 0.375;
-/// Steps a pixel.
+/// Steps per pixel.
 const STEPS_PER_PIXEL: f64 = 4.0;
-/// As far as libfreenect's own millimetres reach.
+/// Range of libfreenect's own millimetres.
 const FARTHEST_MM: f64 = 10_000.0;
 
-/// The focal length of the depth camera with those values, in pixels of a frame 640 across: 575.8.
+/// Focal length of the depth camera for those values, in pixels of a frame 640 wide: 575.8.
 pub(super) const FOCAL_LENGTH: f64 = REFERENCE_DISTANCE / (2.0 * PIXEL_SIZE);
 
-/// Millimetres of every step; 0 is no reading.
+/// Returns the millimetres of every step; 0 means no reading.
 pub(super) fn millimetres_by_step() -> Vec<u16> {
     (0..NUM_STEPS).map(millimetres).collect()
 }
@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn the_reference_plane_is_where_it_is_and_a_step_grows_with_the_square_of_the_distance() {
         let table = millimetres_by_step();
-        // Step 801.5 is the plane.
+        // The plane is at step 801.5.
         assert!((1196..=1200).contains(&table[801]) && (1200..=1204).contains(&table[802]));
         assert!(table[300..1000].is_sorted());
         // b·z₀ = z²·step, so 4.2 mm at 1.2 m and 16.7 mm at 2.4 m.
@@ -64,7 +64,7 @@ mod tests {
     fn what_is_beyond_all_reach_is_no_reading() {
         let table = millimetres_by_step();
         assert_eq!(table[2047], 0);
-        // Behind the step of infinity the formula turns negative.
+        // Beyond the step of infinite distance the formula becomes negative.
         assert!(table[1090..].iter().all(|&mm| mm == 0));
         assert!(table.iter().all(|&mm| mm < 10_000));
         assert!((FOCAL_LENGTH - 575.8).abs() < 0.05);

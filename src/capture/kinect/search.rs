@@ -1,20 +1,20 @@
-//! Where libfreenect is looked for.
+//! The search for libfreenect.
 
 use std::path::Path;
 
 use super::{error::KinectError, freenect::Library};
 use crate::capture::driver_search::{DriverNames, NotLoaded};
 
-/// Names a file or a folder; the source's own setting goes before it.
+/// Environment variable with the library's file or folder; the source's own setting takes precedence.
 pub(super) const VARIABLE: &str = "PARTSIGHT_FREENECT";
 
-/// The library's names, the one that is known to fit first.
+/// File names of the library, the best-tested version first.
 const NAMES: &[&str] = if cfg!(target_os = "macos") {
     &[
         "libfreenect.0.5.dylib",
         "libfreenect.0.dylib",
         "libfreenect.dylib",
-        // Homebrew's folder on Apple's own processors is none of those that the system looks into.
+        // Homebrew's folder on Apple silicon is not among those that the system searches.
         "/opt/homebrew/lib/libfreenect.dylib",
     ]
 } else if cfg!(windows) {
@@ -23,13 +23,13 @@ const NAMES: &[&str] = if cfg!(target_os = "macos") {
     &["libfreenect.so.0.5", "libfreenect.so.0", "libfreenect.so"]
 };
 
-/// A library and the name that it was found by.
+/// A library and the name by which it was found.
 pub(super) struct LoadedDriver {
     pub(super) library: &'static Library,
     pub(super) name: String,
 }
 
-/// Loads the library: at `setting`, else where the variable says, else where the system keeps libraries.
+/// Loads the library from `setting`, else from the variable's place, else from the system.
 pub(super) fn find(setting: Option<&Path>) -> Result<LoadedDriver, KinectError> {
     let freenect = DriverNames {
         variable: VARIABLE,

@@ -1,8 +1,8 @@
-//! A recorded session, as libfreenect's fakenect build plays it.
+//! Recorded sessions, which libfreenect's fakenect build plays.
 //!
-//! `FAKENECT_PATH` names a folder with an `INDEX.txt` that lists a file a line: `d-TIME-TICKS.pgm` is a frame of depth,
-//! a line of header and then the bytes of a frame. The library ends the whole program where such a file is not there,
-//! and reads past the end of one that is too short. So the session is looked through before the library may have it.
+//! `FAKENECT_PATH` names a folder with an `INDEX.txt` that lists one file per line: `d-TIME-TICKS.pgm` is a depth frame, a
+//! header line followed by the frame's bytes. The library terminates the program if such a file is missing, and reads past
+//! the end of one that is too short. The session is therefore checked before the library opens it.
 
 use std::{
     collections::BTreeSet,
@@ -15,13 +15,13 @@ use super::error::KinectError;
 use crate::files::{open_regular, words_of};
 
 const VARIABLE: &str = "FAKENECT_PATH";
-/// Bytes of a frame behind its header.
+/// Size of a frame after its header, bytes.
 const FRAME_BYTES: u64 = 640 * 480 * 2;
-/// A header is `P5 640 480 65535` and the end of the line.
+/// Longest accepted header; it is `P5 640 480 65535` and a line end.
 const LONGEST_HEADER: u64 = 64;
 
-/// Looks through the session that the variable names, on behalf of the library of that name. The result is its number
-/// of entries; the library plays one at a turn.
+/// Checks the session that the variable names; `library` names the library in an error. Returns the number of entries; the
+/// library plays one per turn.
 pub(super) fn check(library: &str) -> Result<usize, KinectError> {
     match env::var_os(VARIABLE).filter(|value| !value.is_empty()) {
         Some(folder) => check_folder(Path::new(&folder)),
@@ -36,7 +36,7 @@ fn check_folder(folder: &Path) -> Result<usize, KinectError> {
     let lines = open_regular(&index)
         .and_then(io::read_to_string)
         .map_err(|error| unusable(&index, words(&error)))?;
-    // An empty line ends the session for the library, too.
+    // An empty line ends the session for the library too.
     let entries = || lines.split('\n').take_while(|line| !line.is_empty());
     let names: BTreeSet<&str> = entries().collect();
     for name in names {
@@ -56,7 +56,7 @@ fn check_folder(folder: &Path) -> Result<usize, KinectError> {
     Ok(entries().count())
 }
 
-/// Of one file; the shared words for a missing one speak of its folder.
+/// The shared words for a missing file are about its folder.
 fn words(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "it is not there".into(),
@@ -71,7 +71,7 @@ fn unusable(path: &Path, what: impl Into<String>) -> KinectError {
     }
 }
 
-/// True for `d-1290.25-4711.pgm` and the like: a kind, seconds, ticks.
+/// True for a name such as `d-1290.25-4711.pgm`: kind, seconds, ticks.
 fn is_entry(name: &str) -> bool {
     let mut fields = name.splitn(3, '-');
     let kind = fields
@@ -86,7 +86,7 @@ fn is_entry(name: &str) -> bool {
             .is_some_and(|ticks| ticks.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// Bytes behind the first line; 0 where that is longer than a header.
+/// Number of bytes after the first line; 0 if that line is longer than a header.
 fn room_behind_header(path: &Path) -> io::Result<u64> {
     let file = open_regular(path)?;
     let size = file.metadata()?.len();

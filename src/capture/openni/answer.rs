@@ -1,38 +1,38 @@
-//! What calls of the library come to.
+//! Results of the library's calls.
 
 use super::header::VideoMode;
 
-/// A call that failed, with what the library says of it.
+/// A call that failed, with the library's messages.
 #[derive(Debug)]
 pub(super) struct Failed {
-    /// A sentence each; may be empty.
+    /// One sentence each; may be empty.
     pub(super) said: Vec<String>,
 }
 
 /// Why the library was not started.
 pub(super) enum NoContext {
-    /// It lacks this function.
+    /// The library lacks this function.
     MissingSymbol(&'static str),
-    /// It runs already.
+    /// The library is running already.
     InUse,
-    /// It does not start.
+    /// The library does not start.
     Failed(Failed),
 }
 
 /// A device that is plugged in.
 pub(super) struct FoundDevice {
-    /// What it is opened by. It changes when the device is plugged in again.
+    /// URI by which it is opened. It changes when the device is plugged in again.
     pub(super) uri: String,
-    /// Maker and model.
+    /// Manufacturer and model.
     pub(super) name: String,
 }
 
-/// A frame, whole and without gaps between its rows.
+/// A complete frame without padding.
 pub(super) struct Received {
-    /// What it was captured in.
+    /// Mode in which it was captured.
     pub(super) mode: VideoMode,
-    /// True if it is not the whole picture of its mode.
+    /// True if it is only a part of its mode's picture.
     pub(super) is_part: bool,
-    /// Row after row.
+    /// Depth values, row by row.
     pub(super) depth: Vec<u16>,
 }

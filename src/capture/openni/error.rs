@@ -1,4 +1,4 @@
-//! Why there is no picture through OpenNI, and what to do about it.
+//! Errors of OpenNI, with advice.
 
 use std::path::PathBuf;
 
@@ -10,112 +10,112 @@ use super::{
 };
 use crate::{capture::Recovery, error::Advice};
 
-/// Why an OpenNI camera or a file of one cannot be used, or gives nothing more.
+/// Why an OpenNI camera or file cannot be used, or delivers no more.
 #[derive(Debug, Error)]
 pub enum OpenNiError {
-    /// The system has no libOpenNI2.
+    /// libOpenNI2 is not installed.
     #[error("libOpenNI2 is not installed (looked for {})", tried.join(", "))]
     NoLibrary {
-        /// The names that were looked for.
+        /// The names that were tried.
         tried: Vec<&'static str>,
     },
-    /// The place that a setting names has none.
+    /// The place in a setting has no libOpenNI2.
     #[error("{}: no libOpenNI2 there", path.display())]
     LibraryNotAt {
-        /// The file or folder, as it was given.
+        /// The file or folder as given.
         path: PathBuf,
     },
-    /// There is one and the system cannot load it.
+    /// libOpenNI2 was found, but the system cannot load it.
     #[error("{library} cannot be loaded: {reason}")]
     LibraryUnusable {
-        /// Its name or path.
+        /// Name or path of the library.
         library: String,
-        /// The system's words.
+        /// The system's message.
         reason: String,
     },
-    /// It is another version, or no libOpenNI2 at all.
+    /// The library is another version, or not libOpenNI2.
     #[error("{library} has no function {symbol}: not libOpenNI2 2.2")]
     MissingSymbol {
-        /// Its name or path.
+        /// Name or path of the library.
         library: String,
-        /// The function.
+        /// The missing function.
         symbol: &'static str,
     },
-    /// The library does not start, mostly because it finds no drivers.
+    /// The library does not start, usually because it finds no drivers.
     #[error("libOpenNI2 does not start{}", words(said))]
     NoDrivers {
-        /// What the library says.
+        /// The library's messages.
         said: Vec<String>,
     },
     /// This program uses OpenNI already.
     #[error("OpenNI is in use by Partsight itself")]
     InUse,
-    /// Nothing is plugged in.
+    /// No camera is plugged in.
     #[error("no OpenNI camera is plugged in")]
     NoDevice,
-    /// Another one than the one asked for is plugged in.
+    /// Other cameras are plugged in, but not the requested one.
     #[error("no OpenNI camera {uri} is plugged in{}", others(found))]
     NoSuchDevice {
-        /// The one asked for.
+        /// The requested URI.
         uri: String,
-        /// Those there are.
+        /// URIs of those that are plugged in.
         found: Vec<String>,
     },
-    /// It is plugged in and does not open.
+    /// The camera is plugged in but cannot be opened.
     #[error("the OpenNI camera does not open{}", words(said))]
     NotOpened {
-        /// What the library says.
+        /// The library's messages.
         said: Vec<String>,
     },
-    /// It has no depth in a form that is read here.
+    /// The camera offers depth in no supported format.
     #[error("{title} offers depth neither in millimetres nor in tenths of one")]
     NoDepthMode {
         /// The camera or file.
         title: String,
     },
-    /// It does not tell its field of view.
+    /// The camera does not report its field of view.
     #[error("{title} does not tell its field of view")]
     NoFieldOfView {
         /// The camera or file.
         title: String,
     },
-    /// It does not tell whether left and right are exchanged.
+    /// The camera does not report whether its picture is mirrored.
     #[error("{title} does not tell whether its picture is mirrored")]
     MirroringUnknown {
         /// The camera or file.
         title: String,
     },
-    /// It sends a part of the picture.
+    /// The camera sends only a part of the picture.
     #[error("{title} sends a part of its picture only")]
     Cropped {
         /// The camera or file.
         title: String,
     },
-    /// Its mode, or its mirroring, is another one than when it was opened.
+    /// The mode or the mirroring has changed since the camera was opened.
     #[error("the picture of {title} has changed its size, unit or mirroring")]
     Changed {
         /// The camera or file.
         title: String,
     },
-    /// It opens, and its stream does not start.
+    /// The camera opens, but its stream does not start.
     #[error("the OpenNI camera does not start{}", words(said))]
     NotStarted {
-        /// What the library says.
+        /// The library's messages.
         said: Vec<String>,
     },
-    /// It was unplugged, or reports an error of its own.
+    /// The camera was unplugged, or reports an error.
     #[error("the OpenNI camera is gone{}", words(said))]
     Lost {
-        /// What the library says.
+        /// The library's messages.
         said: Vec<String>,
     },
-    /// It is there and sends nothing.
+    /// The camera is there but sends nothing.
     #[error("the OpenNI camera sent nothing for {seconds} s")]
     Silent {
-        /// How long.
+        /// For how long, seconds.
         seconds: u64,
     },
-    /// A recorded file is not there, is none, or is damaged.
+    /// The recorded file is not an OpenNI recording, or is damaged.
     #[error("{}: {what}", path.display())]
     FileUnusable {
         /// The file.
@@ -126,8 +126,8 @@ pub enum OpenNiError {
 }
 
 impl OpenNiError {
-    /// What helps: a camera may be plugged in, let go or permitted at any time; a library or a file does not come by
-    /// itself.
+    /// How to recover: a camera may be plugged in, released or permitted at any time; a library or a file does not appear
+    /// by itself.
     pub(crate) fn recovery(&self) -> Recovery {
         match self {
             Self::InUse

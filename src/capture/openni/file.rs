@@ -1,9 +1,8 @@
-//! Whether a recorded file is whole.
+//! Checks that a recorded file is complete.
 //!
-//! libOpenNI2 does not tell the end of some files that were cut off, and is not made for damaged ones. So the chain of
-//! records is followed to its last one before the library may have the file. Their layout is that of `DataRecords.h` of
-//! OpenNI 2: a header of the file, then records, each with its magic, kind, node, and the sizes of its fields and its
-//! payload.
+//! libOpenNI2 does not report the end of some truncated files, and is not robust against damaged ones. The chain of records
+//! is therefore followed to its last one before the library opens the file. The layout is that of `DataRecords.h` of OpenNI
+//! 2: a file header, then records, each with its magic, kind, node, and the sizes of its fields and its payload.
 
 use std::{
     io::{self, BufReader, Read as _},
@@ -19,14 +18,14 @@ use crate::{
 const FILE_MAGIC: &[u8] = b"NI10";
 const FILE_HEADER: u64 = 24;
 const RECORD_MAGIC: u32 = u32::from_le_bytes(*b"NIR\0");
-/// A record's header as earlier versions have it; the later ones add four bytes.
+/// Size of a record's header in earlier versions; later ones add four bytes.
 const LEAST_FIELDS: u32 = 24;
-/// What is read of a record's header.
+/// Number of bytes read of a record's header.
 const HEAD: usize = 20;
 /// `RECORD_END`.
 const END: u32 = 0x0B;
 
-/// Refuses a file that is not there, is none of OpenNI, or was cut off.
+/// Refuses a file that is missing, truncated or not an OpenNI recording.
 pub(super) fn check(path: &Path) -> Result<(), CaptureError> {
     match end_of_whole(path).map_err(|source| FileError::reading(path, source))? {
         Ok(()) => Ok(()),
@@ -38,7 +37,7 @@ pub(super) fn check(path: &Path) -> Result<(), CaptureError> {
     }
 }
 
-/// Follows the records, or says where they break off.
+/// Follows the records; the inner error says where they break off.
 fn end_of_whole(path: &Path) -> io::Result<Result<(), String>> {
     let file = open_regular(path)?;
     let num_bytes = file.metadata()?.len();
@@ -100,7 +99,7 @@ mod tests {
             std::fs::write(&path, &whole[..num]).unwrap();
             assert_eq!(check(&path).is_ok(), num == whole.len(), "{num} bytes");
         }
-        // The library leaves bytes behind the end.
+        // The library leaves bytes after the end.
         std::fs::write(&path, [&whole[..], &[0; 99]].concat()).unwrap();
         check(&path).unwrap();
         for at in [0, 24, 36, 39, 552] {

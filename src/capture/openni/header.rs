@@ -1,4 +1,4 @@
-//! Types and numbers of `OniCTypes.h`, `OniCEnums.h` and `OniCProperties.h` 2.2.
+//! Types and constants of `OniCTypes.h`, `OniCEnums.h` and `OniCProperties.h` 2.2.
 
 use std::ffi::{c_char, c_int, c_void};
 
@@ -6,7 +6,7 @@ use std::ffi::{c_char, c_int, c_void};
 pub(super) const API_VERSION: c_int = 2002;
 /// `ONI_STATUS_OK`.
 pub(super) const OK: c_int = 0;
-/// `ONI_STATUS_TIME_OUT`: nothing came in time; nothing is wrong.
+/// `ONI_STATUS_TIME_OUT`: nothing arrived in time; not an error.
 pub(super) const TIME_OUT: c_int = 102;
 /// `ONI_SENSOR_DEPTH`.
 pub(super) const SENSOR_DEPTH: c_int = 3;
@@ -16,12 +16,12 @@ pub(super) const DEPTH_1_MM: c_int = 100;
 pub(super) const DEPTH_100_UM: c_int = 101;
 /// `ONI_DEVICE_STATE_ERROR`.
 pub(super) const STATE_ERROR: c_int = 1;
-/// `ONI_DEVICE_STATE_EOF`: a file has no more.
+/// `ONI_DEVICE_STATE_EOF`: the end of a file.
 pub(super) const STATE_END_OF_FILE: c_int = 3;
 
 /// `ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION`, a `c_int`: 0 is off.
 pub(super) const DEVICE_REGISTRATION: c_int = 5;
-/// `ONI_DEVICE_PROPERTY_PLAYBACK_SPEED`, an `f32`: 1 as recorded, -1 a frame whenever one is waited for.
+/// `ONI_DEVICE_PROPERTY_PLAYBACK_SPEED`, an `f32`: 1 as recorded, -1 one frame per wait.
 pub(super) const DEVICE_SPEED: c_int = 100;
 /// `ONI_DEVICE_PROPERTY_PLAYBACK_REPEAT_ENABLED`, a `c_int`.
 pub(super) const DEVICE_REPEAT: c_int = 101;
@@ -36,7 +36,7 @@ pub(super) const STREAM_MODE: c_int = 3;
 /// `ONI_STREAM_PROPERTY_MIRRORING`, a `c_int`.
 pub(super) const STREAM_MIRRORING: c_int = 7;
 
-/// A type of a property: every bit pattern of its size is a value.
+/// Type of a property: every bit pattern of its size is a valid value.
 pub(super) trait Property: Copy + Default {}
 
 impl Property for c_int {}
@@ -54,7 +54,7 @@ pub(super) struct VideoMode {
     pub(super) width: c_int,
     /// Rows.
     pub(super) height: c_int,
-    /// Frames a second.
+    /// Frames per second.
     pub(super) rate: c_int,
 }
 
@@ -74,20 +74,20 @@ pub(super) struct Cropping {
 #[repr(C)]
 pub(super) struct SensorInfo {
     sensor: c_int,
-    /// How many `modes` points to.
+    /// Number of `modes`.
     pub(super) num_modes: c_int,
-    /// The first.
+    /// Pointer to the first mode.
     pub(super) modes: *const VideoMode,
 }
 
-/// `OniDeviceInfo`; its texts end with 0.
+/// `OniDeviceInfo`; its strings end with NUL.
 #[repr(C)]
 pub(super) struct DeviceInfo {
-    /// What the device is opened by.
+    /// URI by which the device is opened.
     pub(super) uri: [c_char; 256],
-    /// Its maker.
+    /// Manufacturer.
     pub(super) vendor: [c_char; 256],
-    /// Its model.
+    /// Model.
     pub(super) name: [c_char; 256],
     usb_vendor: u16,
     usb_product: u16,
@@ -96,24 +96,24 @@ pub(super) struct DeviceInfo {
 /// `OniFrame`.
 #[repr(C)]
 pub(super) struct Frame {
-    /// Bytes of `data`.
+    /// Size of `data`, bytes.
     pub(super) num_bytes: c_int,
-    /// Row after row, `stride` bytes each.
+    /// Rows of `stride` bytes each.
     pub(super) data: *const c_void,
     sensor: c_int,
     timestamp: u64,
     number: c_int,
-    /// Columns that are sent.
+    /// Number of columns sent.
     pub(super) width: c_int,
-    /// Rows that are sent.
+    /// Number of rows sent.
     pub(super) height: c_int,
-    /// What it was captured in.
+    /// Mode in which it was captured.
     pub(super) mode: VideoMode,
     /// Not 0 if it is a part of the picture.
     pub(super) is_cropped: c_int,
     left: c_int,
     top: c_int,
-    /// Bytes from one row to the next.
+    /// Distance between the starts of two rows, bytes.
     pub(super) stride: c_int,
 }
 
@@ -129,6 +129,6 @@ pub(super) struct DeviceCallbacks {
     pub(super) connected: OnDevice,
     /// A device was unplugged.
     pub(super) disconnected: OnDevice,
-    /// A device is in another state.
+    /// A device's state changed.
     pub(super) state: OnState,
 }

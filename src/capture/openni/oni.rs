@@ -1,14 +1,14 @@
-//! libOpenNI2, loaded while the program runs and called by unsafe code, as libfreenect is in `kinect/freenect.rs`.
+//! libOpenNI2, loaded at run time, and all unsafe code that calls it, like libfreenect in `kinect/freenect.rs`.
 //!
-//! The functions are those of `OniCAPI.h` 2.2, looked up by name when the library is loaded.
+//! The functions are those of `OniCAPI.h` 2.2, looked up when the library is loaded.
 //!
-//! What the rest of the crate relies on, and C does not promise by itself:
+//! Guarantees to the rest of the crate that C does not give by itself:
 //! - one [`Context`] at a time in the process: the library counts its starts without a lock;
-//! - the library is never unloaded, because its drivers may keep threads;
-//! - it never holds a pointer into our memory: frames are copied, and what its threads report goes to a static.
+//! - the library is never unloaded, because its drivers may have threads;
+//! - it never holds a pointer into our memory: frames are copied, and its threads report to a static.
 //!
-//! While it starts, the library changes the working folder to that of its drivers and back. On Linux the calling thread
-//! gets a working folder of its own before, so that no other thread resolves a path there meanwhile.
+//! While it starts, the library changes the working directory to that of its drivers and back. On Linux the calling thread
+//! first gets a working directory of its own, so that no other thread resolves a path there in the meantime.
 
 #![expect(
     unsafe_code,
@@ -35,8 +35,8 @@ use super::{
 };
 use crate::{capture::driver_search::driver_functions, error::lock};
 
-/// Between the stop of a stream and its end. The thread that plays a file goes through the streams without a lock, all the
-/// time while one runs and every 10 ms once none does; a stream that ends meanwhile crashes it.
+/// Pause between stopping and destroying a stream. The thread that plays a file iterates over the streams without a lock,
+/// continuously while one runs and every 10 ms otherwise; destroying a stream during that crashes it.
 const SETTLING: Duration = Duration::from_millis(100);
 
 driver_functions! {
@@ -63,12 +63,12 @@ driver_functions! {
     oniFrameRelease: fn(*mut Frame);
 }
 
-/// A running library. Dropped, it shuts the library down.
+/// A running library. Dropping it shuts the library down.
 pub(super) struct Context {
     functions: Functions,
 }
 
-/// True while there is a [`Context`].
+/// True while a [`Context`] exists.
 static IS_RUNNING: AtomicBool = AtomicBool::new(false);
 
 impl Context {
@@ -78,17 +78,17 @@ impl Context {
         if IS_RUNNING.swap(true, Ordering::Acquire) {
             return Err(NoContext::InUse);
         }
-        // The library counts a start that failed, too: dropping the context takes it back.
+        // The library counts failed starts too: dropping the context undoes the count.
         let context = Self { functions };
         use_own_working_folder();
         context
-            // SAFETY: takes a number; nobody else starts or stops the library meanwhile.
+            // SAFETY: takes a number; nobody else starts or stops the library in the meantime.
             .checked(|| unsafe { (functions.oniInitialize)(API_VERSION) })
             .map_err(NoContext::Failed)?;
         Ok(context)
     }
 
-    /// The devices that are plugged in, whether they can be opened or not.
+    /// Lists the devices that are plugged in, whether they can be opened or not.
     pub(super) fn devices(&self) -> Result<Vec<FoundDevice>, Failed> {
         let (mut first, mut num) = (ptr::null_mut(), 0);
         // SAFETY: the library runs; both are places to write to.
@@ -110,7 +110,7 @@ impl Context {
         Ok(devices)
     }
 
-    /// Opens the device, or the recorded file, and makes its stream of depth.
+    /// Opens the device or the recorded file, and creates its depth stream.
     pub(super) fn open(self, uri: &CStr) -> Result<Device, Failed> {
         let functions = self.functions;
         *lock(&REPORTED) = Reported {
@@ -123,7 +123,7 @@ impl Context {
             state: on_state,
         };
         let mut handle = ptr::null_mut();
-        // SAFETY: the library runs and copies the functions, which are of this program and outlive it; `handle` is a
+        // SAFETY: the library runs and copies the functions, which belong to this program and outlive it; `handle` is a
         // place to write a pointer to.
         self.checked(|| unsafe {
             (functions.oniRegisterDeviceCallbacks)(
@@ -132,7 +132,7 @@ impl Context {
                 &raw mut handle,
             )
         })?;
-        // From here on, dropping it takes back what was done.
+        // From here on, dropping `device` undoes every step.
         let mut device = Device {
             callbacks: handle,
             handle: ptr::null_mut(),
@@ -145,7 +145,7 @@ impl Context {
         let opened = device
             .context
             .checked(|| unsafe { (functions.oniDeviceOpen)(uri.as_ptr(), &raw mut handle) });
-        // The library leaves a handle behind, without a device in it, where opening failed.
+        // If opening fails, the library returns a handle without a device; do not keep it.
         opened?;
         device.handle = NonNull::new(handle).ok_or_else(nothing_said)?.as_ptr();
         let (of, mut stream) = (device.handle, ptr::null_mut());
@@ -157,7 +157,7 @@ impl Context {
         Ok(device)
     }
 
-    /// Calls the library and takes down what it says of a failure; it keeps that for each thread.
+    /// Calls the library and collects its messages on failure, which it stores per thread.
     fn checked(&self, call: impl FnOnce() -> c_int) -> Result<(), Failed> {
         if call() == OK {
             return Ok(());
@@ -187,13 +187,13 @@ fn nothing_said() -> Failed {
     Failed { said: Vec::new() }
 }
 
-/// A text that ends with 0, or with its array.
+/// Converts a string that ends with NUL or fills its array.
 fn text(chars: &[c_char; 256]) -> String {
     let bytes = chars.iter().map(|&c| c as u8).take_while(|&byte| byte != 0);
     String::from_utf8_lossy(&bytes.collect::<Vec<u8>>()).into_owned()
 }
 
-/// Gives this thread a working folder of its own, which starts as the common one.
+/// Gives this thread a working directory of its own, initially the common one.
 fn use_own_working_folder() {
     #[cfg(target_os = "linux")]
     {
@@ -201,24 +201,24 @@ fn use_own_working_folder() {
         unsafe extern "C" {
             fn unshare(flags: c_int) -> c_int;
         }
-        // SAFETY: takes a number and changes only what this thread shares. Where it is forbidden, nothing changes.
+        // SAFETY: takes a number and changes only what this thread shares. If it is forbidden, nothing changes.
         let _ = unsafe { unshare(CLONE_FS) };
     }
 }
 
-/// An open device with its stream of depth. Dropped, it stops the stream, closes the device and shuts the library down.
+/// An open device with its depth stream. Dropping it stops the stream, closes the device and shuts the library down.
 pub(super) struct Device {
     callbacks: *mut c_void,
     /// Null until it is open.
     handle: *mut c_void,
-    /// Null until it is made.
+    /// Null until it is created.
     stream: *mut c_void,
     reported: &'static Mutex<Reported>,
     context: Context,
 }
 
 impl Device {
-    /// The modes of depth that the device has.
+    /// The device's depth modes.
     pub(super) fn modes(&self) -> Vec<VideoMode> {
         // SAFETY: the device is open; the result is null, or lives as long as the device.
         let sensor = unsafe {
@@ -233,30 +233,30 @@ impl Device {
             .collect()
     }
 
-    /// Sets a property of the device; an error where it has none or does not take the value.
+    /// Sets a property of the device; fails if the device lacks it or rejects the value.
     pub(super) fn set_device<T: Property>(&self, property: c_int, value: T) -> Result<(), Failed> {
         let set = self.context.functions.oniDeviceSetProperty;
         let (value, size) = (&raw const value, size_of::<T>() as c_int);
         self.context
-            // SAFETY: the device is open, and the value has the size that is told.
+            // SAFETY: the device is open, and the value has the given size.
             .checked(|| unsafe { set(self.handle, property, value.cast(), size) })
     }
 
-    /// Sets a property of the stream; an error where it has none or does not take the value.
+    /// Sets a property of the stream; fails if the stream lacks it or rejects the value.
     pub(super) fn set<T: Property>(&self, property: c_int, value: T) -> Result<(), Failed> {
         let set = self.context.functions.oniStreamSetProperty;
         let (value, size) = (&raw const value, size_of::<T>() as c_int);
         self.context
-            // SAFETY: there is a stream, and the value has the size that is told.
+            // SAFETY: there is a stream, and the value has the given size.
             .checked(|| unsafe { set(self.stream, property, value.cast(), size) })
     }
 
-    /// A property of the stream; `None` where it does not tell.
+    /// Reads a property of the stream; `None` if it is not available.
     pub(super) fn get<T: Property>(&self, property: c_int) -> Option<T> {
         let get = self.context.functions.oniStreamGetProperty;
         let (mut value, mut size) = (T::default(), size_of::<T>() as c_int);
         let place = (&raw mut value).cast();
-        // SAFETY: there is a stream; the place has the size that is told, and any bits are a value of the type.
+        // SAFETY: there is a stream; the place has the given size, and any bits are a value of the type.
         let code = unsafe { get(self.stream, property, place, &raw mut size) };
         (code == OK && size == size_of::<T>() as c_int).then_some(value)
     }
@@ -268,7 +268,7 @@ impl Device {
             .checked(|| unsafe { (self.context.functions.oniStreamStart)(self.stream) })
     }
 
-    /// Waits for at most about `wait`, and gives the newest frame if there is one.
+    /// Waits for about `wait` at most, and returns the newest frame, if any.
     pub(super) fn receive(&self, wait: Duration) -> Result<Option<Received>, Failed> {
         let functions = &self.context.functions;
         let (mut stream, mut index) = (self.stream, 0);
@@ -299,12 +299,12 @@ impl Device {
         received.transpose()
     }
 
-    /// True once the device was unplugged or reported an error of its own.
+    /// True once the device was unplugged or reported an error.
     pub(super) fn is_lost(&self) -> bool {
         lock(self.reported).is_lost
     }
 
-    /// True once a file has no more. Its last frame may still have to be received.
+    /// True once a file has ended. Its last frame may still have to be received.
     pub(super) fn is_at_end(&self) -> bool {
         lock(self.reported).is_at_end
     }
@@ -313,8 +313,8 @@ impl Device {
 impl Drop for Device {
     fn drop(&mut self) {
         let functions = &self.context.functions;
-        // SAFETY: each was made, is not used any more, and is given back once; the library accepts that a stream was
-        // never started, and that the device is unplugged.
+        // SAFETY: each was created, is no longer used, and is released once; the library accepts that a stream was never
+        // started, and that the device is unplugged.
         unsafe {
             if !self.stream.is_null() {
                 (functions.oniStreamStop)(self.stream);
@@ -329,7 +329,7 @@ impl Drop for Device {
     }
 }
 
-/// Copies a frame of 16 bits a pixel; an error if its numbers contradict each other.
+/// Copies a frame of 16 bits per pixel; fails if its sizes are inconsistent.
 fn copied(frame: &Frame) -> Result<Received, Failed> {
     let size = |number: c_int| usize::try_from(number).unwrap_or(0);
     let (width, height) = (size(frame.width), size(frame.height));
@@ -363,7 +363,7 @@ fn copied(frame: &Frame) -> Result<Received, Failed> {
     })
 }
 
-/// What the library's threads reported of the device that is open.
+/// What the library's threads have reported about the open device.
 struct Reported {
     uri: String,
     is_lost: bool,
@@ -380,7 +380,7 @@ impl Reported {
 
 static REPORTED: Mutex<Reported> = Mutex::new(Reported::NOTHING);
 
-/// Notes something about the device that is open, and nothing about others.
+/// Applies a report about the open device, and ignores those about others.
 fn report(info: *const DeviceInfo, note: impl FnOnce(&mut Reported)) {
     // SAFETY: null, or a structure that lives for the duration of the call.
     let Some(info) = (unsafe { info.as_ref() }) else {

@@ -1,14 +1,14 @@
-//! Where libOpenNI2 is looked for.
+//! The search for libOpenNI2.
 
 use std::path::Path;
 
 use super::{error::OpenNiError, oni::Library};
 use crate::capture::driver_search::{DriverNames, NotLoaded};
 
-/// Names a file or a folder; the source's own setting goes before it.
+/// Environment variable with the library's file or folder; the source's own setting takes precedence.
 pub(super) const VARIABLE: &str = "PARTSIGHT_OPENNI";
 
-/// The library's names. It finds its drivers in the folder `OpenNI2/Drivers` beside it.
+/// File names of the library. It finds its drivers in the folder `OpenNI2/Drivers` beside it.
 const NAMES: &[&str] = if cfg!(target_os = "macos") {
     &["libOpenNI2.dylib", "/opt/homebrew/lib/ni2/libOpenNI2.dylib"]
 } else if cfg!(windows) {
@@ -17,8 +17,7 @@ const NAMES: &[&str] = if cfg!(target_os = "macos") {
     &["libOpenNI2.so.0", "libOpenNI2.so"]
 };
 
-/// Loads the library: at `setting`, else where the variable says, else where the system keeps libraries. Its name comes
-/// with it.
+/// Loads the library from `setting`, else from the variable's place, else from the system. Also returns its name.
 pub(super) fn find(setting: Option<&Path>) -> Result<(&'static Library, String), OpenNiError> {
     let openni = DriverNames {
         variable: VARIABLE,

@@ -1,4 +1,4 @@
-//! Why there is no picture from a RealSense camera, and what to do about it.
+//! Errors of RealSense cameras, with advice.
 
 use std::path::{Path, PathBuf};
 
@@ -10,84 +10,84 @@ use crate::{
     error::Advice,
 };
 
-/// Why a RealSense camera or a file of one cannot be used, or gives nothing more.
+/// Why a RealSense camera or file cannot be used, or delivers no more.
 #[derive(Debug, Error)]
 pub enum RealsenseError {
-    /// The system has no librealsense.
+    /// librealsense is not installed.
     #[error("librealsense2, the library for RealSense cameras, is not installed")]
     NoLibrary,
-    /// The place that a setting names has none.
+    /// The place in a setting has no librealsense.
     #[error("{}: no librealsense2 there", path.display())]
     LibraryNotAt {
-        /// The file or folder, as it was given.
+        /// The file or folder as given.
         path: PathBuf,
     },
-    /// There is one and the system cannot load it.
+    /// librealsense was found, but the system cannot load it.
     #[error("{library} cannot be loaded: {reason}")]
     LibraryUnusable {
-        /// Its name or path.
+        /// Name or path of the library.
         library: String,
-        /// The system's words.
+        /// The system's message.
         reason: String,
     },
-    /// It is older, or no librealsense at all.
+    /// The library is older, or not librealsense.
     #[error("{library} has no function {symbol}: not librealsense 2.30 or a newer 2")]
     MissingSymbol {
-        /// Its name or path.
+        /// Name or path of the library.
         library: String,
-        /// The function.
+        /// The missing function.
         symbol: &'static str,
     },
     /// The library does not start.
     #[error("librealsense2 does not start: {said}")]
     LibraryNotStarted {
-        /// What the library says.
+        /// The library's message.
         said: String,
     },
-    /// Nothing is plugged in.
+    /// No camera is plugged in.
     #[error("no RealSense camera is plugged in")]
     NoDevice,
-    /// Another one than the one asked for is plugged in.
+    /// Other cameras are plugged in, but not the requested one.
     #[error("no RealSense camera {serial} is plugged in, only {}", found.join(", "))]
     NoSuchDevice {
-        /// The serial number asked for.
+        /// The requested serial number.
         serial: String,
-        /// Those there are.
+        /// Serial numbers of those that are plugged in.
         found: Vec<String>,
     },
-    /// It is plugged in and does not open.
+    /// The camera is plugged in but cannot be opened.
     #[error("the RealSense camera does not open: {said}")]
     NotOpened {
-        /// What the library says.
+        /// The library's message.
         said: String,
     },
-    /// It has no depth of 16 bits: a tracking camera, or one that waits for its firmware.
+    /// The camera has no 16-bit depth: it is a tracking camera, or waits for its firmware.
     #[error("{title} has no depth")]
     NoDepth {
         /// The camera or file.
         title: String,
     },
-    /// It has no preset of that name.
+    /// The camera has no preset of that name.
     #[error("{title} has no preset {preset:?}{}", only(offered))]
     NoSuchPreset {
         /// The camera.
         title: String,
-        /// The one asked for.
+        /// The requested preset.
         preset: String,
-        /// Those there are.
+        /// Names of the camera's presets.
         offered: Vec<String>,
     },
-    /// Its depth image is distorted in a way that is not read here.
+    /// The depth image has a distortion model that is not supported.
     #[error(
         "{title} gives the distortion of its depth image by the {model} model, which Partsight does not read"
     )]
     UnknownLens {
         /// The camera or file.
         title: String,
-        /// The model of its lens.
+        /// Name of the model.
         model: &'static str,
     },
-    /// Its numbers are those of no camera.
+    /// The camera reports impossible numbers.
     #[error("{title} tells numbers that no camera has: {what}")]
     BadNumbers {
         /// The camera or file.
@@ -95,25 +95,25 @@ pub enum RealsenseError {
         /// The numbers.
         what: String,
     },
-    /// It opens, and its stream does not start.
+    /// The camera opens, but its stream does not start.
     #[error("the RealSense camera does not start: {said}")]
     NotStarted {
-        /// What the library says.
+        /// The library's message.
         said: String,
     },
-    /// It was unplugged, or reports an error of its own.
+    /// The camera was unplugged, or reports an error.
     #[error("the RealSense camera is gone{}", said.as_ref().map(|said| format!(": {said}")).unwrap_or_default())]
     Lost {
-        /// What the library says.
+        /// The library's message.
         said: Option<String>,
     },
-    /// It is there and sends nothing.
+    /// The camera is there but sends nothing.
     #[error("the RealSense camera sent nothing for {seconds} s")]
     Silent {
-        /// How long.
+        /// For how long, seconds.
         seconds: u64,
     },
-    /// A recorded file is none, or is damaged.
+    /// The recorded file is not a librealsense recording, or is damaged.
     #[error("{}: {what}", path.display())]
     FileUnusable {
         /// The file.
@@ -134,8 +134,8 @@ impl From<NotLoaded> for RealsenseError {
 }
 
 impl RealsenseError {
-    /// What helps: a camera may be plugged in, let go or permitted at any time; a library or a file does not come by
-    /// itself.
+    /// How to recover: a camera may be plugged in, released or permitted at any time; a library or a file does not appear
+    /// by itself.
     pub(crate) fn recovery(&self) -> Recovery {
         match self {
             Self::NoDevice
@@ -157,7 +157,7 @@ impl RealsenseError {
         }
     }
 
-    /// The same of a file, whose troubles have other causes than a camera's.
+    /// Converts the error for a file, where it has other causes than for a camera.
     pub(super) fn of_file(self, path: &Path) -> Self {
         let what = match self {
             Self::NotOpened { said } | Self::NotStarted { said } => {

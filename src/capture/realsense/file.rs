@@ -1,12 +1,12 @@
-//! Whether a recorded file is whole.
+//! Checks that a recorded file is complete.
 //!
-//! librealsense ends a file that was cut off as if it ended there, and is not made for damaged ones. So what the file says of
-//! its own size is checked before the library may have it.
+//! librealsense plays a truncated file as if it ended there, and is not robust against damaged ones. The size recorded in
+//! the file is therefore checked before the library opens it.
 //!
-//! - `.bag`, of older versions of librealsense, has the layout of ROS bag 2.0: behind the mark, records of a header with its
-//!   length and data with their length. The first record tells where the index begins, or 0 if the file was never closed, and
-//!   how many records it has; the index ends with the file.
-//! - `.db3`, of newer versions, is a database of `SQLite`, whose header tells its number of pages.
+//! - `.bag`, of older versions of librealsense, has the layout of ROS bag 2.0: after the magic, records consisting of a
+//!   header with its length and data with their length. The first record has the position of the index, or 0 if the file
+//!   was never closed, and the number of the index records; the index ends with the file.
+//! - `.db3`, of newer versions, is a `SQLite` database, whose header has its number of pages.
 
 use std::{
     io::{self, BufReader, Read, Seek, SeekFrom},
@@ -21,13 +21,13 @@ use crate::{
 
 const BAG_MARK: &[u8] = b"#ROSBAG V2.0\n";
 const DB3_MARK: &[u8] = b"SQLite format 3\0";
-/// Where the header of a `SQLite` database has the size of its pages, 2 bytes, and their number, 4 bytes.
+/// Offsets in the header of a `SQLite` database: page size, 2 bytes, and number of pages, 4 bytes.
 const DB3_PAGE_SIZE: usize = 16;
 const DB3_NUM_PAGES: usize = 28;
-/// What is read at first: the mark, and the header of the database or of the first record.
+/// Number of bytes read first: the magic, and the header of the database or of the first record.
 const HEAD: usize = 100;
 
-/// Refuses a file that is not there, is none of librealsense, or was cut off.
+/// Refuses a file that is missing, truncated or not a librealsense recording.
 pub(super) fn check(path: &Path) -> Result<(), CaptureError> {
     match fault_of(path).map_err(|source| FileError::reading(path, source))? {
         None => Ok(()),
@@ -39,7 +39,7 @@ pub(super) fn check(path: &Path) -> Result<(), CaptureError> {
     }
 }
 
-/// What is wrong with the file.
+/// Returns what is wrong with the file, if anything.
 fn fault_of(path: &Path) -> io::Result<Option<&'static str>> {
     let mut file = BufReader::new(open_regular(path)?);
     let num_bytes = file.get_ref().metadata()?.len();
@@ -57,11 +57,11 @@ fn fault_of(path: &Path) -> io::Result<Option<&'static str>> {
     Ok((!is_whole).then_some("cut off or damaged"))
 }
 
-/// Bytes that a database says it has.
+/// Size of a database according to its header, bytes.
 fn db3_size(head: &[u8]) -> Option<u64> {
     let size = head.get(DB3_PAGE_SIZE..)?.first_chunk()?;
     let num = head.get(DB3_NUM_PAGES..)?.first_chunk()?;
-    // 65536 does not fit.
+    // 65536 does not fit into the field and is stored as 1.
     let size = match u16::from_be_bytes(*size) {
         1 => 65_536,
         size => u64::from(size),
@@ -70,7 +70,7 @@ fn db3_size(head: &[u8]) -> Option<u64> {
     (size > 0).then_some(size)
 }
 
-/// Follows the records of the index.
+/// Follows the records of the index; true if the last ends with the file.
 fn bag_ends_with_its_index(
     file: &mut (impl Read + Seek),
     head: &[u8],
@@ -100,7 +100,7 @@ fn bag_ends_with_its_index(
     Ok(at == num_bytes)
 }
 
-/// The value of a field of the first record.
+/// Returns the value of a field of the first record.
 fn bag_field<const N: usize>(head: &[u8], name: &[u8]) -> Option<[u8; N]> {
     let at = head.windows(name.len()).position(|text| text == name)?;
     head.get(at + name.len()..)?.first_chunk().copied()

@@ -1,12 +1,12 @@
-//! librealsense 2, loaded while the program runs, and all unsafe code that calls it.
+//! librealsense 2, loaded at run time, and all unsafe code that calls it.
 //!
-//! The functions, structures and numbers are those of its headers `librealsense2/h/*.h`, which have stayed as they are
-//! within version 2.
+//! The functions, structures and constants are those of its headers `librealsense2/h/*.h`, which have not changed within
+//! version 2.
 //!
-//! What the rest of the crate relies on, and C does not promise by itself:
-//! - the library is never unloaded: it keeps threads of its own;
-//! - the call that meets an error reads and frees it;
-//! - an object is deleted once, after what was made of it: fields are in that order;
+//! Guarantees to the rest of the crate that C does not give by itself:
+//! - the library is never unloaded: it has threads of its own;
+//! - every error is read and freed by the call that returned it;
+//! - an object is deleted once, after those created from it: fields are in that order;
 //! - frames are copied, and the library never holds a pointer into our memory.
 
 #![expect(
@@ -24,7 +24,7 @@ use std::{
 
 use crate::capture::driver_search::driver_functions;
 
-/// The oldest version 2, as the header writes it. A library accepts programs made for its own minor version or an older
+/// The oldest version 2, encoded as in the header. A library accepts programs made for its own minor version or an older
 /// one.
 const API_VERSION: c_int = 20_000;
 /// `RS2_CAMERA_INFO_NAME`.
@@ -33,27 +33,27 @@ const NAME: c_int = 0;
 const SERIAL_NUMBER: c_int = 1;
 /// `RS2_STREAM_DEPTH`.
 const DEPTH: c_int = 1;
-/// `RS2_FORMAT_Z16`: 16 bits a pixel.
+/// `RS2_FORMAT_Z16`: 16 bits per pixel.
 const Z16: c_int = 1;
 /// `RS2_OPTION_VISUAL_PRESET`.
 const VISUAL_PRESET: c_int = 12;
-/// `RS2_PLAYBACK_STATUS_STOPPED`: before a file is played, and once it has ended.
+/// `RS2_PLAYBACK_STATUS_STOPPED`: a file has not started to play, or has ended.
 const STOPPED: c_int = 3;
-/// `RS2_TIMESTAMP_DOMAIN_SYSTEM_TIME` and `RS2_TIMESTAMP_DOMAIN_GLOBAL_TIME`: milliseconds since 1970. In the other one
-/// the camera counts from its own start.
+/// `RS2_TIMESTAMP_DOMAIN_SYSTEM_TIME` and `RS2_TIMESTAMP_DOMAIN_GLOBAL_TIME`: milliseconds since 1970. In the remaining
+/// domain, times count from the camera's start.
 const CLOCK_TIMES: [c_int; 2] = [1, 2];
-/// Frames that may wait until they are asked for, of a camera and of a file. Of a camera only the newest counts. Of a file none
-/// is lost: there is room for all that the library's threads may hold on the way here, about 12, once the queue was emptied to
-/// stop them. The library makes no more than 32 frames at a time.
+/// Capacity of the frame queue, for a camera and for a file. For a camera only the newest frame counts. For a file none may
+/// be lost: after the queue was emptied to stop the library's threads, it has room for all frames that they may still hold,
+/// about 12. The library allocates at most 32 frames at a time.
 const WAITING: [c_int; 2] = [1, 16];
-/// More frames than may wait here and on the way.
+/// More frames than the queue and the library's threads can hold.
 const MOST_DRAINED: usize = 64;
-/// Presets are numbered from 0; a camera has about ten.
+/// Upper limit of preset numbers, from 0; a camera has about ten presets.
 const MOST_PRESETS: i16 = 100;
 
 /// `rs2_context`, `rs2_device`, `rs2_frame` and so on.
 type Handle = *mut c_void;
-/// Where a call leaves its error.
+/// Where a call stores its error.
 type ErrorPlace = *mut Handle;
 /// Deletes an object.
 type Delete = unsafe extern "C" fn(Handle);
@@ -66,7 +66,7 @@ pub(super) struct RawIntrinsics {
     pub(super) width: c_int,
     /// Rows.
     pub(super) height: c_int,
-    /// Column of the optical axis; pixel centres are at whole numbers.
+    /// Column of the optical axis; pixel centres are at integers.
     pub(super) ppx: f32,
     /// Row of the optical axis.
     pub(super) ppy: f32,
@@ -76,7 +76,7 @@ pub(super) struct RawIntrinsics {
     pub(super) fy: f32,
     /// `rs2_distortion`.
     pub(super) model: c_int,
-    /// What they stand for depends on the model.
+    /// Coefficients of the distortion; their meaning depends on the model.
     pub(super) coeffs: [f32; 5],
 }
 
@@ -133,23 +133,23 @@ driver_functions! {
 }
 
 impl Functions {
-    /// Calls what may fail, with the place for its error; the library's message is the error.
+    /// Makes a call that may fail and passes it the place for its error; returns the library's message as the error.
     fn checked<T>(&self, call: impl FnOnce(ErrorPlace) -> T) -> Result<T, String> {
         let mut error: Handle = ptr::null_mut();
         let result = call(&raw mut error);
         if error.is_null() {
             return Ok(result);
         }
-        // SAFETY: an error that the call made for its caller; its message lives as long.
+        // SAFETY: an error that the call made for its caller; its message lives as long as the error.
         let message = unsafe { text((self.rs2_get_error_message)(error)) };
-        // SAFETY: the caller's, freed once; the message was copied.
+        // SAFETY: the error is the caller's, and freed once; the message was copied.
         unsafe { (self.rs2_free_error)(error) };
         let message = message.unwrap_or_default();
         let lines: Vec<&str> = message.lines().map(str::trim).collect();
         Err(lines.join(" "))
     }
 
-    /// The same of a call that makes an object.
+    /// Makes a call that creates an object.
     fn made(
         &self,
         delete: Delete,
@@ -159,7 +159,7 @@ impl Functions {
         Ok(Object { handle, delete })
     }
 
-    /// A number that the library tells of an object.
+    /// Reads an integer of an object.
     fn number(
         &self,
         of: &Object,
@@ -170,7 +170,7 @@ impl Functions {
     }
 }
 
-/// A copy of a C string; `None` for null.
+/// Copies a C string; `None` for null.
 ///
 /// # Safety
 /// The pointer is null, or a C string that lives during the call.
@@ -180,7 +180,7 @@ unsafe fn text(string: *const c_char) -> Option<String> {
     Some(string.to_string_lossy().into_owned())
 }
 
-/// An object of the library. Dropped, it is deleted.
+/// An object of the library. Dropping it deletes it.
 struct Object {
     handle: NonNull<c_void>,
     delete: Delete,
@@ -194,16 +194,16 @@ impl Object {
 
 impl Drop for Object {
     fn drop(&mut self) {
-        // SAFETY: made for us, deleted once, and not used any more.
+        // SAFETY: made for us, deleted once, and no longer used.
         unsafe { (self.delete)(self.handle()) };
     }
 }
 
 /// Why the library was not started.
 pub(super) enum NoContext {
-    /// It lacks this function.
+    /// The library lacks this function.
     MissingSymbol(&'static str),
-    /// It refuses, for this reason.
+    /// The library does not start, for this reason.
     Failed(String),
 }
 
@@ -231,7 +231,7 @@ pub(super) struct Context {
 }
 
 impl Context {
-    /// What is plugged in, whether it can be opened or not.
+    /// Lists the devices that are plugged in, whether they can be opened or not.
     pub(super) fn devices(&self) -> Result<DeviceList, String> {
         let functions = self.functions;
         let object = functions.made(functions.rs2_delete_device_list, |error| {
@@ -262,7 +262,7 @@ impl Context {
     }
 }
 
-/// What was plugged in at one time.
+/// The devices that were plugged in at one time.
 pub(super) struct DeviceList {
     num: c_int,
     object: Object,
@@ -270,7 +270,7 @@ pub(super) struct DeviceList {
 }
 
 impl DeviceList {
-    /// Opens one after the other.
+    /// Opens one device after the other.
     pub(super) fn open_each(&self) -> impl Iterator<Item = Result<Device, String>> {
         (0..self.num).map(|index| self.open(index))
     }
@@ -297,12 +297,12 @@ pub(super) struct Device {
 }
 
 impl Device {
-    /// Maker and model.
+    /// Manufacturer and model.
     pub(super) fn name(&self) -> Option<String> {
         self.info(NAME)
     }
 
-    /// The serial number that the maker printed on it.
+    /// The serial number printed on the camera.
     pub(super) fn serial_number(&self) -> Option<String> {
         self.info(SERIAL_NUMBER)
     }
@@ -323,7 +323,7 @@ impl Device {
         told.ok().flatten().filter(|text| !text.is_empty())
     }
 
-    /// Its first sensor that has depth; `None` if there is none.
+    /// Returns the device's first sensor with depth; `None` if there is none.
     pub(super) fn depth_sensor(self) -> Result<Option<Sensor>, String> {
         let functions = self.context.functions;
         let sensors = functions.made(functions.rs2_delete_sensor_list, |error| {
@@ -367,20 +367,20 @@ impl Device {
     }
 }
 
-/// A form in which a sensor gives depth, 16 bits a pixel.
+/// A sensor's mode with 16-bit depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct DepthMode {
     /// Columns.
     pub(super) width: c_int,
     /// Rows.
     pub(super) height: c_int,
-    /// Frames a second.
+    /// Frames per second.
     pub(super) rate: c_int,
-    /// Among the profiles of its sensor.
+    /// Index among the sensor's profiles.
     pub(super) place: c_int,
 }
 
-/// The profiles of a sensor, and the modes of depth among them.
+/// Returns the profiles of a sensor, and the depth modes among them.
 fn depth_modes(functions: &Functions, sensor: &Object) -> Result<(Object, Vec<DepthMode>), String> {
     let profiles = functions.made(functions.rs2_delete_stream_profiles_list, |error| {
         // SAFETY: the sensor lives.
@@ -429,7 +429,7 @@ fn depth_modes(functions: &Functions, sensor: &Object) -> Result<(Object, Vec<De
     Ok((profiles, modes))
 }
 
-/// A profile, which lives as long as the list.
+/// Returns a profile, which lives as long as the list.
 fn profile_at(functions: &Functions, profiles: &Object, place: c_int) -> Result<Handle, String> {
     functions.checked(|error| {
         // SAFETY: the list lives and has that many profiles.
@@ -437,7 +437,7 @@ fn profile_at(functions: &Functions, profiles: &Object, place: c_int) -> Result<
     })
 }
 
-/// A sensor that has depth.
+/// A sensor with depth.
 pub(super) struct Sensor {
     modes: Vec<DepthMode>,
     profiles: Object,
@@ -446,12 +446,12 @@ pub(super) struct Sensor {
 }
 
 impl Sensor {
-    /// At least one.
+    /// The sensor's depth modes, at least one.
     pub(super) fn modes(&self) -> &[DepthMode] {
         &self.modes
     }
 
-    /// Metres that one unit of depth stands for.
+    /// Metres per unit of depth.
     pub(super) fn depth_scale(&self) -> Result<f32, String> {
         let functions = self.functions();
         functions.checked(|error| {
@@ -460,7 +460,7 @@ impl Sensor {
         })
     }
 
-    /// The camera of that mode.
+    /// The intrinsics of a mode.
     pub(super) fn intrinsics(&self, mode: &DepthMode) -> Result<RawIntrinsics, String> {
         let functions = self.functions();
         let profile = profile_at(functions, &self.profiles, mode.place)?;
@@ -474,11 +474,11 @@ impl Sensor {
         Ok(intrinsics)
     }
 
-    /// The visual presets by number and name; none if it has no such option.
+    /// Numbers and names of the visual presets; empty without that option.
     pub(super) fn presets(&self) -> Result<Vec<(f32, String)>, String> {
         let (functions, sensor) = (self.functions(), self.object.handle());
         let has_presets = functions.checked(|error| {
-            // SAFETY: the sensor lives; it is a container of options, as every sensor.
+            // SAFETY: the sensor lives; it is a container of options, like every sensor.
             unsafe { (functions.rs2_supports_option)(sensor, VISUAL_PRESET, error) != 0 }
         })?;
         if !has_presets {
@@ -518,7 +518,7 @@ impl Sensor {
         named.filter_map(Result::transpose).collect()
     }
 
-    /// Sets the visual preset of that number.
+    /// Sets the visual preset with that number.
     pub(super) fn set_preset(&self, number: f32) -> Result<(), String> {
         let functions = self.functions();
         functions.checked(|error| {
@@ -529,12 +529,12 @@ impl Sensor {
         })
     }
 
-    /// Has a file play each frame as soon as it is asked for.
+    /// Makes a file play each frame as soon as it is requested.
     pub(super) fn play_as_asked(&self) -> Result<(), String> {
         self.device.set_real_time(0)
     }
 
-    /// Has a file play with its pauses, so many times as fast.
+    /// Makes a file play with its pauses, `speed` times as fast.
     pub(super) fn play_as_taken(&self, speed: f32) -> Result<(), String> {
         self.device.set_real_time(1)?;
         let functions = self.functions();
@@ -550,7 +550,7 @@ impl Sensor {
         })
     }
 
-    /// Starts its stream of depth.
+    /// Starts the depth stream in a mode.
     pub(super) fn start(self, mode: DepthMode) -> Result<Stream, String> {
         let functions = self.functions();
         let profile = profile_at(functions, &self.profiles, mode.place)?;
@@ -562,7 +562,7 @@ impl Sensor {
         let sensor = self.object.handle();
         // SAFETY: the sensor lives, and the profile as long as the list of its profiles.
         functions.checked(|error| unsafe { (functions.rs2_open)(sensor, profile, error) })?;
-        // From here on, dropping it takes back what was done.
+        // From here on, dropping `stream` undoes every step.
         let stream = Stream {
             queue,
             mode,
@@ -580,15 +580,15 @@ impl Sensor {
     }
 }
 
-/// A frame, without gaps between its rows.
+/// A frame without padding.
 pub(super) struct Received {
-    /// Row after row.
+    /// Depth values, row by row.
     pub(super) depth: Vec<u16>,
-    /// When it was captured, milliseconds since 1970; `None` if only the camera's own clock tells.
+    /// Time of capture, milliseconds since 1970; `None` if only the camera's own clock is known.
     pub(super) captured_at: Option<f64>,
 }
 
-/// A running stream of depth. Dropped, it stops and lets the camera go.
+/// A running depth stream. Dropping it stops the stream and closes the camera.
 pub(super) struct Stream {
     queue: Object,
     mode: DepthMode,
@@ -596,8 +596,8 @@ pub(super) struct Stream {
 }
 
 impl Stream {
-    /// The next frame after waiting for at most about `wait`. It is an error if its numbers contradict each other or the
-    /// mode.
+    /// Waits for about `wait` at most, and returns the next frame. Fails if the frame's sizes are inconsistent or do not
+    /// match the mode.
     pub(super) fn receive(&self, wait: Duration) -> Result<Option<Received>, String> {
         let frame = self.next_frame(wait)?;
         frame.map(|frame| self.copied(&frame)).transpose()
@@ -680,7 +680,7 @@ impl Stream {
         time.map(Some)
     }
 
-    /// True of a file that has no more, or has not begun yet. Its last frames may still have to be received.
+    /// True for a file that has ended or has not started yet. Its last frames may still have to be received.
     pub(super) fn is_stopped(&self) -> bool {
         let device = &self.sensor.device;
         let functions = self.sensor.functions();
@@ -713,8 +713,8 @@ impl Drop for Stream {
     fn drop(&mut self) {
         let (functions, sensor) = (self.sensor.functions(), self.sensor.object.handle());
         if self.sensor.device.is_file {
-            // A thread of the library may wait for room in the queue, and stopping would wait for that thread. In real time
-            // none begins to wait, and those that wait have room once the queue was empty.
+            // A thread of the library may wait for room in the queue, and stopping would wait for that thread. In real-time
+            // mode no further thread starts to wait, and emptying the queue makes room for those that do.
             let _ = self.sensor.device.set_real_time(1);
             for _ in 0..MOST_DRAINED {
                 if !matches!(self.next_frame(Duration::ZERO), Ok(Some(_))) {
@@ -722,7 +722,7 @@ impl Drop for Stream {
                 }
             }
         }
-        // An error here means that it was not started, or that the camera is gone.
+        // An error here means that the stream was not started, or that the camera is gone.
         // SAFETY: the sensor lives; its queue is deleted afterwards.
         let _ = functions.checked(|error| unsafe { (functions.rs2_stop)(sensor, error) });
         // SAFETY: the sensor lives.

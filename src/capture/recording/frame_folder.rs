@@ -1,4 +1,4 @@
-//! A folder of clouds or depth images, in the order that a person counts them.
+//! A folder of clouds or depth images, with numbers in their names in numeric order.
 
 use std::path::Path;
 

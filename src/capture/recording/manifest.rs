@@ -1,4 +1,4 @@
-//! The list of a recording's frames: one line of JSON each, after a line about the recording.
+//! The manifest of a recording: a JSON line about the recording, then one for each frame.
 
 use std::{
     fs,
@@ -16,22 +16,22 @@ use crate::{
 };
 
 pub(super) const MANIFEST: &str = "recording.jsonl";
-/// The version of the format that is written; newer ones are refused.
+/// Version of the format that is written; newer ones are refused.
 pub(super) const VERSION: u32 = 1;
 
-/// The first line.
+/// The first line of the manifest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Header {
     pub(super) partsight_recording: u32,
-    /// What a person calls what was recorded.
+    /// Title of the recorded source.
     pub(super) title: String,
-    /// What was opened for it.
+    /// The source specification that was opened.
     pub(super) source: String,
     pub(super) simulated: bool,
     pub(super) started_at: Timestamp,
 }
 
-/// The line of a frame.
+/// A frame's line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct FrameLine {
     pub(super) file: String,
@@ -40,31 +40,31 @@ pub(super) struct FrameLine {
     pub(super) taken_at: Timestamp,
     pub(super) name: String,
     pub(super) simulated: bool,
-    /// Of a depth image.
+    /// Camera of a depth image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) camera: Option<DepthCamera>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) truth: Option<FrameTruth>,
-    /// Where the arm that carries the camera stood.
+    /// Pose of the arm that carries the camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) robot_from_flange: Option<SixteenNumbers>,
 }
 
-/// What a manifest holds.
+/// Content of a manifest.
 #[derive(Debug)]
 pub(super) struct Manifest {
     pub(super) header: Header,
-    /// The frames whose lines are whole, less those at the end whose files are not.
+    /// The frames with complete lines, except those at the end whose files are incomplete.
     pub(super) frames: Vec<FrameLine>,
-    /// True if something followed the last whole frame.
+    /// True if something follows the last complete frame.
     pub(super) is_cut_off: bool,
 }
 
-/// Reads the list of the recording in this folder.
+/// Reads the manifest of the recording in this folder.
 pub(super) fn read(folder: &Path) -> Result<Manifest, CaptureError> {
     let path = folder.join(MANIFEST);
     let bytes = read_bytes(&path)?;
-    // What stands behind the last line end is a line that was not completed.
+    // Anything after the last line end is an incomplete line.
     let whole = bytes.iter().rposition(|&byte| byte == b'\n');
     let (whole, rest) = bytes.split_at(whole.map_or(0, |end| end + 1));
     let mut lines = whole.split_inclusive(|&byte| byte == b'\n');
@@ -117,7 +117,7 @@ fn read_header(path: &Path, line: &[u8]) -> Result<Header, CaptureError> {
     serde_json::from_slice(line).map_err(damaged)
 }
 
-/// True for the name of a file in the recording's own folder.
+/// True for the name of a file directly in the recording's folder.
 fn is_right_here(name: &str) -> bool {
     let mut components = Path::new(name).components();
     matches!(components.next(), Some(Component::Normal(_))) && components.next().is_none()

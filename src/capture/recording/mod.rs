@@ -1,4 +1,4 @@
-//! Recordings: a folder of frames, written while they come and replayed to the bit.
+//! Recordings: folders of frames, written as they arrive, that replay bit by bit.
 //!
 //! ```text
 //! recording.jsonl     a line about the recording, then a line for every frame: file, size, checksum, time, camera, truth
@@ -6,8 +6,8 @@
 //! intrinsics.json     the camera, so that every other program can read the depth images too
 //! ```
 //!
-//! A frame's line is appended after its file is complete and synced, and synced itself: whatever happens, the recording
-//! holds all frames up to the last whole one. What follows that is read over.
+//! A frame's line is appended and synced only after its file is complete and synced: whatever happens, the recording has
+//! all frames up to the last complete one. Anything after that is ignored.
 
 mod frame_folder;
 mod manifest;

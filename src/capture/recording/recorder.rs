@@ -1,4 +1,4 @@
-//! Writes captures into a folder as they come.
+//! Writes captures to a folder as they arrive.
 
 use std::{
     fs::{self, File},
@@ -23,23 +23,23 @@ use crate::{
     geometry::sixteen_numbers::SixteenNumbers,
 };
 
-/// Writes captures into a folder as they come. There is nothing to finish: after every frame the recording is whole.
+/// Writes captures to a folder as they arrive. Nothing needs to be finished: the recording is complete after every frame.
 #[derive(Debug)]
 pub struct Recorder {
     folder: PathBuf,
     manifest: File,
-    /// Bytes of the manifest's whole lines.
+    /// Length of the manifest's complete lines, bytes.
     length: u64,
     num_frames: u64,
-    /// Bytes of all frames.
+    /// Size of all frames, bytes.
     num_bytes: u64,
     /// The camera in the folder's `intrinsics.json`.
     camera: Option<DepthCamera>,
 }
 
 impl Recorder {
-    /// Begins a recording in a folder that is empty or not there yet. `title` and `source` say what is recorded, for
-    /// people and as it was opened.
+    /// Begins a recording in a folder that is empty or does not exist. `title` describes the source for people, `source` is
+    /// its specification.
     pub fn create(
         folder: &Path,
         title: &str,
@@ -85,22 +85,22 @@ impl Recorder {
         }
     }
 
-    /// Frames written so far.
+    /// Number of frames written so far.
     pub fn num_frames(&self) -> u64 {
         self.num_frames
     }
 
-    /// Bytes of the frames written so far.
+    /// Size of the frames written so far, bytes.
     pub fn num_bytes(&self) -> u64 {
         self.num_bytes
     }
 
-    /// Where it is.
+    /// Folder of the recording.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// Writes a capture; on an error nothing of it is left, and the frames before it are kept.
+    /// Writes a capture. On an error its frame is removed, and the frames before it are kept.
     pub fn write(&mut self, captured: &Captured) -> Result<(), CaptureError> {
         let (ending, camera) = match &captured.image {
             Image::Depth(frame) => ("png", Some(DepthCamera::of(frame))),
@@ -110,7 +110,7 @@ impl Recorder {
         let path = self.folder.join(&file);
         let written = self.write_frame(captured, camera, file);
         written.map_err(|source| {
-            // Half a frame is of no use; if it cannot be removed either, the list does not name it.
+            // An incomplete frame is useless; if it cannot be removed either, the manifest does not list it.
             let _ = disk::remove_file(&path);
             let _ = disk::set_len(&self.manifest, self.length);
             CaptureError::Unwritable {
@@ -136,7 +136,7 @@ impl Recorder {
         if let Some(camera) = camera
             && self.camera != Some(camera)
         {
-            // The first camera is that of the folder; a frame of another one has its own beside it.
+            // The first camera is stored for the whole folder; a frame of another camera has its own file beside it.
             let json = if self.camera.is_none() {
                 self.folder.join(FOLDER_CAMERA)
             } else {

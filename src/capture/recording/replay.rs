@@ -1,4 +1,4 @@
-//! A folder of frames as a source.
+//! Replays a folder of frames as a source.
 
 use std::{
     path::{Path, PathBuf},
@@ -26,23 +26,23 @@ use crate::{
     simulate::FrameTruth,
 };
 
-/// A folder of frames as a source: a recording, an RGB-D sequence with a list of depth images, or files in order.
+/// A folder of frames as a source: a recording, an RGB-D sequence with a list of depth images, or files in numeric order.
 pub struct Replay {
     title: String,
     is_simulated: bool,
     frames: Vec<RecordedFrame>,
-    /// When each frame is due after the first.
+    /// Time of each frame, relative to the first.
     due: Vec<Duration>,
     next: usize,
     started: Option<Instant>,
     folder: PathBuf,
-    /// What is there as long as the drive is: the list that the frames were found in, else their folder.
+    /// A path that exists as long as the drive is connected: the list of the frames, else their folder.
     root: PathBuf,
-    /// What is odd about all of it; said with the first frame.
+    /// Warnings about the whole folder; delivered with the first capture.
     warnings: Vec<CaptureWarning>,
 }
 
-/// What a folder holds.
+/// Content of a folder.
 pub(super) struct Frames {
     pub(super) title: String,
     pub(super) is_simulated: bool,
@@ -63,7 +63,7 @@ pub(super) struct RecordedFrame {
 
 /// How a frame's file is read.
 pub(super) enum Content {
-    /// As it was recorded, with this checksum; depth images have a camera.
+    /// As recorded, with its checksum; depth images have a camera.
     Listed(u32, Option<DepthCamera>),
     /// A depth image of this camera.
     Depth(DepthCamera),
@@ -71,18 +71,18 @@ pub(super) enum Content {
     Any,
 }
 
-/// Longer pauses are cut to this: nobody waits for a night that nothing came in.
+/// Longer pauses are shortened to this.
 const LONGEST_PAUSE: Duration = Duration::from_secs(10);
-/// The pause before a frame without a time.
+/// Pause before a frame without a time.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// True if this folder says when each of its frames was taken.
+/// True if the folder has a list with the time of each frame.
 pub(in crate::capture) fn is_sequence(folder: &Path) -> bool {
     folder.join(MANIFEST).is_file() || folder.join(LIST).is_file()
 }
 
 impl Replay {
-    /// Finds the frames of a folder; none is read yet.
+    /// Finds the frames of a folder without reading them.
     pub fn open(spec: &RecordingSpec) -> Result<Self, CaptureError> {
         let folder = &spec.folder;
         if !folder.is_dir() {
@@ -123,12 +123,12 @@ impl Replay {
         })
     }
 
-    /// Frames there are.
+    /// Number of frames.
     pub fn num_frames(&self) -> usize {
         self.frames.len()
     }
 
-    /// When each frame is due after the first.
+    /// Time of each frame, relative to the first.
     pub fn due_times(&self) -> &[Duration] {
         &self.due
     }
@@ -175,7 +175,7 @@ fn due_times(frames: &[RecordedFrame], pace: Pace) -> Vec<Duration> {
     let mut before: Option<Timestamp> = None;
     let as_taken = |frame: &RecordedFrame| {
         let pause = match (before, frame.taken_at) {
-            // A clock that was set back makes no pause.
+            // If the clock was set back, there is no pause.
             (Some(before), Some(taken_at)) => Duration::try_from(taken_at.duration_since(before))
                 .unwrap_or_default()
                 .min(LONGEST_PAUSE),
@@ -277,7 +277,7 @@ impl DepthSource for Replay {
                 robot_from_flange: frame.robot_from_flange.map(Box::new),
                 warnings: self.warnings.drain(..).chain(warnings).collect(),
             })),
-            // The drive was pulled out: all that follows would be missing, one by one.
+            // The drive was removed: report it once instead of each of the remaining frames.
             Err(_) if !self.root.exists() => {
                 self.next -= 1;
                 Err(CaptureError::FolderGone {

@@ -1,9 +1,9 @@
-//! The usual folder form of RGB-D sequences: `depth.txt` lists a time and a depth image per line.
+//! The common folder format of RGB-D sequences: `depth.txt` has a time and a depth image per line.
 //!
 //! Source: J. Sturm, N. Engelhard, F. Endres, W. Burgard and D. Cremers, "A Benchmark for the Evaluation of RGB-D SLAM
-//! Systems", IROS 2012, and the file formats on the benchmark's page: lines of `timestamp filename`, comments after
-//! `#`, time in seconds since 1970, 16-bit PNG with 5000 units to the metre. The camera of a folder without an
-//! `intrinsics.json` is taken for the one that the benchmark gives where none was calibrated.
+//! Systems", IROS 2012, and the file formats on the benchmark's page: lines of `timestamp filename`, comments after `#`,
+//! time in seconds since 1970, 16-bit PNG with 5000 units per metre. A folder without an `intrinsics.json` is assumed to
+//! have the camera that the benchmark uses where none was calibrated.
 
 use std::path::Path;
 
@@ -87,7 +87,7 @@ pub(super) fn frames(folder: &Path, camera: Option<&Path>) -> Result<Frames, Cap
     })
 }
 
-/// The digits themselves are read: as one floating-point number a time of today has only 0.2 µs.
+/// Parses the digits: a floating-point number has a resolution of only 0.2 µs for times of today.
 fn seconds_since_1970(text: &str) -> Option<Timestamp> {
     let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
     let digits = fraction.get(..9).unwrap_or(fraction);

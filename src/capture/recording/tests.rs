@@ -24,7 +24,7 @@ fn spec(kind: &str, folder: &Path) -> SourceSpec {
     format!("{kind}:{}", folder.display()).parse().unwrap()
 }
 
-/// Everything a source has to give; names of what is skipped have a mark.
+/// Reads a source to its end; names of skipped frames begin with `!`.
 fn all_of(source: &mut dyn DepthSource) -> (Vec<Captured>, Vec<String>) {
     let (mut captured, mut names) = (Vec::new(), Vec::new());
     loop {
@@ -191,12 +191,12 @@ fn a_recording_that_was_cut_off_opens_up_to_its_last_whole_frame() {
     fs::write(&list, &zeros).unwrap();
     expect(3, "zeros after the end");
     fs::write(&list, &whole).unwrap();
-    // The image of the last line did not reach the disk.
+    // The last line's image did not reach the disk.
     let last = folder.path().join("frame-000003.png");
     let bytes = fs::read(&last).unwrap();
     fs::write(&last, &bytes[..bytes.len() / 2]).unwrap();
     expect(2, "half an image");
-    // Damaged in the middle: named, and the others are there.
+    // Damaged in the middle: reported, and the others are there.
     fs::write(&last, &bytes).unwrap();
     let middle = folder.path().join("frame-000002.png");
     let mut bytes = fs::read(&middle).unwrap();
@@ -206,7 +206,7 @@ fn a_recording_that_was_cut_off_opens_up_to_its_last_whole_frame() {
     let (found, names) = replayed(folder.path());
     assert_eq!(found.len(), 2);
     assert_eq!(names[1], format!("!{}", frames[1].name));
-    // Nothing but the first line is a recording without frames.
+    // With only its first line, a recording has no frames.
     fs::write(&list, &whole[..=ends[0]]).unwrap();
     assert!(matches!(
         Replay::open(&recording_of(folder.path())),
@@ -281,7 +281,7 @@ fn a_frame_that_cannot_be_written_leaves_the_ones_before() {
     let frames = simulated(3);
     let mut recorder = Recorder::create(folder.path(), "Test", "simulated", true).unwrap();
     recorder.write(&frames[0]).unwrap();
-    // In the way of the next frame, as a disk that is full would be.
+    // An obstacle for the next frame, as a full disk would be.
     let next = folder.path().join("frame-000002.png");
     fs::create_dir(&next).unwrap();
     let failed = recorder.write(&frames[1]).unwrap_err();

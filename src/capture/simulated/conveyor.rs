@@ -1,37 +1,37 @@
-//! The line of the simulated cell: parts swing in one after the other, hang still, and swing out.
+//! The conveyor line of the simulated cell: parts swing in one after the other, hang still, and swing out.
 
 use nalgebra::{Point3, Rotation3, Translation3, Vector3};
 
 use crate::geometry::rigid::RigidTransform;
 
-/// Seconds in which a part comes in.
+/// Time in which a part comes in, seconds.
 const COMING: f64 = 1.2;
-/// Seconds in which it leaves.
+/// Time in which a part leaves, seconds.
 const LEAVING: f64 = 0.8;
-/// How far it comes from, metres: out of the picture, also of the longest part at the far end of where parts hang.
+/// Distance from which parts come in, metres: outside the picture, even for the longest part at the farthest position.
 const OUTSIDE: f64 = 2.5;
-/// How far above the part's middle the hook is that it swings from, metres.
+/// Height of the hook from which a part swings, above the part's middle, metres.
 const HOOK_ABOVE: f64 = 0.8;
-/// The first swing after it stopped, radians. After a second and a half less than 0.1 mm is left of it.
+/// Amplitude of the swing when the part stops, radians. After 1.5 s less than 0.1 mm remains of it.
 const SWING: f64 = 0.05;
-/// Seconds in which the swing becomes e times smaller.
+/// Time in which the amplitude falls by a factor of e, seconds.
 const SWING_FADES: f64 = 0.25;
-/// Swings a second.
+/// Frequency of the swing, Hz.
 const SWINGS_PER_SECOND: f64 = 1.1;
 
-/// A moment of the line.
+/// The state of the line at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ConveyorState {
-    /// Which part it is, from 0.
+    /// Number of the part, from 0.
     pub(super) visit: u64,
-    /// Seconds since that part began to come in.
+    /// Seconds since the part began to come in.
     since: f64,
-    /// Seconds until the next one begins.
+    /// Seconds until the next part begins to come in.
     left: f64,
 }
 
 impl ConveyorState {
-    /// What the line does `seconds` after it started, with a new part every so many seconds.
+    /// The state `seconds` after the start, with a new part every `every` seconds.
     pub(super) fn of(seconds: f64, every: f64) -> Self {
         let visit = (seconds / every).floor();
         let since = seconds - visit * every;
@@ -42,11 +42,11 @@ impl ConveyorState {
         }
     }
 
-    /// Where the part is now that hangs here when at rest.
+    /// The present pose of the part that rests at `rest_pose`.
     pub(super) fn camera_from_part(&self, rest_pose: &RigidTransform) -> RigidTransform {
         let coming = (1.0 - self.since / COMING).max(0.0);
         let leaving = (1.0 - self.left / LEAVING).max(0.0);
-        // Slows down as it comes, gathers speed as it leaves; the line runs to the left.
+        // Decelerates when coming, accelerates when leaving; the line runs to the left.
         let aside = OUTSIDE * (coming.powi(3) - leaving.powi(3));
         let settling = (self.since - COMING).max(0.0);
         let angle = SWING

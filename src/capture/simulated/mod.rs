@@ -1,7 +1,7 @@
-//! The simulated cell as a camera: frames at its own rate, each following from the settings and its number alone.
+//! The simulated cell as a camera: frames at its own rate, each determined by the settings and its number.
 //!
-//! A camera that cannot be read fast enough loses frames: here their numbers are left out, so that the line runs at
-//! the same speed on every machine.
+//! A camera that is read too slowly loses frames; here their numbers are skipped, so that the line runs at the same speed
+//! on every machine.
 
 mod conveyor;
 
@@ -27,16 +27,16 @@ use crate::simulate::{
 /// The simulated cell as a camera.
 pub struct SimulatedCell {
     spec: SimulatedSpec,
-    /// The cell as it is now, and for which part of the line it was arranged.
+    /// The present cell, and the number of the part for which it was arranged.
     cell: Option<(u64, StandingCell)>,
     /// When the first frame was due.
     started: Option<Instant>,
-    /// Of the frame given last, from 1; 0 before the first.
+    /// Number of the last frame, from 1; 0 before the first.
     number: u64,
 }
 
 impl SimulatedCell {
-    /// A cell whose first frame is due as soon as it is asked for.
+    /// A cell whose first frame is due at the first request.
     pub fn new(spec: SimulatedSpec) -> Self {
         Self {
             spec,
@@ -46,7 +46,7 @@ impl SimulatedCell {
         }
     }
 
-    /// The frame of this number, counted from 1: the same whenever it is asked for. The truth has no labels.
+    /// Returns the frame with this number, from 1: always the same for the same settings. The truth has no labels.
     pub fn frame(&mut self, number: u64) -> (Image, FrameTruth) {
         let seconds = number.saturating_sub(1) as f64 / self.spec.frames_per_second;
         let moment = match self.spec.scene {
@@ -73,11 +73,11 @@ impl SimulatedCell {
         (Image::Depth(frame), truth)
     }
 
-    /// The number of the frame to be given next, and how long it is until then.
+    /// Number of the next frame, and the time until it is due.
     fn due(&mut self, now: Instant) -> (u64, Duration) {
         let elapsed = now - *self.started.get_or_insert(now);
         let rate = self.spec.frames_per_second;
-        // The last one that was due by now; an earlier one is lost, unless it is the very one before.
+        // Last frame that is due by now. Of earlier ones only the one before it may still be delivered.
         let latest = (elapsed.as_secs_f64() * rate) as u64 + 1;
         let number = (self.number + 1).max(latest.saturating_sub(1));
         let at = Duration::from_secs_f64((number - 1) as f64 / rate);
@@ -85,7 +85,7 @@ impl SimulatedCell {
     }
 }
 
-/// The cell with the part of the line that comes as number `visit`.
+/// Arranges the cell with part number `visit` of the line.
 fn arranged(spec: &SimulatedSpec, visit: u64) -> StandingCell {
     let part = |kind| SimulatedObject::Part {
         kind,
@@ -94,7 +94,7 @@ fn arranged(spec: &SimulatedSpec, visit: u64) -> StandingCell {
     };
     let subject = match spec.scene {
         CellScene::Line { .. } => {
-            // A front door first, as wherever the program shows one part.
+            // Begin with a front door, as everywhere the program shows one part.
             let first = PartKind::FrontDoor as u64;
             part(PartKind::ALL[((first + visit) % PartKind::ALL.len() as u64) as usize])
         }
@@ -106,7 +106,7 @@ fn arranged(spec: &SimulatedSpec, visit: u64) -> StandingCell {
     let mut setup = CellSetup::new(subject, spec.seed);
     setup.clutter = spec.clutter;
     setup.pose = match spec.pose.placement() {
-        // The seed of the cell stays, so that wall and floor do; each part hangs in its own way.
+        // Wall and floor follow from the cell's seed, so keep it; each part hangs differently.
         Ok(range) => {
             let seed = spec.seed.wrapping_add(visit);
             let placed = range.draw(&mesh, &setup.intrinsics, seed);
@@ -117,8 +117,8 @@ fn arranged(spec: &SimulatedSpec, visit: u64) -> StandingCell {
     StandingCell::arrange(&setup, mesh)
 }
 
-/// A seed for each frame, far from those of other frames and other seeds (the finaliser of G. Steele, D. Lea and
-/// C. Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014).
+/// A well-mixed seed for each frame and each seed of the cell (the finaliser of G. Steele, D. Lea and C. Flood, "Fast
+/// Splittable Pseudorandom Number Generators", OOPSLA 2014).
 fn mixed(seed: u64, number: u64) -> u64 {
     let mut z = seed.wrapping_add(number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -10,31 +10,31 @@ use super::{
 /// A GenICam camera: GigE Vision or USB3 Vision.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct GenicamSpec {
-    /// The camera's ID as `capture --list` shows it, or its IP address; `None` for the first that answers.
+    /// The camera's ID as shown by `capture --list`, or its IP address; `None` for the first that answers.
     pub device: Option<String>,
     /// The pixel format to set; `None` for depth if its numbers are known, else points.
     pub format: Option<GenicamFormat>,
-    /// The camera's numbers, as in the JSON beside a depth PNG, in place of what the camera says of its depth images.
+    /// File with the numbers of the depth images, like the JSON beside a depth PNG, used in place of the camera's own.
     pub camera: Option<PathBuf>,
-    /// The library that speaks to it, a file or a folder; `None` for where the system keeps it.
+    /// File or folder with the aravis library; `None` for the system's.
     pub library: Option<PathBuf>,
 }
 
-/// A pixel format that is read, by its name in the Pixel Format Naming Convention.
+/// A supported pixel format, named as in the Pixel Format Naming Convention.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GenicamFormat {
     /// `Coord3D_C16`: depth, 16 bits.
     Coord3dC16,
     /// `Coord3D_ABC32f`: points, three 32-bit floating-point numbers.
     Coord3dAbc32f,
-    /// `Mono16`, which most cameras use for grey values; here it is depth.
+    /// `Mono16`, grey values in most cameras; here it is depth.
     Mono16,
 }
 
 impl GenicamFormat {
     const ALL: [Self; 3] = [Self::Coord3dC16, Self::Coord3dAbc32f, Self::Mono16];
 
-    /// As cameras name it.
+    /// The name used by cameras.
     pub fn name(self) -> &'static str {
         match self {
             Self::Coord3dC16 => "Coord3D_C16",
@@ -43,7 +43,7 @@ impl GenicamFormat {
         }
     }
 
-    /// As it stands in a frame.
+    /// The number used in frames.
     pub(in crate::capture) fn number(self) -> u32 {
         match self {
             Self::Coord3dC16 => 0x0110_00B8,

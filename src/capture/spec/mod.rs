@@ -1,7 +1,7 @@
-//! What can be opened, as it is said on the command line and kept in the settings.
+//! Source specifications, as written on the command line and stored in the settings.
 //!
-//! `KIND[,OPTION=VALUE...][:WHAT]`: everything behind the first colon is taken as it stands, so that a folder's name
-//! may hold anything. In an option's value `%2C`, `%3A` and `%25` stand for a comma, a colon and a per cent sign.
+//! `KIND[,OPTION=VALUE...][:WHAT]`: everything after the first colon is taken literally, so that a folder's name may
+//! contain anything. In an option's value `%2C`, `%3A` and `%25` stand for comma, colon and per cent sign.
 //!
 //! ```text
 //! simulated   simulated:fender   simulated,side=right,noise=2:fender   simulated,every=6:line
@@ -33,96 +33,96 @@ pub use self::simulated::{CellScene, SimulatedPose, SimulatedSpec};
 use super::recording::is_sequence;
 use crate::error::Advice;
 
-/// What can be opened.
+/// Specification of a source that can be opened.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum SourceSpec {
     /// The simulated cell.
     Simulated(SimulatedSpec),
-    /// A folder of frames to be replayed.
+    /// A folder of frames to replay.
     Recording(RecordingSpec),
-    /// A folder that another program saves captures into.
+    /// A folder to which another program saves captures.
     Watched(WatchedSpec),
     /// A Kinect.
     Kinect(KinectSpec),
     /// A GenICam camera.
     Genicam(GenicamSpec),
-    /// A camera of OpenNI, or a file that OpenNI recorded.
+    /// An OpenNI camera, or a file that OpenNI recorded.
     OpenNi(OpenNiSpec),
     /// A RealSense camera, or a file that librealsense recorded.
     Realsense(RealsenseSpec),
 }
 
-/// A folder of frames to be replayed.
+/// A folder of frames to replay.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordingSpec {
-    /// A recording made here, an RGB-D sequence with a `depth.txt`, or a folder of clouds and depth images.
+    /// A recording, an RGB-D sequence with a `depth.txt`, or a folder of clouds and depth images.
     pub folder: PathBuf,
-    /// How fast; `None` as suits whoever opens it.
+    /// Pace of the replay; `None` for the caller's default.
     pub pace: Option<Pace>,
-    /// The camera of a sequence of depth images, as in the JSON beside a depth PNG; `None` for the `intrinsics.json`
-    /// in the folder.
+    /// File with the camera of a sequence of depth images, like the JSON beside a depth PNG; `None` for the folder's
+    /// `intrinsics.json`.
     pub camera: Option<PathBuf>,
 }
 
 /// How fast frames are replayed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// With the pauses there were when it was taken, ten seconds at most; frames without times come ten a second.
+    /// With the original pauses, at most ten seconds each; frames without times come ten per second.
     AsTaken,
-    /// Each as soon as it is asked for.
+    /// Each as soon as it is requested.
     Step,
-    /// So many a second, above 0.
+    /// Frames per second, above 0.
     PerSecond(f64),
 }
 
-/// A folder that another program saves captures into.
+/// A folder to which another program saves captures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WatchedSpec {
-    /// The folder; it need not be there yet.
+    /// The folder; it need not exist yet.
     pub folder: PathBuf,
-    /// Which files are taken.
+    /// Which of its files are captured.
     pub from: WatchedFrom,
 }
 
-/// Which files of a watched folder are taken.
+/// Which files of a watched folder are captured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum WatchedFrom {
-    /// Those that come, or change, after the folder was opened.
+    /// Files that appear or change after the folder was opened.
     #[default]
     Now,
-    /// Those that lie there already, too.
+    /// Also files that were there before.
     All,
 }
 
 /// A Kinect.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct KinectSpec {
-    /// The camera's serial number; `None` for the first that is found.
+    /// Serial number of the camera; `None` for the first that is found.
     pub serial: Option<String>,
-    /// The library that speaks to it, a file or a folder; `None` for where the system keeps it.
+    /// File or folder with the libfreenect library; `None` for the system's.
     pub library: Option<PathBuf>,
 }
 
-/// A camera of OpenNI, or a file that OpenNI recorded.
+/// An OpenNI camera, or a file that OpenNI recorded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OpenNiSpec {
-    /// What OpenNI calls the camera, or the path of a file that ends in `.oni`; `None` for the first camera that is found.
+    /// OpenNI's URI of the camera, or the path of a file that ends in `.oni`; `None` for the first camera that is found.
     pub device: Option<String>,
-    /// How fast a file is played; `None` for each frame as soon as it is asked for.
+    /// Pace of a file; `None` for each frame as soon as it is requested.
     pub pace: Option<Pace>,
-    /// libOpenNI2, a file or a folder; `None` for where the system keeps it.
+    /// File or folder with the libOpenNI2 library; `None` for the system's.
     pub library: Option<PathBuf>,
 }
 
 impl OpenNiSpec {
-    /// The file to be played; `None` for a camera.
+    /// The file to play; `None` for a camera.
     pub fn file(&self) -> Option<&Path> {
         recorded_file(self.device.as_deref(), &["oni"])
     }
 }
 
-/// What is named in place of a camera, if it is a file with one of these endings.
+/// Returns `device` as a path if it has one of these file endings.
 fn recorded_file<'a>(device: Option<&'a str>, endings: &[&str]) -> Option<&'a Path> {
     let path = Path::new(device?);
     let ending = path.extension()?;
@@ -132,10 +132,10 @@ fn recorded_file<'a>(device: Option<&'a str>, endings: &[&str]) -> Option<&'a Pa
         .then_some(path)
 }
 
-/// A text that names no source.
+/// A text is not a valid source specification.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SpecError {
-    /// The word before the colon.
+    /// The kind of source is unknown.
     #[error(
         "{text:?} is no source, expected one that begins with simulated, recording, watch, kinect, genicam, openni or realsense"
     )]
@@ -143,30 +143,30 @@ pub enum SpecError {
         /// The whole text.
         text: String,
     },
-    /// A folder is missing.
+    /// The folder is missing.
     #[error("{text:?} names no folder")]
     NoFolder {
         /// The whole text.
         text: String,
     },
-    /// An option that this kind does not have.
+    /// This kind of source has no such option.
     #[error("{kind} has no option {found:?}, expected {expected}")]
     UnknownOption {
         /// The kind of source.
         kind: &'static str,
-        /// The option.
+        /// The option as given.
         found: String,
-        /// Those there are.
+        /// Names of the options of this kind.
         expected: &'static str,
     },
-    /// A value that an option, or what stands behind the colon, cannot have.
+    /// An option, or the part after the colon, has a wrong value.
     #[error("{what} {found:?}: expected {expected}")]
     BadValue {
-        /// The option.
+        /// Name of the option.
         what: &'static str,
-        /// The value.
+        /// The value as given.
         found: String,
-        /// What it can be.
+        /// What values are valid.
         expected: String,
     },
 }
@@ -198,12 +198,12 @@ const OPENNI: &str = "openni";
 const REALSENSE: &str = "realsense";
 
 impl SourceSpec {
-    /// True for the simulated cell itself; a recording says by itself whether it was simulated.
+    /// True for the simulated cell itself; whether a recording is simulated is stored in it.
     pub fn is_simulated(&self) -> bool {
         matches!(self, Self::Simulated(_))
     }
 
-    /// True for a camera, or a recording replayed like one, that goes on whether its frames are looked at or not: they
+    /// True for a camera, or a recording replayed like one, that runs whether its frames are taken or not, so that frames
     /// are dropped rather than queued.
     pub fn is_live(&self) -> bool {
         match self {
@@ -215,8 +215,7 @@ impl SourceSpec {
         }
     }
 
-    /// True if its captures follow each other in time, so that many of them show the same part; false for a folder of
-    /// captures that stand for themselves.
+    /// True if successive captures show the same part over time; false for a folder of independent captures.
     pub fn is_followed(&self) -> bool {
         match self {
             Self::Simulated(_)
@@ -229,7 +228,7 @@ impl SourceSpec {
         }
     }
 
-    /// The same source; a recording that does not say its pace has this one.
+    /// Returns the source with this pace, if it is a recording without one.
     #[must_use]
     pub fn paced(mut self, pace: Pace) -> Self {
         match &mut self {
@@ -243,7 +242,7 @@ impl SourceSpec {
         self
     }
 
-    /// What a person calls it, before it is opened.
+    /// Title to show to the operator before it is opened.
     pub fn title(&self) -> String {
         match self {
             Self::Simulated(spec) => spec.title(),
@@ -265,7 +264,7 @@ impl SourceSpec {
     }
 }
 
-/// True for a replay that goes on by itself.
+/// True for a replay that runs by itself.
 fn is_running(pace: Option<Pace>) -> bool {
     matches!(pace, Some(Pace::AsTaken | Pace::PerSecond(_)))
 }
@@ -365,7 +364,7 @@ impl Pace {
     }
 }
 
-/// As it is read again by [`SourceSpec::from_str`]; what has its default is left out.
+/// Writes the form that [`SourceSpec::from_str`] reads, without default values.
 impl fmt::Display for SourceSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -417,7 +416,7 @@ fn write_pace(f: &mut fmt::Formatter<'_>, pace: Option<Pace>) -> fmt::Result {
     }
 }
 
-/// The library of a camera, and which camera it is.
+/// Writes the library option of a camera, and which camera it is.
 fn write_camera(
     f: &mut fmt::Formatter<'_>,
     library: Option<&Path>,

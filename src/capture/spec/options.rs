@@ -1,14 +1,14 @@
-//! The options of a source: `name=value`, with commas between them.
+//! Options of a source: `name=value`, separated by commas.
 
 use super::SpecError;
 
-/// The options as given, each name known.
+/// The given options; all names are known.
 pub(super) struct Options {
     given: Vec<(String, String)>,
 }
 
 impl Options {
-    /// `known` holds the names there are, with spaces between them.
+    /// Parses options; `known` contains the valid names, separated by spaces.
     pub(super) fn split(
         kind: &'static str,
         text: &str,
@@ -29,7 +29,7 @@ impl Options {
         Ok(Self { given })
     }
 
-    /// The value of an option, the last one where it is given twice.
+    /// Parses the value of an option; if it is given twice, the last one.
     pub(super) fn value<T>(
         &self,
         name: &'static str,
@@ -47,7 +47,7 @@ impl Options {
     }
 }
 
-/// The marks that part options, and how they are written in a value. The escape's own mark comes first.
+/// Characters that separate options, and their escapes in a value. The escape character itself comes first.
 const ESCAPES: [(char, &str); 3] = [('%', "%25"), (',', "%2C"), (':', "%3A")];
 
 pub(super) fn escaped(value: &str) -> String {

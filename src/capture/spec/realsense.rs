@@ -14,14 +14,14 @@ use super::{
 /// A RealSense camera, or a file that librealsense recorded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RealsenseSpec {
-    /// The camera's serial number, or the path of a file that ends in `.bag` or `.db3`; `None` for the first camera that is
-    /// found.
+    /// Serial number of the camera, or the path of a file that ends in `.bag` or `.db3`; `None` for the first camera that
+    /// is found.
     pub device: Option<String>,
-    /// The name of the visual preset to set, in upper or lower case; `None` for the one that the camera has.
+    /// Name of the visual preset to set, ignoring case; `None` to keep the camera's present one.
     pub preset: Option<String>,
-    /// How fast a file is played; `None` for each frame as soon as it is asked for.
+    /// Pace of a file; `None` for each frame as soon as it is requested.
     pub pace: Option<Pace>,
-    /// librealsense, a file or a folder; `None` for where the system keeps it.
+    /// File or folder with the librealsense library; `None` for the system's.
     pub library: Option<PathBuf>,
 }
 
@@ -50,7 +50,7 @@ impl RealsenseSpec {
         })
     }
 
-    /// The file to be played; `None` for a camera.
+    /// The file to play; `None` for a camera.
     pub fn file(&self) -> Option<&Path> {
         recorded_file(self.device.as_deref(), &["bag", "db3"])
     }

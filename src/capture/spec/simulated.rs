@@ -1,4 +1,4 @@
-//! What the simulated cell shows.
+//! The options of the simulated cell.
 
 use std::fmt;
 
@@ -8,24 +8,24 @@ use crate::{
     simulate::{Clutter, ObjectKind, PartKind, PoseRange, Side},
 };
 
-/// What the simulated cell shows.
+/// Settings of the simulated cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedSpec {
-    /// What hangs there.
+    /// What hangs in the cell.
     pub scene: CellScene,
-    /// The side of the car, where the part has one.
+    /// The side of the car, for parts that have one.
     pub side: Side,
     /// The car model; 0 is the standard car.
     pub model: u64,
-    /// Where it hangs.
+    /// Pose of the part.
     pub pose: SimulatedPose,
-    /// Noise of the camera: 1 is a Kinect's, 0 none; 0 to 5.
+    /// Noise of the camera, 0 to 5; 1 is that of a Kinect, 0 none.
     pub noise: f64,
-    /// What else is there.
+    /// Other objects in the cell.
     pub clutter: Clutter,
-    /// Draws all that is drawn.
+    /// Seed of everything random.
     pub seed: u64,
-    /// Frames a second; 0.1 to 1000.
+    /// Frames per second; 0.1 to 1000.
     pub frames_per_second: f64,
 }
 
@@ -47,35 +47,35 @@ impl Default for SimulatedSpec {
 /// What hangs in the simulated cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CellScene {
-    /// The line runs: the eight parts swing in one after the other, hang still, and swing out.
+    /// A conveyor line: the eight parts swing in one after the other, hang still, and swing out.
     Line {
         /// Seconds from one part to the next; 4 to 3600.
         every: f64,
     },
     /// One part, hanging still.
     Part(PartKind),
-    /// Something that is no known part, hanging still.
+    /// An object that is not an enrolled part, hanging still.
     Object(ObjectKind),
     /// Nothing.
     Empty,
 }
 
-/// Seconds that a part of the line takes, unless said otherwise.
+/// Default time from one part of the line to the next, seconds.
 const EVERY: f64 = 8.0;
-/// A Kinect's.
+/// Frame rate of a Kinect.
 const FRAMES_PER_SECOND: f64 = 30.0;
 
-/// Where a part of the simulated cell hangs.
+/// Pose of a part in the simulated cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum SimulatedPose {
-    /// Drawn: hung with care, up to 10 degrees off.
+    /// Random: carefully hung, up to 10 degrees off.
     #[default]
     Facing,
-    /// Drawn: up to 30 degrees off, any roll.
+    /// Random: up to 30 degrees off, any roll.
     Placed,
-    /// Drawn: up to 45 degrees off, any roll.
+    /// Random: up to 45 degrees off, any roll.
     Hard,
-    /// Exactly here.
+    /// This pose exactly.
     Fixed(FixedPose),
 }
 
@@ -87,7 +87,7 @@ pub struct FixedPose {
 }
 
 impl SimulatedPose {
-    /// Reads six numbers, as [`parse_pose`] does.
+    /// Parses six numbers, like [`parse_pose`].
     pub fn fixed(written: &str) -> Result<Self, String> {
         Ok(Self::Fixed(FixedPose {
             written: written.to_owned(),
@@ -95,7 +95,7 @@ impl SimulatedPose {
         }))
     }
 
-    /// What it is drawn from, or the pose itself.
+    /// The range from which the pose is drawn; the error is the fixed pose.
     pub fn placement(&self) -> Result<PoseRange, RigidTransform> {
         match self {
             Self::Facing => Ok(PoseRange::facing()),
@@ -134,7 +134,7 @@ const LINE: &str = "line";
 const EMPTY: &str = "empty";
 
 impl CellScene {
-    /// As it is written.
+    /// The name in a specification.
     pub fn name(self) -> &'static str {
         match self {
             Self::Line { .. } => LINE,
@@ -161,7 +161,7 @@ impl CellScene {
 impl SimulatedSpec {
     pub(super) const OPTIONS: &str = "side model pose noise clutter seed fps every";
 
-    /// What a person calls it.
+    /// Title to show to the operator.
     pub fn title(&self) -> String {
         let hung = match self.scene {
             CellScene::Line { .. } => "the line runs".into(),
@@ -264,7 +264,7 @@ impl SimulatedSpec {
     }
 }
 
-/// Everything that can be asked for.
+/// All names of a scene.
 fn hung_names() -> String {
     let parts = PartKind::ALL.map(PartKind::name);
     let objects = ObjectKind::ALL.map(ObjectKind::name);

@@ -1,4 +1,4 @@
-//! What lies in a watched folder now.
+//! Lists the files in a watched folder.
 
 use std::{
     fs, io,
@@ -11,16 +11,16 @@ use crate::{
     files::depth_png::intrinsics_path,
 };
 
-/// A file as it is now; another time or size is another content.
+/// Time and size of a file; if one of them changes, so does the content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FileStamp {
     pub(super) modified: SystemTime,
     bytes: u64,
-    /// Of the JSON beside a depth image: an image without one may get it later.
+    /// Stamp of the JSON file beside a depth image, which may appear after the image.
     camera: Option<(SystemTime, u64)>,
 }
 
-/// The files that may be captures.
+/// Lists the files that may be captures.
 pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, FileStamp)>, CaptureError> {
     let looked = || -> io::Result<Vec<(PathBuf, FileStamp)>> {
         let mut found = Vec::new();
@@ -29,7 +29,7 @@ pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, FileStamp)>, CaptureEr
             if !may_be_capture(&path) {
                 continue;
             }
-            // A file that is gone since it was listed is not there.
+            // Skip files that have disappeared since they were listed.
             if let Some((modified, bytes)) = size_and_time(&path) {
                 let is_image = path
                     .extension()
@@ -58,7 +58,7 @@ pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, FileStamp)>, CaptureEr
     })
 }
 
-/// `None` for what is no regular file.
+/// Time and size of a file; `None` if it is not a regular file.
 fn size_and_time(path: &Path) -> Option<(SystemTime, u64)> {
     let file = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
     Some((file.modified().ok()?, file.len()))

@@ -1,13 +1,13 @@
-//! A folder that another program saves captures into.
+//! A folder to which another program saves captures.
 //!
-//! The folder is looked at again and again rather than having the system tell of changes: that works on every network
-//! share and stick, and a look costs little. A file is taken once it has had the same size and time at two looks, so a
-//! file that is still being written waits, whether it grows in place or is renamed when complete. A file that cannot be
-//! read is given more time before it is named: a writer may pause. A depth image waits for its intrinsics. A file that
-//! is written again is a new capture. Hidden files, other endings and pictures that are no depth images are left alone.
+//! The folder is polled instead of relying on notifications by the system: polling works on every network share and USB
+//! stick, and costs little. A file is captured once its size and time are the same in two successive looks. A file still
+//! being written therefore waits, whether it grows in place or is renamed when complete. A file that cannot be read is
+//! given more time before it is reported, because a writer may pause. A depth image waits for its intrinsics. A file that
+//! is rewritten is a new capture. Hidden files, other endings and pictures other than depth images are ignored.
 //!
-//! Known limit: a writer of a format without a length in it (XYZ) that pauses for longer than [`LOOK`] is taken too
-//! early; the capture is taken again when the file is complete.
+//! Known limit: if a writer of a format without a length (XYZ) pauses for longer than [`LOOK`], the file is captured too
+//! early; it is captured again when it is complete.
 
 mod look;
 #[cfg(test)]
@@ -32,47 +32,47 @@ use super::{
 };
 use crate::files::{FileError, file_name, in_counting_order};
 
-/// The pause between two looks.
+/// Pause between two looks.
 const LOOK: Duration = Duration::from_millis(300);
-/// A slow folder is not looked at more than one part in so many of the time.
+/// After a look of a slow folder, the pause is at least this many times as long as the look.
 const SHARE: u32 = 10;
-/// Looks at which an unreadable file must have been the same before it is named.
+/// Number of looks for which an unreadable file must stay the same before it is reported.
 const PATIENCE: u32 = 10;
 
-/// A folder that another program saves captures into.
+/// A folder to which another program saves captures.
 pub struct WatchedFolder {
     folder: PathBuf,
     from: WatchedFrom,
-    /// Every file that was ever seen. Kept also when it is gone: a share that comes back brings the same files.
+    /// Every file ever seen. Files that disappear are kept: a share that comes back has the same files.
     files: BTreeMap<PathBuf, Watched>,
     has_looked: bool,
     next_look: Option<Instant>,
-    /// Complete, and not taken yet, in order.
+    /// Complete files that were not read yet, in order.
     ready: VecDeque<PathBuf>,
     number: u64,
 }
 
-/// A file of the folder.
+/// State of a file in the folder.
 #[derive(Clone, Copy, Debug)]
 struct Watched {
     seen: FileStamp,
-    /// Looks at which it was the same.
+    /// Number of looks for which it has stayed the same.
     same: u32,
     state: Progress,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Progress {
-    /// It changes, or may.
+    /// It is changing, or may be.
     Waiting,
-    /// It was complete, and could not be read; it may be still.
+    /// It seemed complete but could not be read; it may be readable later.
     Doubtful,
-    /// Taken, named, or not wanted.
+    /// Captured, reported, or not wanted.
     Done,
 }
 
 impl WatchedFolder {
-    /// Watches a folder; it need not be there yet.
+    /// Watches a folder, which need not exist yet.
     pub fn new(spec: &WatchedSpec) -> Self {
         Self {
             folder: spec.folder.clone(),
@@ -85,7 +85,7 @@ impl WatchedFolder {
         }
     }
 
-    /// Looks once, and queues what is complete now.
+    /// Looks once, and queues files that are complete now.
     fn look(&mut self) -> Result<(), CaptureError> {
         let found = look(&self.folder)?;
         let is_first = !self.has_looked;
@@ -111,7 +111,7 @@ impl WatchedFolder {
             }
             let is_due = match file.state {
                 Progress::Waiting => file.same >= 1,
-                // Read again at the end of the patience only.
+                // Read it again only at the end of the patience.
                 Progress::Doubtful => file.same == PATIENCE,
                 Progress::Done => false,
             };
@@ -126,7 +126,7 @@ impl WatchedFolder {
         Ok(())
     }
 
-    /// Reads a file that is complete; `None` if there is nothing to say of it, or not yet.
+    /// Reads a complete file; `None` if there is nothing to report, or not yet.
     fn take(&mut self, path: &Path) -> Option<NextCapture> {
         let read = read_image(path);
         let file = self.files.get_mut(path)?;
@@ -150,7 +150,7 @@ impl WatchedFolder {
             Err(error) => error,
         };
         match &error {
-            // A preview beside a cloud, or gone again before it was read.
+            // A preview image beside a cloud, or a file that disappeared before it was read.
             CaptureError::File(FileError::WrongPngKind { .. } | FileError::NotFound { .. }) => {
                 file.state = Progress::Done;
                 None
@@ -196,7 +196,7 @@ impl DepthSource for WatchedFolder {
             thread::sleep(due.saturating_duration_since(now));
             let begun = Instant::now();
             if let Err(error) = self.look() {
-                // Whoever asks again has waited as long as he thinks fit.
+                // The caller determines when to look again after an error.
                 self.next_look = None;
                 return Err(error);
             }

@@ -8,7 +8,7 @@ use crate::{
     kit::small_frame,
 };
 
-/// A folder whose looks are made by hand, so that no test waits for a clock.
+/// A folder that the test looks at explicitly, so that no test waits for a clock.
 struct Bench {
     folder: tempfile::TempDir,
     source: WatchedFolder,
@@ -29,7 +29,7 @@ impl Bench {
         self.folder.path().join("scans").join(name)
     }
 
-    /// What a look brings: names of captures, and names with a mark for what cannot be read.
+    /// What a look yields: names of captures, and names with a mark for unreadable files.
     fn look(&mut self) -> Vec<String> {
         self.source.look().unwrap();
         let mut names = Vec::new();
@@ -165,7 +165,7 @@ fn a_renamed_file_and_one_that_is_written_again_are_new() {
     bench.look();
     let aside = bench.path("latest.pcd.tmp");
     for round in 0..3 {
-        // Every round has another size, as another scan has.
+        // Every round has another size, like another scan.
         let points = (0..=round).map(|k| nalgebra::Point3::new(k as f32, 0.0, 1.0));
         let made = bench.folder.path().join("made.pcd");
         save_cloud(&made, &PointCloud::from_points(points)).unwrap();
@@ -204,7 +204,7 @@ fn the_folder_may_vanish_and_come_back() {
         CaptureError::FolderGone { may_come: true, .. }
     ));
     assert_eq!(gone.recovery(), crate::capture::Recovery::AskAgain);
-    // The place where a share was is an empty folder while it is away.
+    // While a share is away, its mount point is an empty folder.
     fs::create_dir(&here).unwrap();
     assert!(bench.looks(2).is_empty());
     fs::remove_dir(&here).unwrap();

@@ -35,7 +35,7 @@ fn about(origin: &str) -> CaseDescription {
 fn bits(scene: &SceneCloud) -> Vec<[u32; 3]> {
     let points = scene.cloud.points.iter();
     let bits = points.map(|p| [p.x, p.y, p.z].map(f32::to_bits));
-    // One NaN is as good as another.
+    // Treat all NaNs as equal.
     bits.map(|cell| cell.map(|x| if f32::from_bits(x).is_nan() { 1 } else { x }))
         .collect()
 }
@@ -76,7 +76,7 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
     said.found = before.clone();
     let kept = cases.keep(&scene, said).expect("kept");
     assert_eq!(kept.name, "simulated_frame_4");
-    // The points ended there by themselves, so no depth image says it all.
+    // The readings end inside the picture, which a depth image cannot express.
     assert_eq!(kept.meta.scene.file, "scene.pcd");
 
     let list = cases.list().expect("listed");
@@ -146,7 +146,7 @@ fn writing_that_stops_half_way_leaves_no_case_and_is_cleared_up() {
     let folder = tempfile::tempdir().expect("a folder");
     let cases = CaseFolder::at(folder.path());
     cases.keep(&crumb(), about("whole")).expect("kept");
-    // Wherever it stops before the rename, all there is lies in the hidden folder.
+    // Wherever the writer stops before the rename, all files are in the hidden folder.
     let whole = folder.path().join("whole");
     for (place, files) in [&[][..], &[CRUMB], &[CRUMB, META]].into_iter().enumerate() {
         let half = folder.path().join(format!("{NEW_PREFIX}{place}"));

@@ -135,7 +135,7 @@ fn a_frame_without_a_reading_has_no_points() {
 
 #[test]
 fn an_image_larger_than_its_bytes_could_hold_takes_no_memory() {
-    // A correct header of 7000×7000 pixels over the data of six.
+    // A correct header of 7000×7000 pixels before the data of six.
     let png = with_header(|header| {
         header[..4].copy_from_slice(&7000_u32.to_be_bytes());
         header[4..8].copy_from_slice(&7000_u32.to_be_bytes());
@@ -143,7 +143,7 @@ fn an_image_larger_than_its_bytes_could_hold_takes_no_memory() {
     assert!(matches!(decoded(&png), Err(FileError::Truncated { .. })));
 }
 
-/// A PNG of six pixels whose header was changed and made consistent again.
+/// A PNG of six pixels with a changed header and the checksum to match.
 fn with_header(change: impl FnOnce(&mut [u8])) -> Vec<u8> {
     let mut png = Vec::new();
     PngEncoder::new(&mut png)

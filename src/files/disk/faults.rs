@@ -1,5 +1,5 @@
-//! Lets every single call of a writer fail, one after the other, as `SQLite` tests its own: whatever fails and in
-//! whichever way, what is there afterwards is the old state or the new one, the message fits, and the next try succeeds.
+//! Makes every single call of a writer fail, one after the other, as `SQLite` does in its own tests. However a call fails,
+//! the disk must hold the old or the new state afterwards, the message must fit, and the next try must succeed.
 
 use std::{
     cell::Cell,
@@ -13,23 +13,23 @@ use crate::error::Advice;
 /// How a call fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fault {
-    /// No room: ENOSPC, of a write after half of it.
+    /// ENOSPC; a write stores half of its bytes first.
     Full,
     /// EIO.
     Broken,
     /// EACCES.
     Denied,
-    /// The program ends, in a write after half of it.
+    /// The program ends; a write stores half of its bytes first.
     Killed,
 }
 
-/// What comes of the calls of this thread.
+/// Which calls of this thread fail, and how.
 #[derive(Clone, Copy, Debug)]
 struct Plan {
     fault: Fault,
-    /// Calls until it strikes.
+    /// Calls that still succeed.
     left: u32,
-    /// True if every call after it fails too.
+    /// True if every later call fails too.
     stays: bool,
     has_struck: bool,
 }
@@ -38,7 +38,7 @@ thread_local! {
     static PLAN: Cell<Option<Plan>> = const { Cell::new(None) };
 }
 
-/// Comes before every call.
+/// Runs before every call.
 pub(super) fn inject(part_of_it: impl FnOnce()) -> io::Result<()> {
     let Some(mut plan) = PLAN.get() else {
         return Ok(());
@@ -64,7 +64,7 @@ pub(super) fn inject(part_of_it: impl FnOnce()) -> io::Result<()> {
     }
 }
 
-/// Runs a writer of which the call of this number, from 0, fails; true if it has as many.
+/// Runs a writer under a plan; the second result is true if a call failed.
 fn with_fault<T>(plan: Plan, write: impl FnOnce() -> T) -> (T, bool) {
     PLAN.set(Some(plan));
     let written = write();
@@ -73,7 +73,7 @@ fn with_fault<T>(plan: Plan, write: impl FnOnce() -> T) -> (T, bool) {
 }
 
 impl Fault {
-    /// True if the message and the advice say what is wrong.
+    /// Returns true if message and advice describe the fault.
     fn is_told_by(self, message: &str) -> bool {
         let says = |words: &[&str]| words.iter().any(|words| message.contains(words));
         match self {
@@ -85,33 +85,33 @@ impl Fault {
     }
 }
 
-/// An error with its advice, as [`Writer::write`] answers.
+/// Returns an error with its advice, as [`Writer::write`] reports it.
 pub(crate) fn told(error: &(impl std::error::Error + Advice)) -> String {
     format!("{error}; {}", error.advice())
 }
 
-/// Names the thread's test and the call at which its writer is to be killed, and in which folder.
+/// Environment variable for the child process to be killed: the number of the call, and the folder.
 const KILLED: &str = "PARTSIGHT_TEST_KILLED_AT";
 
-/// No writer has as many.
+/// More calls than any writer makes.
 const MOST_CALLS: u32 = 1000;
 
-/// A writer, and how it is looked at.
+/// A writer under test.
 pub(crate) struct Writer<'a> {
-    /// The full name of the test, which is run again in a process of its own to be killed.
+    /// The full name of the test. It runs again in a child process, which is killed.
     pub(crate) test: &'a str,
-    /// Makes the old state in an empty folder.
+    /// Creates the old state in an empty folder.
     pub(crate) prepare: &'a dyn Fn(&Path),
-    /// Makes the new state of the old one; an error with its advice.
+    /// Changes the old state into the new one; on failure returns the error with its advice.
     pub(crate) write: &'a dyn Fn(&Path) -> Result<(), String>,
-    /// What a reader of this program finds.
+    /// Describes the state that a reader of this program finds.
     pub(crate) state: &'a dyn Fn(&Path) -> String,
-    /// States between the old one and the new one that count as whole.
+    /// States between old and new that count as whole.
     pub(crate) between: &'a [&'a str],
 }
 
 impl Writer<'_> {
-    /// Lets every call fail in every way, and checks what is there afterwards.
+    /// Makes every call fail in every way, and checks the state afterwards.
     pub(crate) fn fails_at_every_call(&self) {
         if let Ok(told) = env::var(KILLED) {
             let (at, folder) = told.split_once(' ').expect("a number and a folder");
@@ -156,7 +156,7 @@ impl Writer<'_> {
         (old, (self.state)(folder.path()))
     }
 
-    /// False if the writer has not as many calls.
+    /// Returns false if the writer makes fewer calls, so that none failed.
     fn survives(&self, plan: Plan, old: &str, new: &str) -> bool {
         let folder = tempfile::tempdir().expect("a folder");
         (self.prepare)(folder.path());
@@ -200,7 +200,7 @@ impl Writer<'_> {
         assert!(is_whole, "{when}: neither {old} nor {new}: {found}");
     }
 
-    /// What failed once succeeds once the disk works again.
+    /// A failed write succeeds on the next try.
     fn goes_on(&self, folder: &Path, found: &str, old: &str, new: &str, when: &str) {
         if found == old {
             let again = (self.write)(folder);
@@ -210,7 +210,7 @@ impl Writer<'_> {
     }
 }
 
-/// The calls that change something on a disk.
+/// Calls that change something on a disk.
 const CALLS: [&str; 12] = [
     "fs::write(",
     "fs::rename(",
@@ -240,7 +240,7 @@ fn nothing_else_changes_anything_on_a_disk() {
                 continue;
             }
             let text = fs::read_to_string(&path).expect("read");
-            // Tests come last in their file.
+            // Unit tests come last in a file.
             let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or("");
             for (number, line) in (1..).zip(code.lines()) {
                 if CALLS.iter().any(|call| line.contains(call)) {

@@ -1,4 +1,4 @@
-//! The bytes behind a glTF document, and the numbers in them.
+//! The buffers of a glTF document, and the numbers in them.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -14,7 +14,7 @@ use super::super::error::FileError;
 use super::super::names::stays_inside;
 use super::super::source::{Source, read_limited};
 
-/// The buffers of a document, loaded when first asked for.
+/// The buffers of a document, loaded on first use.
 pub(super) struct Buffers<'a> {
     source: Source<'a>,
     /// The binary chunk of a GLB.
@@ -31,7 +31,7 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// Three numbers an element.
+    /// Reads three numbers per element.
     pub(super) fn positions(
         &mut self,
         accessor: &Accessor<'_>,
@@ -49,7 +49,7 @@ impl<'a> Buffers<'a> {
             .collect())
     }
 
-    /// One whole number an element.
+    /// Reads one whole number per element.
     pub(super) fn indices(&mut self, accessor: &Accessor<'_>) -> Result<Vec<u32>, FileError> {
         if accessor.dimensions() != Dimensions::Scalar {
             return Err(self.source.damaged("indices that are not single numbers"));
@@ -66,7 +66,7 @@ impl<'a> Buffers<'a> {
         Ok(self.cells(accessor)?.filter_map(index).collect())
     }
 
-    /// The bytes of each element, all of them checked to lie within their view and its buffer.
+    /// Returns the bytes of each element, after a check that all lie within their view and buffer.
     fn cells(&mut self, accessor: &Accessor<'_>) -> Result<impl Iterator<Item = &[u8]>, FileError> {
         let source = self.source;
         let (Some(view), None) = (accessor.view(), accessor.sparse()) else {
@@ -109,7 +109,7 @@ impl<'a> Buffers<'a> {
                 let bytes = match self.loaded.entry(buffer.index()) {
                     Entry::Occupied(known) => known.into_mut(),
                     Entry::Vacant(unknown) => {
-                        // All of them may be the same file.
+                        // Several buffers may name the same file, so bound their sum.
                         let room = MAX_UNPACKED_BYTES.saturating_sub(num_loaded as u64);
                         unknown.insert(load(source, uri, room)?)
                     }
@@ -123,7 +123,7 @@ impl<'a> Buffers<'a> {
     }
 }
 
-/// The bytes at a URI, `room` at most.
+/// Loads the bytes at a URI. A file may have at most `room` bytes; embedded data is bounded by the document itself.
 fn load(source: Source<'_>, uri: &str, room: u64) -> Result<Vec<u8>, FileError> {
     if let Some(data) = uri.strip_prefix("data:") {
         let encoded = data.split_once(";base64,").map(|(_, encoded)| encoded);
@@ -138,10 +138,10 @@ fn load(source: Source<'_>, uri: &str, room: u64) -> Result<Vec<u8>, FileError> 
     read_limited(&folder.join(relative), room)
 }
 
-/// The file that a URI names below the document's own folder; `None` for anything else.
+/// Returns the path that a URI names below the document's own folder; `None` for anything else.
 fn relative_path(uri: &str) -> Option<PathBuf> {
     let decoded = percent_decoded(uri)?;
-    // A colon is a scheme or a drive, a backslash a folder on Windows.
+    // A colon means a scheme or a drive, a backslash a folder on Windows.
     if decoded.is_empty() || decoded.contains([':', '\\', '\0']) {
         return None;
     }

@@ -1,15 +1,15 @@
-//! glTF and GLB: one mesh of a scene, placed as the scene places it.
+//! glTF and GLB: one mesh of a scene, placed as in the scene.
 //!
-//! Facts from Khronos, *glTF 2.0 Specification* (2021). The crate `gltf` reads and validates the document; splitting
-//! GLB, finding buffers and reading accessors is done here, because the crate's own reader subtracts, adds and slices
-//! with numbers from the file and panics on hostile ones, and loads every picture and buffer of the file.
+//! Source: Khronos, *glTF 2.0 Specification* (2021). The crate `gltf` parses and validates the document. This module splits
+//! GLB, finds buffers and reads accessors itself: the crate's own reader computes and slices with unchecked numbers from the
+//! file, panics on hostile ones, and loads every picture and buffer of the file.
 //!
-//! glTF is in metres with y up, and the coordinates are kept so. A mesh is chosen by the name of the node that places
-//! it, or else by the name of the mesh itself; everything of that name is taken together. Positions and indices are
-//! read; a node's shift, turn and scale, and those of the nodes above it, are applied. A placement that mirrors turns
-//! the triangles' order round, so that they still face outwards.
+//! glTF is in metres with y up; the coordinates are kept as they are. A mesh is selected by the name of a node that places
+//! it, else by its own name; all meshes of that name are joined. Positions and indices are read, and the transforms of the
+//! node and of its ancestors applied. A mirroring transform reverses the order of the triangles' vertices, so that they
+//! still face outwards.
 //!
-//! Limits: sparse accessors, compressed or quantised geometry are refused by name; skins and morphs are read over.
+//! Limits: sparse accessors and compressed or quantised geometry are refused; skins and morph targets are ignored.
 
 mod buffers;
 
@@ -27,12 +27,12 @@ use crate::geometry::mesh::TriangleMesh;
 
 use self::buffers::Buffers;
 
-/// True for the four bytes that begin a GLB.
+/// Returns true for the four bytes that begin a GLB.
 pub(super) fn is_glb(bytes: &[u8]) -> bool {
     bytes.starts_with(b"glTF")
 }
 
-/// True for a JSON object that has an asset, which every glTF must.
+/// Returns true for a JSON object with the word "asset", a key that every glTF has.
 pub(super) fn is_json(bytes: &[u8]) -> bool {
     let text = bytes
         .strip_prefix(b"\xef\xbb\xbf")
@@ -74,7 +74,7 @@ pub(super) fn read(source: Source<'_>, wanted: Option<&str>) -> Result<TriangleM
     checked_mesh(source, whole.vertices, whole.triangles)
 }
 
-/// The JSON and, if there is one, the binary chunk of a GLB.
+/// Returns the JSON of a GLB and its binary chunk, if it has one.
 fn split_glb(source: Source<'_>) -> Result<(&[u8], Option<&[u8]>), FileError> {
     match word_at(source.bytes, 4) {
         Some(2) => {}
@@ -94,7 +94,7 @@ fn split_glb(source: Source<'_>) -> Result<(&[u8], Option<&[u8]>), FileError> {
     Ok((json, (kind.to_le_bytes() == *b"BIN\0").then_some(blob)))
 }
 
-/// The kind and the content of the chunk that `bytes` begin with, and what follows it.
+/// Splits off the chunk at the start of `bytes`; returns its kind, its content and the remaining bytes.
 fn split_chunk<'a>(
     source: Source<'_>,
     bytes: &'a [u8],
@@ -114,7 +114,7 @@ fn word_at(bytes: &[u8], at: usize) -> Option<u32> {
     word.map(|word| u32::from_le_bytes(*word))
 }
 
-/// Memory of an object of the document: "{}" in a list of nodes becomes as much.
+/// Estimated memory per object of the document, in bytes: even "{}" in a list of nodes takes this much.
 const OBJECT_BYTES: usize = 1000;
 
 fn parse(source: Source<'_>, json: &[u8]) -> Result<Document, FileError> {
@@ -142,9 +142,9 @@ fn parse(source: Source<'_>, json: &[u8]) -> Result<Document, FileError> {
             "glTF without mesh compression",
         ));
     }
-    // What else a file may require concerns paint, light and motion, none of which is read.
+    // Other required extensions concern materials, lights and motion, which are not read.
     root.extensions_required.clear();
-    // The crate's validation looks these up before it has checked them.
+    // The crate's validation looks these indices up before it checks them.
     let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let mut attributes = primitives.flat_map(|primitive| primitive.attributes.values());
     if attributes.any(|index| index.value() >= root.accessors.len()) {
@@ -153,15 +153,16 @@ fn parse(source: Source<'_>, json: &[u8]) -> Result<Document, FileError> {
     Document::from_json(root).map_err(|error| source.damaged(error.to_string()))
 }
 
-/// A mesh where a node of the scene puts it.
+/// A mesh with the transform of the node that places it.
 struct PlacedMesh<'a> {
-    /// The node's name, else the mesh's, else `mesh_` and its number.
+    /// The node's name, else the mesh's, else `mesh_` and its index.
     name: String,
     mesh: Mesh<'a>,
     scene_from_mesh: Matrix4<f64>,
 }
 
-/// Every mesh of the scene, in the file's order. Without a scene all nodes count, without nodes all meshes.
+/// Returns every mesh of the scene in the file's order. A file without scenes counts as one scene of all its nodes; without
+/// placed meshes, all meshes are taken untransformed.
 fn placed_meshes<'a>(
     source: Source<'_>,
     document: &'a Document,
@@ -187,7 +188,7 @@ fn placed_meshes<'a>(
         .collect();
     open.reverse();
     while let Some((node, scene_from_parent)) = open.pop() {
-        // The specification wants trees. Anything else could go round for ever.
+        // The specification demands trees; anything else could loop for ever.
         if !seen.insert(node.index()) {
             return Err(source.damaged(format!("node {} is placed twice", node.index())));
         }
@@ -265,7 +266,7 @@ fn choose<'a>(
     Ok(chosen)
 }
 
-/// The triangles of a primitive in the scene's space; `None` for points and lines.
+/// Returns the triangles of a primitive in scene space; `None` for points and lines.
 fn read_primitive(
     source: Source<'_>,
     buffers: &mut Buffers<'_>,
@@ -319,7 +320,7 @@ fn triangles_of(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
             .windows(3)
             .filter_map(three)
             .enumerate()
-            // Every other triangle of a strip runs the other way.
+            // Every other triangle of a strip has the opposite winding.
             .map(|(i, [a, b, c])| if i % 2 == 0 { [a, b, c] } else { [b, a, c] })
             .collect(),
         Mode::TriangleFan => {

@@ -84,7 +84,7 @@ fn a_mesh_is_placed_by_all_the_nodes_above_it() {
             "{left:?}"
         );
         assert_eq!(left.triangles, [[0, 1, 2]]);
-        // The mesh's own name does where no node has it.
+        // The mesh's own name applies where no node has the name.
         assert_eq!(read_bytes(&bytes, Some("Panel")).unwrap(), left);
     }
 }
@@ -114,7 +114,7 @@ fn without_a_name_or_with_a_wrong_one_the_names_are_listed() {
     );
     assert!(error.to_string().contains("Right, Left"), "{error}");
     assert!(error.advice().starts_with("Did you mean test.gltf#Right?"));
-    // With one mesh there is nothing to choose.
+    // A single mesh needs no name.
     let lone = embedded().replace("[0,1]", "[1]");
     assert_eq!(
         read_bytes(lone.as_bytes(), None).unwrap().triangles.len(),
@@ -220,7 +220,7 @@ fn numbers_that_reach_beyond_the_buffers_are_refused() {
         assert_ne!(bad, good, "{from}");
         assert!(read_bytes(bad.as_bytes(), Some("Left")).is_err(), "{to}");
     }
-    // What a file requires for its paint does not concern its shape.
+    // Extensions for materials do not concern the shape.
     let paint = good.replacen(
         r#","scene":0"#,
         r#","extensionsRequired":["KHR_texture_transform"],"scene":0"#,

@@ -145,7 +145,7 @@ fn content_of_no_known_format_is_described() {
             "{error}"
         );
     }
-    // Nothing in the bytes of a cut binary STL tells what they are.
+    // The content of a cut binary STL cannot be recognised.
     let (_folder, path) = file("cut.stl", &binary_stl()[..100]);
     assert!(matches!(
         open(&path),

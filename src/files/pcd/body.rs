@@ -1,4 +1,4 @@
-//! The points of a PCD file as columns of bytes, whichever way they are stored.
+//! The points of a PCD file as columns of bytes, for every storage.
 
 use std::borrow::Cow;
 
@@ -9,15 +9,15 @@ use super::super::source::Source;
 use super::header::{Field, Header, Storage};
 use super::lzf;
 
-/// Memory that an inspection takes for a point besides: a small packed file must not make that large either.
+/// Further memory that an inspection needs per point, in bytes: a small packed file must not make that large either.
 const INSPECTED_BYTES: usize = 24;
 
-/// The points as bytes: row after row, or field after field where the file was packed.
+/// The points as bytes: row after row, or column after column in packed files.
 pub(super) struct Body<'a> {
     bytes: Cow<'a, [u8]>,
     num_points: usize,
     layout: Layout,
-    /// Bytes behind the last point, blank ones aside: the header is then of another file than the points.
+    /// Bytes after the last point, trailing blanks aside. If there are any, the header does not fit the points.
     pub(super) surplus: u64,
 }
 
@@ -27,7 +27,7 @@ enum Layout {
 }
 
 impl<'a> Body<'a> {
-    /// All points that the header promises, or an error: the block is never shorter than its columns claim.
+    /// Reads all points that the header promises, so that no column reaches beyond the bytes; else returns an error.
     pub(super) fn read(source: Source<'a>, header: &Header) -> Result<Self, FileError> {
         let num_points = header.num_points;
         let stored = source.bytes.get(header.body_start..).unwrap_or_default();
@@ -88,7 +88,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Text rows as the bytes that binary storage would have, and how many bytes of further rows there are.
+/// Converts rows of text to the bytes of binary storage; also returns the number of bytes in surplus rows.
 fn rows_of_text(source: Source<'_>, header: &Header) -> Result<(Vec<u8>, u64), FileError> {
     let text = Source {
         bytes: source.bytes.get(header.body_start..).unwrap_or_default(),
@@ -123,7 +123,7 @@ fn rows_of_text(source: Source<'_>, header: &Header) -> Result<(Vec<u8>, u64), F
         num_rows += 1;
     }
     if num_rows < header.num_points {
-        // A number and what parts it from the next take two bytes at least.
+        // A number and its separator take at least two bytes.
         let needed = header
             .num_points
             .saturating_mul(header.fields.len())
@@ -137,7 +137,7 @@ fn rows_of_text(source: Source<'_>, header: &Header) -> Result<(Vec<u8>, u64), F
     Ok((rows, surplus))
 }
 
-/// The packed points, and what follows their block.
+/// Returns the unpacked points and the bytes after the packed block.
 fn unpacked<'a>(
     source: Source<'_>,
     stored: &'a [u8],

@@ -18,28 +18,28 @@ pub(super) enum Storage {
 pub(super) struct Field {
     pub(super) name: String,
     pub(super) scalar: Scalar,
-    /// Numbers of this type in one point; only the first is ever of use here.
+    /// Numbers of this type per point; only the first is used.
     pub(super) count: usize,
-    /// Bytes before this field in one point.
+    /// Offset of this field within a point, in bytes.
     pub(super) offset: usize,
 }
 
-/// What a PCD header says, its sizes checked for overflow and against the limit of points.
+/// A parsed PCD header. Its sizes are checked for overflow and against the limit of points.
 pub(super) struct Header {
     pub(super) fields: Vec<Field>,
-    /// Bytes of one point in binary storage, at least 1.
+    /// Bytes per point in binary storage.
     pub(super) row_bytes: usize,
     pub(super) num_points: usize,
-    /// Set when the cloud is organised.
+    /// Set if the cloud is organised.
     pub(super) grid: Option<Grid>,
     pub(super) storage: Storage,
-    /// Where the points begin in the file.
+    /// Offset of the points in the file.
     pub(super) body_start: usize,
-    /// The number of the line where the points begin, from 1.
+    /// The line at which the points begin, from 1.
     pub(super) body_line: usize,
 }
 
-/// The lines of the header by keyword, as they stand.
+/// The unparsed words of the header lines, by keyword.
 #[derive(Default)]
 struct Lines {
     fields: Vec<String>,
@@ -78,7 +78,7 @@ impl Header {
                 "WIDTH" => lines.width = words.next(),
                 "HEIGHT" => lines.height = words.next(),
                 "POINTS" => lines.points = words.next(),
-                // VIEWPOINT: see the module's description.
+                // VIEWPOINT is ignored, see the module's description.
                 "VERSION" | "VIEWPOINT" => {}
                 "DATA" => {
                     let storage = match words.next().as_deref() {
@@ -99,14 +99,14 @@ impl Header {
         Err(source.cut_before("the end of the header", "PCD header"))
     }
 
-    /// The field of that name that holds at least one number; the first one if there are several.
+    /// Returns the first field of that name that holds at least one number.
     pub(super) fn field(&self, name: &str) -> Option<&Field> {
         self.fields
             .iter()
             .find(|field| field.name == name && field.count > 0)
     }
 
-    /// The field names in one line, for an error.
+    /// Returns the field names in one line, for errors.
     pub(super) fn field_names(&self) -> String {
         let names: Vec<&str> = self
             .fields
@@ -196,7 +196,7 @@ impl Lines {
         let width = number("WIDTH", &self.width)?;
         let height = number("HEIGHT", &self.height)?;
         let points = number("POINTS", &self.points)?;
-        // The oldest files give POINTS only, the least careful writers WIDTH and HEIGHT only.
+        // The oldest files have only POINTS, careless writers give only WIDTH and HEIGHT.
         let (width, height) = match (width, height, points) {
             (Some(width), height, _) => (width, height.unwrap_or(1)),
             (None, _, Some(points)) => (points, 1),

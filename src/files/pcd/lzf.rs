@@ -1,12 +1,12 @@
-//! LZF, the byte-wise packing inside `binary_compressed` PCD files.
+//! LZF, the byte-wise compression of `binary_compressed` PCD files.
 //!
-//! A control byte below 32 is followed by that many bytes plus one, to be copied as they are. Any other is a
-//! reference: its upper three bits plus two are a length (seven means that the next byte adds to it), its lower five
-//! and the next byte are how far back to copy from, minus one. Source: M. A. Lehmann, `LibLZF` 3.6, `lzf_d.c`, 2008.
+//! A control byte `c` below 32 is followed by `c + 1` literal bytes. Any other is a back-reference: its upper three bits
+//! plus two are the length (if they are seven, the next byte is added), its lower five bits and the next byte are the
+//! distance minus one. Source: M. A. Lehmann, `LibLZF` 3.6, `lzf_d.c`, 2008.
 
 use thiserror::Error;
 
-/// The most bytes that one packed byte can stand for: a reference of three bytes gives 264.
+/// The most bytes per packed byte: a reference of three bytes yields 264.
 pub(super) const MAX_RATIO: usize = 88;
 
 /// Why a packed block cannot be unpacked.
@@ -20,7 +20,7 @@ pub(super) enum LzfError {
     WrongLength { found: usize, expected: usize },
 }
 
-/// Unpacks to exactly `expected` bytes. The caller has checked that `expected` is a sensible amount of memory.
+/// Unpacks to exactly `expected` bytes. The caller must have checked that `expected` is a sensible amount of memory.
 pub(super) fn decompress(packed: &[u8], expected: usize) -> Result<Vec<u8>, LzfError> {
     let mut out = Vec::with_capacity(expected);
     let mut rest = packed;
@@ -69,7 +69,7 @@ fn copy_back(out: &mut Vec<u8>, distance: usize, mut length: usize) -> Result<()
             distance,
             available,
         })?;
-    // A reference may reach into what it is itself writing: then the bytes known so far repeat.
+    // A reference may overlap its own output; the bytes known so far then repeat.
     while length > 0 {
         let step = length.min(out.len() - start);
         out.extend_from_within(start..start + step);
@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn runs_and_references_unpack_as_in_the_reference_decoder() {
-        // Four bytes as they are, then twelve from one byte back, then three from sixteen back.
+        // Four literal bytes, then twelve from one byte back, then three from sixteen back.
         let packed = [3, b'a', b'b', b'c', b'd', 0xE0, 3, 0, 0x20, 15];
         assert_eq!(
             decompress(&packed, 19).unwrap(),

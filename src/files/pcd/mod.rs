@@ -1,15 +1,15 @@
-//! PCD, the Point Cloud Library's own format: a header of text lines, then rows (ascii, binary) or LZF-packed columns
+//! PCD, the format of the Point Cloud Library: a text header, then rows (ascii, binary) or LZF-packed columns
 //! (`binary_compressed`).
 //!
-//! Facts from the Point Cloud Library: its page `PCD_V7` and `io/src/pcd_io.cpp`. x, y, z may have any number type;
-//! `normal_x/y/z`, `rgb` or `rgba` (0xAARRGGBB in four bytes, of whichever type) and `label` are kept, other fields
+//! Source: the Point Cloud Library, its page `PCD_V7` and `io/src/pcd_io.cpp`. x, y, z may have any number type;
+//! `normal_x/y/z`, `rgb` or `rgba` (0xAARRGGBB in four bytes of any type) and `label` are kept, other fields
 //! skipped. `HEIGHT` above 1 makes the cloud organised.
 //!
-//! `VIEWPOINT` is read over on purpose. It says where the sensor was in some world, while the points stay in the
-//! camera's space, and that is the space in which everything here works.
+//! `VIEWPOINT` is ignored on purpose: it is the sensor's pose in some world, while the points stay in camera space, which
+//! is the space used here.
 //!
-//! Deviations: a packed block without its end is refused as a whole, where the library fills up with zeros; what
-//! follows the last point is counted, where the library reads over it.
+//! Deviations: a cut packed block is refused as a whole, where the library fills up with zeros; bytes after the last point
+//! are counted, where the library ignores them.
 
 mod body;
 mod header;
@@ -26,9 +26,9 @@ use crate::geometry::cloud::PointCloud;
 use self::body::Body;
 use self::header::Header;
 
-/// True if the first line that is not a comment begins a PCD header.
+/// Returns true if the first line that is not a comment begins a PCD header.
 pub(super) fn is_pcd(source: Source<'_>) -> bool {
-    // What follows may be binary, and one line of it as long as the file.
+    // The file may be binary after the header, so that a line could be as long as the file.
     let beginning = source.bytes.get(..4096).unwrap_or(source.bytes);
     let lines = Source {
         bytes: beginning,
@@ -40,7 +40,7 @@ pub(super) fn is_pcd(source: Source<'_>) -> bool {
         .find(|line| !line.is_empty() && !line.starts_with('#'))
         .is_some_and(|line| {
             let keyword = line.split_whitespace().next();
-            // Before version 0.7 the version line was optional and fields were called columns.
+            // Before version 0.7 the VERSION line was optional, and FIELDS were called COLUMNS.
             matches!(keyword, Some("VERSION" | "FIELDS" | "COLUMNS"))
         })
 }

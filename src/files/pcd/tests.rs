@@ -37,7 +37,7 @@ fn header(fields: &str, width: &str, height: &str, storage: &str) -> String {
     )
 }
 
-/// Packs without looking for repetitions: every byte stands for itself.
+/// Packs without references: only literal bytes.
 fn pack(bytes: &[u8]) -> Vec<u8> {
     let mut packed = Vec::new();
     for run in bytes.chunks(32) {
@@ -52,7 +52,7 @@ fn pack(bytes: &[u8]) -> Vec<u8> {
 
 const FIELDS: &str = "label:U:2:1 x:F:4:1 _:U:1:3 y:F:8:1 z:F:4:1 rgb:F:4:1";
 
-/// Two points with those fields, in each of the three storages.
+/// Two points with the same fields in each of the three storages.
 pub(in crate::files) fn same_points_stored_three_ways() -> [Vec<u8>; 3] {
     let points = [
         (7_u16, 1.5_f32, -2.25_f64, 3.0_f32, 0x00FF_8001_u32),
@@ -102,7 +102,7 @@ fn the_three_storages_hold_the_same_cloud() {
 fn a_file_cut_anywhere_is_an_error_and_never_a_panic() {
     for bytes in same_points_stored_three_ways() {
         for length in 0..bytes.len() {
-            // A cut text may still end in a shorter number; nothing else is whole without its last byte.
+            // Cut text may still end in a shorter number; the other storages need their last byte.
             let is_text = bytes.ends_with(b"\n") && length > bytes.len() - 13;
             assert!(
                 read(source(&bytes[..length])).is_err() || is_text,
@@ -149,7 +149,7 @@ fn cells_without_a_reading_stay_in_the_grid_and_leave_a_list() {
 
     let list = header("x:F:4:1 y:F:4:1 z:F:4:1", "6", "1", "ascii") + rows;
     let cloud = read_bytes(list.as_bytes()).unwrap();
-    // In a list nothing says that the origin is not a point.
+    // In an unorganised cloud the origin may be a point.
     assert_eq!(cloud.points, [Point3::new(1.0, 2.0, 3.0), Point3::origin()]);
 }
 
@@ -310,12 +310,12 @@ proptest! {
         let mut bytes = Vec::new();
         write_pcd(&mut bytes, &cloud).unwrap();
         let back = read_bytes(&bytes).unwrap();
-        // NaN differs from itself, but not in words.
+        // NaN differs from itself, but its text does not.
         prop_assert_eq!(format!("{back:?}"), format!("{cloud:?}"));
     }
 }
 
-/// Clouds of every kind, as the reader promises them.
+/// Clouds of every kind, with the properties that the reader guarantees.
 pub(in crate::files) fn any_cloud() -> impl Strategy<Value = PointCloud> {
     let point = prop::array::uniform3(-1e6_f32..1e6).prop_map(Point3::from);
     let rows = prop::collection::vec(

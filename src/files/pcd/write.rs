@@ -4,10 +4,10 @@ use std::io::{self, Write};
 
 use crate::geometry::cloud::{Grid, PointCloud};
 
-/// Writes all of a cloud as binary PCD 0.7: x y z, and where it has them `normal_x/y/z`, `rgb` (as an unsigned
-/// number) and `label`; the grid becomes WIDTH and HEIGHT.
+/// Writes a whole cloud as binary PCD 0.7: x y z and, where it has them, `normal_x/y/z`, `rgb` (as an unsigned number) and
+/// `label`; the grid becomes WIDTH and HEIGHT.
 ///
-/// A cloud without points is written as one with 0 points, which [`open`](crate::files::open()) refuses.
+/// A cloud without points is written with 0 points, and [`open`](crate::files::open()) refuses such a file.
 pub fn write_pcd(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
     let PointCloud {
         points,

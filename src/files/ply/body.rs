@@ -1,4 +1,4 @@
-//! The rows of a PLY file, one element after the other.
+//! The elements of a PLY file, read one after the other.
 
 use std::borrow::Cow;
 
@@ -13,9 +13,9 @@ pub(super) struct Rows<'a> {
     scalars: Cow<'a, [u8]>,
     row_bytes: usize,
     count: usize,
-    /// How many values of the wanted list belong to each row; empty without a wanted list.
+    /// Length of the wanted list in each row; empty without a wanted list.
     pub(super) list_lengths: Vec<u32>,
-    /// The values of the wanted list, row after row. A value that is no index becomes `u32::MAX`.
+    /// The values of the wanted list, row after row. A value that is no valid index becomes `u32::MAX`.
     pub(super) list_values: Vec<u32>,
 }
 
@@ -31,12 +31,12 @@ impl Rows<'_> {
     }
 }
 
-/// What is left of the file after the elements read so far.
+/// The unread rest of the file.
 pub(super) struct Body<'a> {
     source: Source<'a>,
     storage: Storage,
     rest: &'a [u8],
-    /// The line that `rest` begins in, for text.
+    /// The line at which `rest` begins, for text.
     line: usize,
 }
 
@@ -50,7 +50,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Reads over an element.
+    /// Skips an element.
     pub(super) fn skip(&mut self, element: &Element) -> Result<(), FileError> {
         if element.is_fixed() && self.storage != Storage::Ascii {
             return self.take_fixed(element).map(|_| ());
@@ -74,7 +74,7 @@ impl<'a> Body<'a> {
         Ok(())
     }
 
-    /// Reads an element; `wanted_list` is the place of the list to keep among its properties.
+    /// Reads an element. `wanted_list` is the index of the property whose list is kept.
     pub(super) fn rows(
         &mut self,
         element: &Element,
@@ -130,28 +130,28 @@ impl<'a> Body<'a> {
         Ok(rows)
     }
 
-    /// Bytes behind the last row, blank ones aside: the header is then of another file than the rows.
+    /// Bytes after the last row, trailing blanks aside. If there are any, the header does not fit the rows.
     pub(super) fn surplus(&self) -> u64 {
         surplus_of(self.rest)
     }
 
-    /// The bytes of an element without lists.
+    /// Returns the bytes of an element without lists.
     fn take_fixed(&mut self, element: &Element) -> Result<&'a [u8], FileError> {
         let needed = element.count.saturating_mul(element.scalar_bytes());
         let Some((bytes, rest)) = self.rest.split_at_checked(needed) else {
             return Err(self.source.truncated("rows", self.rest.len(), needed));
         };
         self.rest = rest;
-        // Rows without bytes would be there in any number.
+        // Any number of rows without bytes would fit.
         self.check_has_properties(element)?;
         Ok(bytes)
     }
 
-    /// Refuses more rows than the rest of the file can hold, before anything is made for them.
+    /// Refuses more rows than the rest of the file can hold, before memory is allocated for them.
     fn check_count(&self, element: &Element) -> Result<(), FileError> {
         self.check_has_properties(element)?;
         let min_row_bytes = match self.storage {
-            // A digit and what parts it from the next; the last one of the file may end it.
+            // A digit and a separator each; the file's last number needs no separator.
             Storage::Ascii => 2 * element.properties.len(),
             Storage::LittleEndian | Storage::BigEndian => element.min_row_bytes(),
         };
@@ -222,7 +222,7 @@ impl<'a> Body<'a> {
     }
 }
 
-/// The vertex that a list's item names. A negative one is none, and so is one beyond `u32`.
+/// Returns the vertex that an item of a list names; `u32::MAX` for a negative number or one that does not fit.
 fn index_of(scalar: Scalar, bytes: &[u8]) -> u32 {
     let value = scalar
         .value(bytes)

@@ -19,7 +19,7 @@ pub(super) struct Property {
     pub(super) kind: Kind,
 }
 
-/// One number, or a number of numbers.
+/// One number, or a list of numbers with its length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Scalar(Scalar),
@@ -35,7 +35,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// The fewest bytes of one binary row: its scalars, and its lists without items.
+    /// Returns the least size of a binary row: its scalars, and its lists without items.
     pub(super) fn min_row_bytes(&self) -> usize {
         let bytes = self.properties.iter().map(|property| match property.kind {
             Kind::Scalar(scalar) => scalar.size(),
@@ -44,18 +44,18 @@ impl Element {
         bytes.sum()
     }
 
-    /// True if every row has the same number of bytes.
+    /// Returns true if every row has the same number of bytes.
     pub(super) fn is_fixed(&self) -> bool {
         let mut kinds = self.properties.iter().map(|property| property.kind);
         kinds.all(|kind| matches!(kind, Kind::Scalar(_)))
     }
 
-    /// Bytes of one row's scalars.
+    /// Returns the bytes of one row's scalars.
     pub(super) fn scalar_bytes(&self) -> usize {
         self.scalars().map(|(_, scalar)| scalar.size()).sum()
     }
 
-    /// Offset among the scalars of a row, and type, of the named scalar.
+    /// Returns offset (among the scalars of a row) and type of the named scalar.
     pub(super) fn scalar_at(&self, name: &str) -> Option<(usize, Scalar)> {
         let mut offset = 0;
         for (own_name, scalar) in self.scalars() {
@@ -67,7 +67,7 @@ impl Element {
         None
     }
 
-    /// The place among the properties of the first list with one of these names.
+    /// Returns the index of the first list property with one of these names.
     pub(super) fn list(&self, names: &[&str]) -> Option<usize> {
         let is_wanted = |property: &Property| {
             matches!(property.kind, Kind::List { .. }) && names.contains(&property.name.as_str())
@@ -85,13 +85,13 @@ impl Element {
     }
 }
 
-/// What a PLY header says.
+/// A parsed PLY header.
 pub(super) struct Header {
     pub(super) storage: Storage,
     pub(super) elements: Vec<Element>,
-    /// Where the rows begin in the file.
+    /// Offset of the rows in the file.
     pub(super) body_start: usize,
-    /// The number of the line where the rows begin, from 1.
+    /// The line at which the rows begin, from 1.
     pub(super) body_line: usize,
 }
 
@@ -129,7 +129,7 @@ impl Header {
                         .ok_or_else(|| source.bad_header(&text, "element NAME COUNT"))?,
                     properties: Vec::new(),
                 }),
-                // Names are taken whatever characters they have: CloudCompare writes brackets into them.
+                // Names may contain any characters: CloudCompare writes brackets.
                 ["property", rest @ ..] => {
                     let property = property_of(rest)
                         .ok_or_else(|| source.bad_header(&text, "property TYPE NAME"))?;
@@ -154,7 +154,7 @@ impl Header {
         Err(source.cut_before("the end of the header", "PLY header"))
     }
 
-    /// True if there are faces and they have not been read.
+    /// Returns true if the file has faces that have not been read.
     pub(super) fn has_faces_left(&self, are_read: bool) -> bool {
         let mut elements = self.elements.iter();
         !are_read

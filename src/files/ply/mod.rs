@@ -1,15 +1,14 @@
-//! PLY, the polygon file format: a header that declares elements with their properties, then their rows as text or
-//! as bytes of either order.
+//! PLY, the polygon file format: a header that declares elements with their properties, then their rows as text or as
+//! bytes in either order.
 //!
-//! Facts from G. Turk, *The PLY Polygon File Format* (1994). Of the element `vertex` x y z, nx ny nz, red green blue
-//! (bytes, or reals of 0..1) and `label` are kept, of `face` the list `vertex_indices` or `vertex_index`, whose
-//! polygons are cut into fans. Everything else is read over.
+//! Source: G. Turk, *The PLY Polygon File Format* (1994). Of the element `vertex` x y z, nx ny nz, red green blue (bytes,
+//! or reals of 0..1) and `label` are kept; of `face` the list `vertex_indices` or `vertex_index`, whose polygons are split
+//! into fans. Everything else is ignored.
 //!
-//! The Stanford scans carry a `range_grid`, which says which cell of the scanner each vertex came from. It is read
-//! over: their cells lie on a turntable's cylinder and not in a pinhole camera's image, so the grid would organise the
-//! cloud in a way that nothing downstream means by it.
+//! The Stanford scans have a `range_grid`: the scanner cell of each vertex. It is ignored, because these cells lie on a
+//! turntable's cylinder, whereas a grid here means the image of a pinhole camera.
 //!
-//! Limits: triangle strips are refused by name; a row of text may be broken over several lines or share one.
+//! Triangle strips are refused. A row of text may span several lines, or share one with others.
 
 mod body;
 mod header;
@@ -28,7 +27,7 @@ use crate::geometry::cloud::PointCloud;
 use self::body::{Body, Rows};
 use self::header::Header;
 
-/// True for the magic word and a line end of any kind.
+/// Returns true for the word "ply" and a line end of any kind.
 pub(super) fn is_ply(bytes: &[u8]) -> bool {
     bytes
         .strip_prefix(b"ply")
@@ -56,7 +55,7 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
             "tristrips" if element.count > 0 && faces.is_none() => {
                 return Err(source.unsupported("a PLY of triangle strips", "PLY with faces"));
             }
-            // Nothing behind the last element of use needs to be read.
+            // Do not read beyond the last element of use.
             _ if vertices.is_some() && !header.has_faces_left(faces.is_some()) => {
                 is_read_to_end = false;
                 break;
@@ -108,7 +107,7 @@ fn cloud_of<'a>(
     })
 }
 
-/// Polygons as fans of triangles about their first corner; those of less than three corners are no surface.
+/// Splits polygons into fans of triangles about their first corner; polygons with fewer than three corners yield none.
 fn fans(source: Source<'_>, faces: &Rows<'_>) -> Result<Vec<[u32; 3]>, FileError> {
     let num_corners = faces.list_lengths.iter().map(|&length| length as usize);
     let num_triangles = num_corners

@@ -100,7 +100,7 @@ fn a_file_cut_anywhere_is_an_error_or_whole_and_never_a_panic() {
         let whole = mesh_in(&bytes);
         for length in 0..bytes.len() {
             match read(source(&bytes[..length])) {
-                // Behind the faces nothing is needed.
+                // Bytes behind the faces are not needed.
                 Ok(FileContent::Mesh(mesh)) => assert_eq!(mesh, whole),
                 Ok(other) => panic!("{other:?}"),
                 Err(_) => {}

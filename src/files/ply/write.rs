@@ -4,17 +4,17 @@ use std::io::{self, Write};
 
 use crate::geometry::cloud::PointCloud;
 
-/// Writes a cloud as binary little-endian PLY: x y z, and where it has them `nx ny nz`, `red green blue` and `label`.
+/// Writes a cloud as binary little-endian PLY: x y z and, where it has them, `nx ny nz`, `red green blue` and `label`.
 ///
-/// PLY has no grid: cells without a reading are left out, and the cloud comes back unorganised.
+/// PLY has no grid: cells without a reading are left out, and the cloud is unorganised when read again.
 pub fn write_ply(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
     write_ply_with(writer, cloud, &[])
 }
 
-/// As [`write_ply`], with further whole numbers of each point, each under its name; other programs may show them.
+/// Like [`write_ply`], with further named whole numbers per point, which other programs may show.
 ///
 /// # Panics
-/// If a property has not one number per point.
+/// If a property does not have one number per point.
 pub fn write_ply_with(
     writer: &mut dyn Write,
     cloud: &PointCloud,

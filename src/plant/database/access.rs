@@ -1,4 +1,4 @@
-//! What is needed to connect to a database: its address, a password and the certificates that it may show.
+//! Access to a database: its address, the password and the trusted certificate authorities.
 
 use std::{path::Path, time::Duration};
 
@@ -15,27 +15,27 @@ use crate::{
     },
 };
 
-/// A socket that nobody answers is given up after this long.
+/// Timeout of a connection attempt.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
-/// A server that has gone without a word is noticed after about this long.
+/// A server that silently disappears is noticed after about this long.
 const SILENCE: Duration = Duration::from_secs(30);
 
-/// A database, and what lets the program in there.
+/// A database's address and the credentials for it.
 #[derive(Clone)]
 pub struct DatabaseAccess {
-    /// Where it is.
+    /// The database's address.
     pub address: DatabaseAddress,
     password: Option<String>,
     pub(super) tls: Option<MakeRustlsConnect>,
 }
 
-/// Why a database cannot be used as it was given.
+/// Why the access to a database cannot be set up.
 #[derive(Debug, Error)]
 pub enum DatabaseAccessError {
     /// The password or the certificates cannot be used.
     #[error(transparent)]
     Credential(#[from] CredentialError),
-    /// The connection is not encrypted.
+    /// Certificates are given for an unencrypted connection.
     #[error("certificates are given, but the connection to the database is not encrypted")]
     NotEncrypted,
 }
@@ -52,8 +52,8 @@ impl Advice for DatabaseAccessError {
 }
 
 impl DatabaseAccess {
-    /// Reads the password, the first line of its file, and the certificates of authorities, PEM; without a file the
-    /// system's own.
+    /// Reads the password from the first line of its file, and the trusted certificate authorities from a PEM file, or
+    /// without a file from the system.
     pub fn new(
         address: DatabaseAddress,
         password_file: Option<&Path>,
@@ -71,7 +71,7 @@ impl DatabaseAccess {
         })
     }
 
-    /// A warning if others on the network can read what is sent.
+    /// Returns a warning if others on the network can read what is sent.
     pub fn doubt(&self) -> Option<UnencryptedDatabase> {
         let DatabaseAddress {
             host, is_encrypted, ..
@@ -81,7 +81,7 @@ impl DatabaseAccess {
         })
     }
 
-    /// For the client library.
+    /// Configuration for the client library.
     pub(super) fn config(&self) -> Config {
         let DatabaseAddress {
             user,
@@ -112,7 +112,7 @@ impl DatabaseAccess {
     }
 }
 
-/// Others can read what is sent to a database.
+/// Others on the network can read what is sent to a database.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
     "the connection to {database} is not encrypted: anyone along the network path can read and change inspections"

@@ -1,4 +1,4 @@
-//! Where the database is.
+//! Addresses of databases.
 
 use std::{fmt, str::FromStr};
 
@@ -12,64 +12,64 @@ use crate::{
 /// A database: `postgres://USER@HOST[:PORT]/NAME[?sslmode=disable|verify-full]`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DatabaseAddress {
-    /// The name at the server.
+    /// Name of the database user.
     pub user: String,
-    /// A name or an IP address, IPv6 without brackets.
+    /// Host name or IP address, IPv6 without brackets.
     pub host: String,
-    /// 5432 where none is given.
+    /// TCP port; 5432 by default.
     pub port: u16,
-    /// Of the database.
+    /// Name of the database.
     pub name: String,
-    /// True if the connection is encrypted and the server has to show a certificate; by itself only towards this
-    /// computer it is not.
+    /// True if the connection is encrypted and the server must show a valid certificate. By default true unless the host is
+    /// this computer.
     pub is_encrypted: bool,
 }
 
-/// Longest name of a user or a database, bytes: the server cuts off longer ones.
+/// Longest name of a user or a database, bytes: the server truncates longer ones.
 const MAX_NAME_BYTES: usize = 63;
 
-/// Why a text is no address of a database.
+/// Why a text is not the address of a database.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum DatabaseAddressError {
-    /// It begins otherwise.
+    /// It does not begin with `postgres://` or `postgresql://`.
     #[error("the address of the database does not begin with postgres://")]
     Scheme,
-    /// It has a password, which other users of this computer could read.
+    /// It contains a password, which other users of this computer could read in the list of processes.
     #[error(
         "the address has a password, which everybody who lists the programs of this computer can read"
     )]
     Password,
-    /// It names nobody.
+    /// It has no user name.
     #[error("the address names no user")]
     NoUser,
-    /// There is no host, or none that can be one.
+    /// The host is missing, or is neither a name nor an IP address.
     #[error("{host:?} is no name or IP address of a database's server")]
     Host {
-        /// What was given.
+        /// The host as given.
         host: String,
     },
-    /// No number from 1 to 65535.
+    /// The port is not a number from 1 to 65535.
     #[error("{port:?} is no port")]
     Port {
-        /// What was given.
+        /// The port as given.
         port: String,
     },
-    /// No user or database can be called so here.
+    /// The name of the user or the database has a character that is not allowed, or a wrong length.
     #[error("{name:?} is no name of a user or a database")]
     Name {
-        /// What was given.
+        /// The name as given.
         name: String,
     },
-    /// Only `sslmode` is known.
+    /// It has an option other than `sslmode`.
     #[error("the address has the option {option:?}, which is not known here")]
     Option {
-        /// Its name.
+        /// Name of the option.
         option: String,
     },
-    /// Such an encryption would protect from nothing, or nobody knows it.
+    /// The `sslmode` is unknown, or would not protect the connection.
     #[error("sslmode={mode} is not offered")]
     SslMode {
-        /// What was given.
+        /// The mode as given.
         mode: String,
     },
 }
@@ -99,11 +99,11 @@ impl FromStr for DatabaseAddress {
     fn from_str(text: &str) -> Result<Self, DatabaseAddressError> {
         let rest = text.strip_prefix("postgres://");
         let rest = rest.or_else(|| text.strip_prefix("postgresql://"));
-        // It is not shown: there may be a password in it.
+        // Do not show the text: it may contain a password.
         let rest = rest.ok_or(DatabaseAddressError::Scheme)?;
         let (rest, options) = rest.split_once('?').unwrap_or((rest, ""));
         let (place, name) = rest.split_once('/').unwrap_or((rest, ""));
-        // An @ behind the user belongs to a password with a / or ? in it.
+        // An `@` after the user belongs to a password that contains a `/` or `?`.
         if name.contains('@') || options.contains('@') {
             return Err(DatabaseAddressError::Password);
         }
@@ -134,7 +134,7 @@ impl FromStr for DatabaseAddress {
     }
 }
 
-/// What the options say of encryption, if they do.
+/// Reads from the options whether to encrypt; `None` if they do not say.
 fn is_encrypted(options: &str) -> Result<Option<bool>, DatabaseAddressError> {
     let mut found = None;
     for option in options.split('&').filter(|option| !option.is_empty()) {
@@ -160,7 +160,7 @@ fn is_name(name: &str) -> bool {
     (1..=MAX_NAME_BYTES).contains(&name.len()) && name.chars().all(is_letter)
 }
 
-/// Without the user: as it is named in messages.
+/// Without the user, as shown in messages.
 impl fmt::Display for DatabaseAddress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {

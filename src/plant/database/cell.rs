@@ -1,4 +1,4 @@
-//! Whose inspections are sent.
+//! Names of cells, and the histories sent under them.
 
 use std::{fmt, str::FromStr};
 
@@ -6,14 +6,14 @@ use thiserror::Error;
 
 use crate::error::Advice;
 
-/// The name of a cell in the plant's database, as people read it there.
+/// Name of a cell in the plant's database, one line of at most 64 characters.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct CellName(String);
 
 /// Longest name, characters.
 const MAX_LETTERS: usize = 64;
 
-/// Why a cell cannot be called so.
+/// A text is not a valid name of a cell.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{name:?} is no name of a cell")]
 pub struct BadCellName {
@@ -43,7 +43,7 @@ impl FromStr for CellName {
 }
 
 impl CellName {
-    /// As a text.
+    /// The name as text.
     pub fn as_str(&self) -> &str {
         &self.0
     }
@@ -55,12 +55,12 @@ impl fmt::Display for CellName {
     }
 }
 
-/// A history, under the name of its cell.
+/// A history and the name of its cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CellHistory {
     /// The cell.
     pub cell: CellName,
-    /// The history's identity, `History::note_changes`.
+    /// The history's identity, from `History::note_changes`.
     pub history: String,
 }
 

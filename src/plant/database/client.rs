@@ -1,4 +1,4 @@
-//! The connection to a database. Every call ends within a time, also when the server is silent.
+//! The connection to a database. Every call has a time limit, even if the server is silent.
 
 use std::time::Duration;
 
@@ -11,30 +11,29 @@ use tokio_postgres::{Client, NoTls};
 use super::{access::DatabaseAccess, address::DatabaseAddress, error::DatabaseError};
 use crate::files::words_of;
 
-/// Connecting takes no longer, encryption and password included.
+/// Limit for connecting, including encryption and authentication.
 const CONNECT_LIMIT: Duration = Duration::from_secs(20);
-/// A statement takes no longer; the server itself gives it up a little earlier.
+/// Limit for a statement; the server itself aborts it a little earlier.
 const STATEMENT_LIMIT: Duration = Duration::from_mins(1);
-/// What the server is told. A cell whose network broke in the middle of a transaction holds up another sender of the
-/// same cell no longer than that.
+/// Settings of the session. If a cell loses its network within a transaction, another sender of the same cell is blocked no
+/// longer than this.
 const SETTINGS: &str = "SET statement_timeout = '50s'; SET lock_timeout = '20s'; \
     SET idle_in_transaction_session_timeout = '60s'";
 
-/// A database with the tables of histories. Works only while it is called: a runtime of its own runs on the caller's
-/// thread.
+/// A database with the tables of histories. Works only during calls: its own runtime runs on the caller's thread.
 pub struct Database {
     pub(super) link: Link,
     pub(super) client: Client,
 }
 
-/// What waits for the server.
+/// Runs the client's futures with a time limit.
 pub(super) struct Link {
     runtime: Runtime,
     pub(super) address: Box<DatabaseAddress>,
 }
 
 impl Link {
-    /// The result of a statement.
+    /// Waits for the result of a statement.
     pub(super) fn wait<T>(
         &self,
         work: impl Future<Output = Result<T, tokio_postgres::Error>>,
@@ -62,14 +61,14 @@ impl Link {
 }
 
 impl Database {
-    /// Connects, and makes the tables or brings them to the version of today where they are not.
+    /// Connects, and creates the tables or migrates them to the current version where necessary.
     pub fn open(access: &DatabaseAccess) -> Result<Self, DatabaseError> {
         let mut database = Self::connect(access)?;
         database.migrate()?;
         Ok(database)
     }
 
-    /// Connects to look at it alone; tables that are not there are an error.
+    /// Connects for reading only; missing tables are an error.
     pub fn open_to_read(access: &DatabaseAccess) -> Result<Self, DatabaseError> {
         let database = Self::connect(access)?;
         database.check_version()?;
@@ -106,7 +105,7 @@ impl Database {
         Ok(database)
     }
 
-    /// A value of a row; another type than it should have is an error.
+    /// Reads a value of a row; a wrong type is an error.
     pub(super) fn read<'a, T: tokio_postgres::types::FromSql<'a>>(
         &self,
         row: &'a tokio_postgres::Row,
@@ -120,10 +119,10 @@ impl Database {
     }
 }
 
-/// A client, whose connection is a task of the runtime.
+/// Connects; the connection itself runs as a task of the runtime.
 async fn connected(access: &DatabaseAccess) -> Result<Client, tokio_postgres::Error> {
     let config = access.config();
-    // What ends a connection is an error of the next call as well.
+    // The connection's result is dropped: the next call fails with the same error.
     if let Some(tls) = &access.tls {
         let (client, connection) = config.connect(tls.clone()).await?;
         tokio::spawn(async move { drop(connection.await) });

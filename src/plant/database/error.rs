@@ -1,4 +1,4 @@
-//! What goes wrong with a database, and what to do about it.
+//! Errors of a database, with advice.
 
 use std::{error::Error as _, io};
 
@@ -15,105 +15,105 @@ use crate::{
 /// Why the plant's database cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum DatabaseError {
-    /// Nothing answers there, or not any longer.
+    /// The server does not answer, or the connection was lost.
     #[error("{database} cannot be reached: {cause}")]
     Unreachable {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
-        /// What the system or the server says.
+        /// The system's or the server's message.
         cause: String,
     },
-    /// The server does not let the program in.
+    /// The server refuses the login.
     #[error("{database} refuses the connection: {cause}")]
     Refused {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
-        /// What it says.
+        /// The server's message.
         cause: String,
     },
     /// The server has no such database.
     #[error("{database}: there is no such database")]
     NotFound {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
     },
-    /// No encrypted connection comes about.
+    /// The encrypted connection cannot be established.
     #[error("no encrypted connection to {database}: {cause}")]
     Tls {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
-        /// What the library for encryption says.
+        /// The TLS library's message.
         cause: String,
     },
-    /// The user may not do it.
+    /// The user lacks a privilege.
     #[error("{database}: the user may not read or write the history there: {cause}")]
     Forbidden {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
-        /// What the server says.
+        /// The server's message.
         cause: String,
     },
-    /// Not every text fits in.
+    /// The database's encoding cannot store every text.
     #[error("{database} keeps text as {encoding}, in which not every name can be written")]
     Encoding {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
-        /// As the server calls it.
+        /// The encoding, as the server names it.
         encoding: String,
     },
-    /// A newer program made the tables; nothing of them was touched.
+    /// A newer version of the program created the tables; they were not touched.
     #[error(
         "{database}: the history there is kept by a newer version of Partsight (format {found}, this one knows {known})"
     )]
     Newer {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
-        /// Its version.
+        /// Version of its tables.
         found: i32,
-        /// The newest known.
+        /// Newest version known to this program.
         known: i32,
     },
-    /// No cell has sent anything.
+    /// No cell has sent anything yet.
     #[error("{database}: there is no history yet")]
     Empty {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
     },
-    /// No cell of that name.
+    /// There is no cell of that name.
     #[error("{database}: there is no cell {:?}", cell.as_str())]
     NoSuchCell {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
         /// The name.
         cell: CellName,
-        /// Names that are there.
+        /// Names of the existing cells.
         known: Vec<String>,
     },
-    /// Another history has the name.
+    /// The cell's name belongs to another history.
     #[error("{database}: the cell {:?} belongs to another history", cell.as_str())]
     Taken {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
         /// The name.
         cell: CellName,
     },
-    /// The history was copied or restored from a backup, and each went on by itself.
+    /// The history was copied or restored from a backup, and both copies went on independently.
     #[error(
         "{database}: the cell {:?} has other inspections under the numbers of this history: one is a copy of the other",
         cell.as_str()
     )]
     Copied {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
-        /// The name.
+        /// The cell's name.
         cell: CellName,
     },
-    /// The server does not do what it is asked for.
+    /// The server reports any other error.
     #[error("{database}: {cause}")]
     Failed {
-        /// Which database.
+        /// The database.
         database: Box<DatabaseAddress>,
-        /// What the server says.
+        /// The server's message.
         cause: String,
     },
 }
@@ -156,7 +156,7 @@ impl DatabaseError {
         }
     }
 
-    /// Of an error that the server has not told.
+    /// Classifies an error that does not come from the server.
     fn of_connection(error: &tokio_postgres::Error, database: Box<DatabaseAddress>) -> Self {
         let what = error.to_string();
         let cause = match error.source() {
@@ -222,10 +222,10 @@ impl Advice for DatabaseError {
 /// Why rows could not be sent or read.
 #[derive(Debug, Error)]
 pub enum TransferError {
-    /// The database.
+    /// The database failed.
     #[error(transparent)]
     Database(#[from] DatabaseError),
-    /// The history from which they are read.
+    /// The local history could not be read or written.
     #[error(transparent)]
     History(#[from] HistoryError),
     /// The program itself failed.

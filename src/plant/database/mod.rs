@@ -6,13 +6,14 @@
 //!                                                 history list --from ◄──────┘
 //! ```
 //!
-//! The SQLite file stays the history: programs write and read it alone, and nobody waits for the network. A row goes over
-//! when it is added and whenever it changes, in batches of one transaction each. Only once a batch is committed does the
-//! file note it as sent; a kill between the two sends it again, which changes nothing. Frames stay at their cell.
+//! The SQLite file remains the history: programs read and write only it, and nobody waits for the network. A row is sent
+//! when it is added and whenever it changes, in batches of one transaction each. A row is marked as sent in the file only
+//! after its batch is committed; if the program is killed in between, it is sent again, which changes nothing. Frames stay
+//! at their cell.
 //!
-//! A cell's name belongs to one history: another one of the same name is refused until a person lets it take over. A
-//! transaction holds the cell's row from before the file is read until its end, so that what two senders of the same
-//! history read never arrives in the wrong order.
+//! A cell's name belongs to one history; another history of the same name is refused until a person lets it take over. A
+//! transaction locks the cell's row before it reads the file and until it ends, so that rows read by two senders of the
+//! same history never arrive in the wrong order.
 
 mod access;
 mod address;

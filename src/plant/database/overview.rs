@@ -1,4 +1,4 @@
-//! The histories of all cells, read from the database.
+//! Reads the histories of all cells from the database.
 
 use std::fmt::Write as _;
 
@@ -15,51 +15,51 @@ use crate::history::{
     RowReader, Summary,
 };
 
-/// Rows that are read at once.
+/// Rows per query.
 const READ_AT_ONCE: i64 = 500;
 
-/// The place of `at` among the columns of an inspection.
+/// Position of `at` among the columns of an inspection.
 const AT: usize = 1;
 
-/// How many others of the same part lie below an inspection.
+/// Number of re-inspections below an inspection.
 const NUM_BELOW: &str = "(SELECT count(*) FROM partsight.inspection AS other
     WHERE other.cell = there.cell AND other.history = there.history AND other.parent = there.number)";
 
-/// Inspections of a list, the newest first.
+/// A list of inspections, newest first, with counts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellPage {
-    /// Each with the name of its cell.
+    /// The listed inspections, each with the name of its cell.
     pub rows: Vec<(String, Summary)>,
-    /// Of every cell, in the order of their names.
+    /// Counts of every cell, or of the one asked for, ordered by name.
     pub cells: Vec<CellCount>,
-    /// Parts there are.
+    /// Number of all hung parts, whatever the filter.
     pub num_all: usize,
 }
 
 /// What a cell has sent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellCount {
-    /// Its name.
+    /// Name of the cell.
     pub cell: String,
-    /// When it sent something last.
+    /// When it last sent something.
     pub sent: Timestamp,
-    /// Rows that the filter lets through.
+    /// Number of rows that pass the filter.
     pub num_matching: usize,
-    /// Accepted ones of them.
+    /// Number of accepted ones among them.
     pub num_accepted: usize,
 }
 
-/// A condition, and its values.
+/// An SQL condition and the values of its parameters.
 struct Condition {
     sql: String,
     values: Vec<Box<dyn ToSql + Sync>>,
 }
 
 impl Condition {
-    /// Of rows called `there`.
+    /// The condition for rows of the alias `there`.
     fn of(filter: &Filter, cell: Option<&CellName>) -> Self {
         let (sqlite, given) = filter.condition();
-        // What SQLite calls otherwise.
+        // Translate expressions that are written differently in SQLite.
         let named = sqlite.replace("instr(search, ?)", "strpos(search, ?) > 0");
         let named = named.replace("simulated = ?", "simulated::integer::bigint = ?");
         let mut sql = String::new();
@@ -83,14 +83,14 @@ impl Condition {
         condition
     }
 
-    /// Another value, and how a statement names it.
+    /// Adds a value, and returns its placeholder.
     fn take(&mut self, value: impl ToSql + Sync + 'static) -> String {
         self.values.push(Box::new(value));
         format!("${}", self.values.len())
     }
 }
 
-/// Filters have numbers and words alone.
+/// Values of a filter are only integers and texts.
 fn boxed(value: Value) -> Box<dyn ToSql + Sync> {
     match value {
         Value::Integer(number) => Box::new(number),
@@ -100,7 +100,7 @@ fn boxed(value: Value) -> Box<dyn ToSql + Sync> {
 }
 
 impl Database {
-    /// The newest rows that the filter lets through, of one cell or of all.
+    /// Lists the newest rows, at most `most`, that pass the filter, of one cell or of all.
     pub fn page(
         &self,
         filter: &Filter,
@@ -142,8 +142,8 @@ impl Database {
         Ok(page)
     }
 
-    /// Goes through all rows that the filter lets through, of one cell or of all, the oldest first, up to the first
-    /// error. Each comes with the name of its cell, and without its thumbnail.
+    /// Calls `each` for all rows that pass the filter, of one cell or of all, oldest first, until it returns an error. Each
+    /// row comes with the name of its cell and without its thumbnail.
     pub fn each<E: From<DatabaseError>>(
         &self,
         filter: &Filter,
@@ -206,7 +206,7 @@ impl Database {
         }
     }
 
-    /// What every cell has sent, or one; a cell that is not there is an error.
+    /// Counts what every cell, or one, has sent; an unknown cell is an error.
     fn counts(
         &self,
         filter: &Filter,
@@ -260,7 +260,7 @@ impl Database {
         RowReader::new(&names).map_err(|error| self.unreadable(&error))
     }
 
-    /// The columns of a row and the number below it, and the place behind them.
+    /// Reads the columns of a row and the number of re-inspections; also returns the position of the next column.
     fn values(&self, row: &Row, columns: &[Column]) -> Result<(Vec<Value>, usize), DatabaseError> {
         let mut values = Vec::with_capacity(columns.len() + 1);
         for (place, (_, kind)) in columns.iter().enumerate() {

@@ -1,18 +1,18 @@
-//! The tables in PostgreSQL, and how those of an earlier version become those of today.
+//! The tables in PostgreSQL, and their migrations.
 
 use super::{client::Database, error::DatabaseError};
 
-/// Every step, in order; the version of a database counts those that it has seen. What was released stays as it is.
+/// All migrations, in order; the version of a database is the number of those applied. Released ones never change.
 const STEPS: [&str; 1] = [FIRST];
 
-/// The version that is written.
+/// The current version.
 const VERSION: i32 = STEPS.len() as i32;
 
-/// Only one program at a time changes the tables: `PsHi`, as in a history's file.
+/// Key of the advisory lock under which one program at a time changes the tables; `PsHi`, as in a history's file.
 const LOCK: i64 = i64::from_be_bytes(*b"PsHi\0\0\0\x01");
 
-/// The columns of a history's file under their own names, behind the cell and the history they are of. Only keys may not
-/// be null: a row that a person has changed by hand is no reason to stop sending.
+/// The columns have the names they have in a history's file, preceded by cell and history. Those that identify a row (the
+/// keys, `at` and `hung`) are not null; all others may be, because a row edited by hand must not stop the sending.
 const FIRST: &str = "
     CREATE SCHEMA partsight;
     CREATE TABLE partsight.schema_version (
@@ -92,7 +92,7 @@ const FIRST: &str = "
 const MAKE_VERSION: &str = "INSERT INTO partsight.schema_version (version) VALUES ($1)";
 
 impl Database {
-    /// The version of the tables; 0 where there are none.
+    /// Reads the version of the tables; 0 if there are none.
     fn version(&self) -> Result<i32, DatabaseError> {
         let asked = "SELECT to_regclass('partsight.schema_version') IS NOT NULL";
         let row = self.link.wait(self.client.query_one(asked, &[]))?;
@@ -115,7 +115,7 @@ impl Database {
         })
     }
 
-    /// Refuses tables that are newer than this program, or not there.
+    /// Refuses tables that are missing or newer than this program.
     pub(super) fn check_version(&self) -> Result<(), DatabaseError> {
         let found = self.version()?;
         if found == 0 {
@@ -125,18 +125,18 @@ impl Database {
         self.refuse_newer(found)
     }
 
-    /// Brings the tables to the version of today, all the way or not at all.
+    /// Migrates the tables to the current version in one transaction.
     pub(super) fn migrate(&mut self) -> Result<(), DatabaseError> {
         let found = self.version()?;
         self.refuse_newer(found)?;
         if found == VERSION {
             return Ok(());
         }
-        // Dropped on the way, the transaction is undone when the connection ends, and that ends with an error.
+        // An early return ends the connection, which rolls the transaction back.
         self.run("BEGIN")?;
         let lock = "SELECT pg_advisory_xact_lock($1)";
         self.link.wait(self.client.query(lock, &[&LOCK]))?;
-        // Another cell may have been quicker.
+        // Another cell may have migrated in the meantime.
         let found = self.version()?;
         self.refuse_newer(found)?;
         for (version, step) in (1..).zip(STEPS).skip(found as usize) {

@@ -1,4 +1,4 @@
-//! Rows of a history's file, put into the tables.
+//! Sends rows of a history's file to the tables.
 
 use rusqlite::types::Value;
 use tokio_postgres::{Transaction, types::ToSql};
@@ -12,25 +12,25 @@ use crate::history::{
     Column, ColumnKind, DETAIL_COLUMNS, INSPECTION_COLUMNS, RECIPE_COLUMNS, UnsentRows,
 };
 
-/// Inspections that are sent in one transaction at most: some megabytes with their thumbnails.
+/// Maximum number of inspections per transaction: a few megabytes with their thumbnails.
 pub const BATCH: usize = 200;
 
-/// Makes the cell, or holds its row until the end of the transaction; nothing if it belongs to another history.
+/// Adds the cell, or locks its row until the end of the transaction; affects no row if the cell belongs to another history.
 const CLAIM: &str = "INSERT INTO partsight.cell AS there (cell, history) VALUES ($1, $2)
     ON CONFLICT (cell) DO UPDATE SET sent = now() WHERE there.history = excluded.history";
 
-/// Whether any row is of another inspection than the one given under its number: when an inspection was, and of which
-/// hung part, never changes.
+/// True if the table has another inspection under one of the given numbers: an inspection's time and hung part never
+/// change.
 const IS_COPIED: &str = "SELECT EXISTS (SELECT 1 FROM partsight.inspection AS there
     JOIN unnest($3::bigint[], $4::bigint[], $5::text[]) AS given (number, at, hung) ON there.number = given.number
     WHERE there.cell = $1 AND there.history = $2 AND (there.at <> given.at OR there.hung <> given.hung))";
 
-/// An array of a column's values.
+/// Values of one column.
 type Array = Box<dyn ToSql + Sync>;
 
 impl Database {
-    /// Sends what `read` gives and commits it. `read` is called once nobody else sends the same history. The same rows
-    /// sent again change nothing.
+    /// Sends and commits the rows that `read` returns. `read` is called once no other sender of this history can interfere.
+    /// Sending the same rows again changes nothing.
     pub fn send(
         &mut self,
         whose: &CellHistory,
@@ -63,7 +63,7 @@ impl Database {
         Ok(rows)
     }
 
-    /// Gives the cell's name to this history. What the other one sent under it stays.
+    /// Gives the cell's name to this history. What the previous history sent under it stays.
     pub fn take_over(&mut self, whose: &CellHistory) -> Result<(), DatabaseError> {
         let (cell, history) = (whose.cell.as_str(), whose.history.as_str());
         let statement = "UPDATE partsight.cell SET history = $2, since = now() WHERE cell = $1";
@@ -84,7 +84,7 @@ fn refuse_copy(
         Box::new(whose.cell.to_string()),
         Box::new(whose.history.clone()),
     ];
-    // They stand in this order among the columns.
+    // `number`, `at` and `hung` come in this order among the columns.
     for (place, column) in INSPECTION_COLUMNS.iter().enumerate() {
         if is_asked(column) {
             values.push(array(column.1, inspections, place));
@@ -100,8 +100,8 @@ fn refuse_copy(
     })
 }
 
-/// Adds rows, or brings those that are there to what they are now. Parameters: the cell, the history, an array for each
-/// column.
+/// The statement that adds rows or updates those that have changed. Its parameters are the cell, the history, and an array
+/// for each column.
 fn upsert(table: &str, columns: &[Column]) -> String {
     let names = |of: &str| {
         let names = columns.iter().map(|(name, _)| format!("{of}{name}"));
@@ -134,7 +134,7 @@ fn upsert(table: &str, columns: &[Column]) -> String {
     )
 }
 
-/// An array for each column.
+/// Transposes rows into an array for each column.
 fn arrays(columns: &[Column], rows: &[Vec<Value>]) -> impl Iterator<Item = Array> {
     let columns = columns.iter().enumerate();
     columns.map(move |(place, (_, kind))| array(*kind, rows, place))
@@ -169,7 +169,7 @@ fn real(value: Option<&Value>) -> Option<f64> {
     }
 }
 
-/// PostgreSQL has no letter 0.
+/// PostgreSQL's text cannot contain the character U+0000.
 fn text(value: Option<&Value>) -> Option<String> {
     match value? {
         Value::Text(text) => Some(text.replace('\0', "\u{fffd}")),

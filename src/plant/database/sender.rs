@@ -26,30 +26,30 @@ use crate::{
     history::{History, SetAside},
 };
 
-/// How often the history is looked at for what is not sent.
+/// How often the history is checked for unsent rows.
 const TURN: Duration = Duration::from_secs(1);
-/// Before the second attempt after a failure; each further pause is twice as long, up to the longest. Of each a random
-/// part is left out, so that the cells of a plant do not all come at once when the server is back.
+/// Pause after the first failure; each further pause is twice as long, up to the longest. A random factor of 0.5 to 1 keeps
+/// the cells of a plant from reconnecting all at once.
 const FIRST_PAUSE: Duration = Duration::from_millis(500);
 const LONGEST_PAUSE: Duration = Duration::from_secs(30);
-/// At the end of the program what is not sent has so long to go out.
+/// How long unsent rows may still be sent at the end of the program.
 const END_TIMEOUT: Duration = Duration::from_secs(3);
 
-/// What happened, for the person at the screen.
+/// Events to be shown to the operator.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SendNews {
-    /// The database is there, for the first time or again.
+    /// Connected to the database, for the first time or again.
     Connected {
-        /// Inspections that waited for it.
+        /// Inspections that were not sent yet.
         num_waiting: usize,
     },
-    /// Sending does not work; once for each cause until it works again.
+    /// Sending fails; reported once for each cause until it succeeds again.
     Failed(SendTrouble),
-    /// The history was damaged; it was set aside and a new one begun, which has another identity.
+    /// The history was damaged: it was set aside, and a new one with another identity was begun.
     SetAside(SetAside),
 }
 
-/// Why nothing is sent now.
+/// Why sending fails at present.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{what}")]
 pub struct SendTrouble {
@@ -63,13 +63,13 @@ impl Advice for SendTrouble {
     }
 }
 
-/// Why there is no sender.
+/// Why a sender cannot be started.
 #[derive(Debug, Error)]
 pub enum SenderError {
-    /// The system gives no thread.
+    /// The system refuses a thread.
     #[error("the thread that sends the history cannot be started: {source}")]
     NoThread {
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
 }
@@ -82,7 +82,7 @@ impl Advice for SenderError {
     }
 }
 
-/// At the end of the program some inspections were not sent.
+/// Some inspections were still unsent at the end of the program.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{num} inspections are not in the plant's database yet")]
 pub struct Unsent {
@@ -95,7 +95,7 @@ impl Advice for Unsent {
     }
 }
 
-/// Keeps a database up to date with the history in a folder. Dropped, it is ended as by [`Self::end`].
+/// Keeps a database up to date with the history in a folder. Dropping it is the same as [`Self::end`].
 pub struct HistorySender {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
@@ -114,15 +114,15 @@ struct State {
     is_ending: bool,
     has_ended: bool,
     num_waiting: usize,
-    /// What the person at the screen was told last, while nothing is sent.
+    /// The trouble last reported, until sending succeeds again.
     told: Option<SendTrouble>,
-    /// True once the person was told of a connection.
+    /// True once a connection was reported.
     is_connected: bool,
     news: VecDeque<SendNews>,
 }
 
 impl HistorySender {
-    /// Sends on a thread of its own what is not sent, and what changes from now on.
+    /// Starts a thread that sends what is unsent now, and later changes.
     pub fn start(
         folder: PathBuf,
         access: DatabaseAccess,
@@ -146,17 +146,17 @@ impl HistorySender {
         })
     }
 
-    /// The oldest news that was not taken yet.
+    /// Takes the oldest event that was not taken yet.
     pub fn news(&self) -> Option<SendNews> {
         lock(&self.shared.state).news.pop_front()
     }
 
-    /// Inspections that were not sent when that was looked at last.
+    /// Number of unsent inspections at the last check.
     pub fn num_waiting(&self) -> usize {
         lock(&self.shared.state).num_waiting
     }
 
-    /// Sends what is not sent, for a few seconds at most, and nothing any more afterwards.
+    /// Sends what is unsent, for at most 3 s, then stops for good.
     pub fn end(&mut self) -> Result<(), Unsent> {
         let Some(thread) = self.thread.take() else {
             return Ok(());
@@ -174,10 +174,11 @@ impl HistorySender {
         let (num, has_ended) = (state.num_waiting, state.has_ended);
         drop(state);
         if has_ended {
-            // A fault of the thread has been told.
+            // A panic of the thread has been reported.
             let _ = thread.join();
         }
-        // Else it waits for the network, which nobody can interrupt; it ends with the program, and sends the rest again.
+        // Otherwise it waits for the network, which cannot be interrupted; it ends with the program, and the next start
+        // sends the rest again.
         if num > 0 {
             return Err(Unsent { num });
         }
@@ -222,7 +223,7 @@ impl Shared {
         self.changed.notify_all();
     }
 
-    /// Waits before the next turn; not when the program ends.
+    /// Waits before the next turn, until the program ends at the latest.
     fn wait(&self, at_most: Duration) {
         let until = Instant::now() + at_most;
         let mut state = lock(&self.state);
@@ -233,7 +234,7 @@ impl Shared {
         }
     }
 
-    /// Sends all that is not sent.
+    /// Sends everything that is unsent.
     fn turn(&self, database: &mut Option<Database>) -> Result<(), TransferError> {
         let whose = self.look()?;
         if database.is_some() && lock(&self.state).num_waiting == 0 {
@@ -241,7 +242,7 @@ impl Shared {
         }
         if let Some(open) = database {
             match self.send(open, &whose) {
-                // It may have gone while nothing was sent: that alone is no news.
+                // The connection may have ended while idle: reconnect without a report.
                 Err(TransferError::Database(DatabaseError::Unreachable { .. })) => {}
                 sent => return sent,
             }
@@ -250,9 +251,9 @@ impl Shared {
         self.send(open, &whose)
     }
 
-    /// Counts what is not sent.
+    /// Counts the unsent inspections and identifies the history.
     fn look(&self) -> Result<CellHistory, TransferError> {
-        // Opened for each look, so that a file that is found damaged can be set aside in between.
+        // Open it for each check, so that a damaged file can be set aside in between.
         let mut history = self.history()?;
         let identity = history.note_changes()?;
         lock(&self.state).num_waiting = history.num_unsent()?;
@@ -271,7 +272,7 @@ impl Shared {
         Ok(opened.history)
     }
 
-    /// Batch after batch, also one that is empty: it claims the cell's name.
+    /// Sends batch after batch. Even an empty batch is sent, because it claims the cell's name.
     fn send(&self, database: &mut Database, whose: &CellHistory) -> Result<(), TransferError> {
         loop {
             let mut history = self.history()?;

@@ -1,4 +1,4 @@
-//! Who may ask.
+//! Authorisation of clients.
 
 use std::{net::IpAddr, path::Path};
 
@@ -12,20 +12,20 @@ use subtle::{Choice, ConstantTimeEq as _};
 use super::{error::HttpError, refusal::Refusal};
 use crate::files::{FileError, read_limited};
 
-/// Letters that a token has at least: too many to be guessed over the network.
+/// Minimum length of a token, characters: too long to be guessed over the network.
 const MIN_LETTERS: usize = 16;
-/// And at most.
+/// Maximum length of a token, characters.
 const MAX_LETTERS: usize = 512;
-/// A line for each client.
+/// Maximum size of the token file, which has one line per client.
 const MAX_FILE_BYTES: u64 = 1 << 16;
 
-/// The tokens of which a client has to send one, as `Authorization: Bearer TOKEN`. Without any, programs on this computer
-/// may ask.
+/// The accepted tokens, of which a client has to send one as `Authorization: Bearer TOKEN`. If there are none, programs on
+/// this computer have access.
 #[derive(Clone, Default)]
 pub struct Tokens(Vec<Vec<u8>>);
 
 impl Tokens {
-    /// Of a file with one on each line; empty lines do not count.
+    /// Reads one token per line from a file; empty lines are ignored.
     pub fn load(path: &Path) -> Result<Self, HttpError> {
         let text = match read_limited(path, MAX_FILE_BYTES) {
             Err(FileError::Empty { .. }) => Vec::new(),
@@ -56,12 +56,12 @@ impl Tokens {
         Ok(Self(tokens))
     }
 
-    /// True if none is asked for.
+    /// True if no token is required.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Whether the client that sent this head may ask.
+    /// Checks whether a client with these request headers has access.
     pub(super) fn check(&self, head: &HeaderMap) -> Result<(), Refusal> {
         if self.is_empty() {
             return if is_of_web_page(head) {
@@ -75,7 +75,7 @@ impl Tokens {
             scheme.eq_ignore_ascii_case(b"bearer ").then_some(token)
         });
         let sent = sent.ok_or(Refusal::WrongToken)?.trim_ascii();
-        // Neither the right letters nor the right token show in the time that it takes; only the length does.
+        // The time taken reveals neither matching characters nor the matching token, only the length.
         let known = self.0.iter().fold(Choice::from(0), |known, token| {
             known | token.as_slice().ct_eq(sent)
         });
@@ -87,8 +87,8 @@ impl Tokens {
     }
 }
 
-/// True of what a page in a browser on this computer sends: browsers name the page of a foreign request, and the name by
-/// which they found this computer.
+/// True if a web page in a browser on this computer sends the request: browsers send the page's origin with cross-origin
+/// requests, and in `Host` the name by which they reached this computer.
 fn is_of_web_page(head: &HeaderMap) -> bool {
     let host = head.get(HOST).map(|host| {
         let host = host.to_str().ok()?.parse::<Authority>().ok()?;

@@ -1,4 +1,4 @@
-//! What answers look like. Fields are only ever added.
+//! Bodies of the answers. Compatible changes only add fields.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -57,7 +57,7 @@ impl AnswerBody {
         }
     }
 
-    /// To a request that is not about an inspection, since it was refused or the program failed.
+    /// An answer that is not about an inspection, because the request was refused or the program failed.
     pub(super) fn without_inspection(verdict: VerdictCode, boot: u32, trouble: Trouble) -> Self {
         let answer = Answer {
             verdict,

@@ -1,4 +1,4 @@
-//! One connection: its requests one after the other, within limits.
+//! One connection: serves its requests one after the other, within limits.
 
 use std::{
     convert::Infallible,
@@ -43,18 +43,18 @@ use super::{
 };
 use crate::{error::lock, serve::ClientNews};
 
-/// Bytes of a head at most, and what a connection keeps in memory; hyper's least is 8 KiB.
+/// Maximum size of a request head, bytes, and of a connection's read buffer; hyper's minimum is 8 KiB.
 const MAX_HEAD_BYTES: usize = 16 * 1024;
-/// Fields of a head at most.
+/// Maximum number of header fields.
 const MAX_HEAD_FIELDS: usize = 64;
-/// A client that does not take its answer for so long is let go.
+/// How long a client may take to accept its answer before it is disconnected.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
-/// How often that is looked at.
+/// How often that is checked.
 const TURN: Duration = Duration::from_secs(1);
-/// What a client still sends is read over for so long at most.
+/// How long the remaining input is read and discarded before the connection is closed.
 pub(super) const LINGER: Duration = Duration::from_secs(1);
 
-/// What all connections share.
+/// State shared by all connections.
 #[derive(Clone)]
 pub(super) struct Service {
     pub(super) api: Arc<Api>,
@@ -64,12 +64,12 @@ pub(super) struct Service {
     pub(super) stopping: watch::Receiver<()>,
 }
 
-/// What is known of a connection.
+/// State of one connection.
 pub(super) struct ConnectionState {
     pub(super) peer: SocketAddr,
-    /// True once a request was let in.
+    /// True once one of its requests passed the token check.
     is_known: AtomicBool,
-    /// When the last answer was ready; none while a request is being answered.
+    /// When the last answer was ready; `None` while a request is being answered.
     answered: Mutex<Option<Instant>>,
 }
 
@@ -86,16 +86,16 @@ impl ConnectionState {
         self.is_known.load(Ordering::SeqCst)
     }
 
-    /// True if nothing but an answer that is not taken can still keep the connection open.
+    /// True if only an answer that the client does not accept can still keep the connection open.
     fn is_stuck(&self, request_timeout: Duration) -> bool {
         lock(&self.answered).is_some_and(|at| at.elapsed() > request_timeout + WRITE_TIMEOUT)
     }
 }
 
 impl Service {
-    /// Until the client hangs up, is silent for too long, or the service ends.
+    /// Serves the connection until the client hangs up or is silent for too long, or the service ends.
     pub(super) async fn serve(self, stream: TcpStream, state: Arc<ConnectionState>) {
-        // Without it answers come a little later.
+        // If this fails, answers only come a little later.
         let _ = stream.set_nodelay(true);
         let Some(tls) = &self.tls else {
             return self.talk(stream, state).await;
@@ -126,7 +126,7 @@ impl Service {
         });
         let mut connection = http1::Builder::new()
             .timer(TokioTimer::new())
-            // Counts from the answer before: a connection may be silent for no longer.
+            // Runs from the previous answer, and thus also limits how long a connection may be idle.
             .header_read_timeout(request_timeout)
             .max_buf_size(MAX_HEAD_BYTES)
             .max_headers(MAX_HEAD_FIELDS)
@@ -136,7 +136,7 @@ impl Service {
         loop {
             select! {
                 over = poll_fn(|cx| connection.poll_without_shutdown(cx)) => {
-                    // A connection that breaks is one that ends.
+                    // A broken connection counts as ended.
                     drop(over);
                     break;
                 }
@@ -151,7 +151,7 @@ impl Service {
                 }
             }
         }
-        // Closed with unread bytes, a connection is reset, and the client may not get to read its answer.
+        // Closing a socket with unread bytes resets the connection, and the client might lose its answer.
         let mut stream = connection.into_parts().io.into_inner();
         let read_over = async {
             stream.shutdown().await?;
@@ -183,7 +183,7 @@ impl Service {
         response
     }
 
-    /// No request needs its body, but the next request stands behind it.
+    /// Reads and discards the body, which no request needs, to get to the next request.
     async fn read_over(&self, body: Incoming) -> Result<(), Refusal> {
         if body.size_hint().lower() > MAX_BODY_BYTES as u64 {
             return Err(Refusal::TooLong);

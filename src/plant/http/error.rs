@@ -10,13 +10,13 @@ use crate::{error::Advice, files::FileError, robot::Convention, serve::ServeErro
 /// Why HTTP cannot be served.
 #[derive(Debug, Error)]
 pub enum HttpError {
-    /// The system does not let it listen, or gives no thread.
+    /// The system refuses to listen at the address, or refuses a thread.
     #[error(transparent)]
     Serve(#[from] ServeError),
-    /// Others than this computer would reach it, and nothing would keep them out.
+    /// The address is reachable by other computers, and no token is required.
     #[error("{address} is open to the network, and no token is asked for")]
     OpenWithoutToken {
-        /// Where it would listen.
+        /// The address to listen at.
         address: SocketAddr,
     },
     /// The convention of poses was not chosen.
@@ -25,43 +25,43 @@ pub enum HttpError {
     /// A file with tokens, a certificate or a key cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A file without a token.
+    /// The token file has no token.
     #[error("{} has no token", path.display())]
     NoToken {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// A line that is no token.
+    /// A line of the token file is not a valid token.
     #[error(
         "line {line} of {} is no token: expected {min_letters} to {max_letters} printable ASCII letters without blanks",
         path.display()
     )]
     BadToken {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
-        /// Letters of the shortest token.
+        /// Minimum length of a token, characters.
         min_letters: usize,
-        /// Letters of the longest.
+        /// Maximum length of a token, characters.
         max_letters: usize,
     },
-    /// A file without what it should hold in PEM.
+    /// The file lacks the expected PEM section.
     #[error("{} has no {what} in PEM: {reason}", path.display())]
     NotPem {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// `certificate` or `private key`.
         what: &'static str,
-        /// What the reader says.
+        /// The PEM reader's message.
         reason: String,
     },
-    /// Certificate and key cannot be used together, or at all.
+    /// The certificate and its key do not belong together, or are unusable.
     #[error("the certificate in {} cannot be used with its key: {source}", path.display())]
     BadCertificate {
-        /// The file of the certificate.
+        /// Path of the certificate file.
         path: PathBuf,
-        /// What rustls says.
+        /// The underlying error.
         source: rustls::Error,
     },
 }

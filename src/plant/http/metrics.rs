@@ -1,4 +1,4 @@
-//! Counts and states as text for Prometheus.
+//! Counts and states in Prometheus' text format.
 //!
 //! Source: Prometheus, *Exposition formats*, text-based format 0.0.4.
 
@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use crate::serve::{Answer, CameraState, Tally};
 
-/// The media type of the text.
+/// Media type of the text format.
 pub(super) const MEDIA_TYPE: &str = "text/plain; version=0.0.4; charset=utf-8";
 
 const CAMERA_STATES: [CameraState; 4] = [
@@ -16,7 +16,7 @@ const CAMERA_STATES: [CameraState; 4] = [
     CameraState::Over,
 ];
 
-/// `status` is the answer about the status.
+/// Writes all metrics. `status` is the answer to a status request.
 pub(super) fn text(tally: &Tally, status: &Answer, num_clients: usize) -> String {
     let mut text = Text::default();
     text.head(

@@ -5,13 +5,13 @@
 //!                     limits        token     axum
 //! ```
 //!
-//! A current-thread runtime on a thread of its own serves all connections. Triggers block, so each waits on a thread of the
-//! runtime's pool and holds one of the server's places meanwhile. Everything else is answered at once.
+//! A current-thread runtime on its own thread serves all connections. A trigger blocks: it waits on a thread of the
+//! runtime's pool and holds one of the server's client places. All other requests are answered at once.
 //!
-//! Whoever has not shown a token yet costs a bounded amount of memory and time: head, body, connections and waiting times are
-//! limited, and of more connections than are allowed the oldest without a token makes room. HTTP/1.1 only.
+//! A client without a token costs a bounded amount of memory and time: head, body, connections and waiting times are
+//! limited, and if there are too many connections, the oldest without a token is dropped. HTTP/1.1 only.
 //!
-//! `docs/guide/robots_that_ask.md` describes it for users, `GET /v1/openapi.json` for programs.
+//! `docs/guide/robots_that_ask.md` describes the interface for users, `GET /v1/openapi.json` for programs.
 
 mod access;
 mod body;

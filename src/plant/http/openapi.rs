@@ -1,4 +1,4 @@
-//! The published description, `OpenAPI` 3.1: schemas are made from the types that are written.
+//! The published `OpenAPI` 3.1 description, with schemas generated from the types that are written.
 
 use axum::http::StatusCode;
 use schemars::{JsonSchema, generate::SchemaSettings};
@@ -11,7 +11,7 @@ use super::{
 
 const JSON: &str = "application/json";
 
-/// `has_tokens` says whether clients have to send one.
+/// Builds the description. `has_tokens`: clients have to send a token.
 pub(super) fn document(has_tokens: bool) -> Value {
     let mut settings = SchemaSettings::draft2020_12().for_serialize();
     settings.definitions_path = "/components/schemas".into();

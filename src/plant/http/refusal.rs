@@ -1,14 +1,14 @@
-//! Requests that are not answered as they were asked.
+//! Refused requests.
 
 use axum::http::StatusCode;
 use thiserror::Error;
 
 use crate::error::Advice;
 
-/// Bytes of a body at most. No request needs one.
+/// Maximum size of a body, bytes. No request needs one.
 pub(super) const MAX_BODY_BYTES: usize = 1024;
 
-/// Why a request is not answered as it was asked.
+/// Why a request is refused.
 #[derive(Clone, Copy, Debug, Error)]
 pub(super) enum Refusal {
     #[error("no token was sent, or a wrong one")]
@@ -26,7 +26,7 @@ pub(super) enum Refusal {
 }
 
 impl Refusal {
-    /// The word for it in an answer.
+    /// The reason word in an answer.
     pub(super) fn reason(self) -> &'static str {
         match self {
             Self::WrongToken => "wrong_token",

@@ -1,4 +1,4 @@
-//! What is at which path.
+//! Paths and their handlers.
 
 use std::sync::Arc;
 
@@ -27,10 +27,10 @@ use crate::{
     serve::{Answer, Request, ServerHandle, Trouble, VerdictCode},
 };
 
-/// The path that needs no token.
+/// The only path that needs no token.
 pub(super) const HEALTH: &str = "/v1/healthz";
 
-/// What every answer needs.
+/// What every handler needs.
 pub(super) struct Api {
     pub(super) server: ServerHandle,
     pub(super) convention: Convention,
@@ -40,7 +40,7 @@ pub(super) struct Api {
 }
 
 impl Api {
-    /// A response, also if the program fails while it is made.
+    /// Runs a handler; a panic becomes an error response.
     fn answered(&self, work: impl FnOnce(&Self) -> Response) -> Response {
         guarded(|| work(self)).unwrap_or_else(|fault| {
             let trouble = Trouble::of("fault", &fault);
@@ -77,7 +77,7 @@ impl Api {
         json(StatusCode::OK, &AnswerBody::of(answer, self.convention))
     }
 
-    /// The answer to a trigger: it succeeded if something was inspected, whatever the verdict.
+    /// The response to a trigger: a success if something was inspected, whatever the verdict.
     fn triggered(&self, answer: &Answer) -> Response {
         let mut response = self.ok(answer);
         if matches!(answer.verdict, VerdictCode::Error | VerdictCode::Full) {
@@ -106,13 +106,13 @@ async fn trigger(State(api): State<Arc<Api>>) -> Response {
     let Some(slot) = api.server.slot() else {
         return api.answered(|api| api.triggered(&api.server.full()));
     };
-    // It goes on if the client hangs up, and keeps its place until it is over.
+    // The inspection continues if the client hangs up, and holds its place until it is done.
     let work = spawn_blocking(move || {
         let response = api.answered(|api| api.triggered(&api.server.answer(Request::Trigger)));
         drop(slot);
         response
     });
-    // Only a runtime that ends does not run it.
+    // It fails only if the runtime is shutting down.
     let ending = StatusCode::SERVICE_UNAVAILABLE;
     work.await.unwrap_or_else(|_| ending.into_response())
 }
@@ -180,7 +180,7 @@ fn json(status: StatusCode, body: &impl Serialize) -> Response {
     written(status, "application/json", text)
 }
 
-/// A pose holds for a moment: nobody on the way may keep an answer.
+/// Writes a response that must not be cached: a pose is valid only for a short time.
 fn written(status: StatusCode, media: &'static str, text: String) -> Response {
     let head = [(CONTENT_TYPE, media), (CACHE_CONTROL, "no-store")];
     (status, head, text).into_response()

@@ -1,4 +1,4 @@
-//! Takes connections and serves them until the server ends.
+//! Accepts connections and serves them until the server ends.
 
 use std::{
     collections::VecDeque,
@@ -34,27 +34,27 @@ use crate::{
     serve::{ClientNews, ServeError, ServerHandle, bound},
 };
 
-/// Connections at a time. Each costs some 50 kB with TLS.
+/// Maximum number of connections. Each takes about 50 kB with TLS.
 const MAX_CONNECTIONS: usize = 256;
-/// How often the listener looks whether the service ends.
+/// How often the listener checks whether the service is ending.
 const TURN: Duration = Duration::from_millis(100);
-/// How long it waits when the system has no more connections.
+/// Pause before the next attempt if the system has no sockets left.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(10);
 
-/// Where and to whom HTTP is served.
+/// Settings of the HTTP server.
 pub struct HttpSettings {
-    /// The address; port 0 is any free port.
+    /// The address; port 0 means any free port.
     pub address: SocketAddr,
     /// The convention of poses.
     pub convention: Convention,
-    /// Of which clients have to send one; without any, only this computer may be listened to.
+    /// Accepted tokens; if empty, the address has to be a loopback address.
     pub tokens: Tokens,
-    /// Certificate and key; none for plain HTTP.
+    /// Certificate and key for HTTPS; none for plain HTTP.
     pub tls: Option<Tls>,
 }
 
 impl HttpSettings {
-    /// A doubt, if tokens go over the network without encryption.
+    /// Returns a warning if tokens go over the network without encryption.
     pub fn doubt(&self) -> Option<TokenInTheOpen> {
         let is_open = !self.address.ip().is_loopback() && self.tls.is_none();
         is_open.then_some(TokenInTheOpen {
@@ -63,7 +63,7 @@ impl HttpSettings {
     }
 }
 
-/// Others than this computer may listen to what HTTP sends, the tokens included.
+/// Others on the network can read what HTTP sends, including the tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
     "http={address} is open to the network without encryption: whoever listens there reads the token and the poses"
@@ -79,7 +79,8 @@ impl Advice for TokenInTheOpen {
     }
 }
 
-/// HTTP beside a server's listeners. It ends with the server, or when it is dropped; then it waits for its thread.
+/// An HTTP server beside an inspection server's listeners. It ends with that server or when it is dropped, which joins its
+/// thread.
 pub struct HttpServer {
     address: SocketAddr,
     protocol: &'static str,
@@ -88,7 +89,7 @@ pub struct HttpServer {
 }
 
 impl HttpServer {
-    /// Listens, and asks that server.
+    /// Starts to listen; requests are answered by `server`.
     pub fn start(settings: HttpSettings, server: ServerHandle) -> Result<Self, HttpError> {
         let HttpSettings {
             address,
@@ -103,7 +104,7 @@ impl HttpServer {
         let no_thread = |source| ServeError::NoThread { source };
         let runtime = runtime::Builder::new_current_thread()
             .enable_all()
-            // Every trigger holds one of the server's places.
+            // Every trigger holds one of the server's places, so no more threads are needed.
             .max_blocking_threads(server.settings().max_clients.max(1))
             .thread_name("http trigger")
             .build()
@@ -124,7 +125,7 @@ impl HttpServer {
         let thread = thread::Builder::new().name("http".into());
         let thread = thread.spawn(move || {
             runtime.block_on(listen(&listener, api, tls, &ending));
-            // A trigger that still waits is answered by the server that ends, or by nobody.
+            // A trigger still waiting is answered by the ending server within this time, or not at all.
             runtime.shutdown_timeout(LINGER);
         });
         Ok(Self {
@@ -135,12 +136,12 @@ impl HttpServer {
         })
     }
 
-    /// Where it listens, with the port that the system chose.
+    /// The address listened at, with the port that the system chose.
     pub fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// Where its paths begin, such as `https://127.0.0.1:30180/v1`.
+    /// Base URL of the paths, such as `https://127.0.0.1:30180/v1`.
     pub fn url(&self) -> String {
         format!("{}://{}/v1", self.protocol, self.address)
     }
@@ -150,7 +151,7 @@ impl Drop for HttpServer {
     fn drop(&mut self) {
         self.is_ending.store(true, Ordering::SeqCst);
         if let Some(thread) = self.thread.take() {
-            // A fault of the thread has cost its connections.
+            // A thread that panicked has only lost its connections.
             let _ = thread.join();
         }
     }
@@ -171,8 +172,8 @@ async fn listen(listener: &TcpListener, api: Arc<Api>, tls: Option<Tls>, is_endi
             accepted = listener.accept() => match accepted {
                 Ok((stream, peer)) => {
                     connections.add(stream, peer, &service);
-                    // Those that are open get their turn before the next: else a flood of new ones would count as silent,
-                    // and good ones among them make room before they were read.
+                    // Let open connections run before the next is accepted. Otherwise a flood of new ones would count as
+                    // lacking a token before their requests were read, and valid ones among them would be dropped.
                     task::yield_now().await;
                 }
                 Err(_) => sleep(ACCEPT_PAUSE).await,
@@ -183,14 +184,14 @@ async fn listen(listener: &TcpListener, api: Arc<Api>, tls: Option<Tls>, is_endi
     drop(stop);
     let all_ended = async {
         for connection in connections.0 {
-            // One that was let go is over, too.
+            // An aborted task has ended too.
             let _ = connection.task.await;
         }
     };
     let _ = timeout(2 * LINGER, all_ended).await;
 }
 
-/// Those that are open, from the oldest to the newest.
+/// Open connections, from the oldest to the newest.
 #[derive(Default)]
 struct Connections(VecDeque<Connection>);
 

@@ -14,17 +14,17 @@ use tokio_rustls::{
 use super::error::HttpError;
 use crate::files::read_limited;
 
-/// A chain of certificates has some kilobytes.
+/// Maximum size of a PEM file; a chain of certificates takes a few kilobytes.
 const MAX_PEM_BYTES: u64 = 1 << 20;
 
-/// Certificate and key by which connections are encrypted: TLS 1.2 and 1.3.
+/// Certificate and key for encrypted connections with TLS 1.2 and 1.3.
 #[derive(Clone)]
 pub struct Tls {
     pub(super) acceptor: TlsAcceptor,
 }
 
 impl Tls {
-    /// Of a file with the certificate and its chain, and one with the private key, both PEM.
+    /// Loads the certificate with its chain, and the private key, from PEM files.
     pub fn load(certificate: &Path, key: &Path) -> Result<Self, HttpError> {
         let not_pem = |path: &Path, what, error: &pem::Error| HttpError::NotPem {
             path: path.to_owned(),

@@ -1,4 +1,4 @@
-//! What is needed to connect to a broker: its address, a password and the certificates that it may show.
+//! Access to a broker: its address, the password and the trusted certificate authorities.
 
 use std::{path::Path, sync::Arc};
 
@@ -16,25 +16,25 @@ use crate::{
     },
 };
 
-/// A broker, and what lets the program in there.
+/// A broker's address and the credentials for it.
 #[derive(Clone)]
 pub struct BrokerAccess {
-    /// Where it is.
+    /// The broker's address.
     pub broker: BrokerAddress,
     password: String,
     tls: Option<Arc<ClientConfig>>,
 }
 
-/// Why a broker cannot be used as it was given.
+/// Why the access to a broker cannot be set up.
 #[derive(Debug, Error)]
 pub enum AccessError {
     /// The password or the certificates cannot be used.
     #[error(transparent)]
     Credential(#[from] CredentialError),
-    /// Nobody has the password.
+    /// A password was given without a user name.
     #[error("a password is given, but no user")]
     NoUser,
-    /// The connection is not encrypted.
+    /// Certificates are given for an unencrypted connection.
     #[error("certificates are given, but mqtt:// is not encrypted")]
     NotEncrypted,
 }
@@ -50,8 +50,8 @@ impl Advice for AccessError {
 }
 
 impl BrokerAccess {
-    /// Reads the password, the first line of its file, and the certificates of authorities, PEM; without a file the
-    /// system's own.
+    /// Reads the password from the first line of its file, and the trusted certificate authorities from a PEM file, or
+    /// without a file from the system.
     pub fn new(
         broker: BrokerAddress,
         password_file: Option<&Path>,
@@ -72,7 +72,7 @@ impl BrokerAccess {
         })
     }
 
-    /// A warning if others on the network can read what is sent.
+    /// Returns a warning if others on the network can read what is sent.
     pub fn doubt(&self) -> Option<Unencrypted> {
         let is_here = is_loopback(&self.broker.host);
         (!self.broker.is_encrypted && !is_here).then(|| Unencrypted {
@@ -80,13 +80,13 @@ impl BrokerAccess {
         })
     }
 
-    /// For the client library, without a last will.
+    /// Options for the client library, without a last will.
     pub(super) fn options(&self) -> MqttOptions {
         let BrokerAddress {
             user, host, port, ..
         } = &self.broker;
-        // The same after every start: the broker then ends a connection that broke without its noticing as soon as the
-        // new one is there, and its last will does not come after the new state.
+        // Use the same client identifier after every start: when the program reconnects, the broker ends a former
+        // connection whose loss it has not noticed, so that its last will does not arrive after the new state.
         let id = format!("partsight-{:08x}", crc32(self.broker.prefix.as_bytes()));
         let mut options = MqttOptions::new(id, host, *port);
         options.set_keep_alive(super::link::KEEP_ALIVE);
@@ -102,10 +102,10 @@ impl BrokerAccess {
     }
 }
 
-/// Far more than a message has; the client library refuses to send longer ones.
+/// Far above the size of any message; the client library refuses to send longer ones.
 const MAX_PACKET_BYTES: usize = 1 << 20;
 
-/// Others can read what is sent to a broker.
+/// Others on the network can read what is sent to a broker.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
     "the connection to {broker} is not encrypted: anyone along the network path can read and change verdicts, poses and the password"

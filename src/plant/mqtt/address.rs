@@ -1,4 +1,4 @@
-//! Where the broker is, and under which topics the cell publishes.
+//! Addresses of brokers, with the topic prefix of the cell.
 
 use std::{fmt, str::FromStr};
 
@@ -9,57 +9,57 @@ use crate::{
     plant::host::{HostError, host_and_port},
 };
 
-/// A broker and the beginning of the topics: `mqtt[s]://[user@]host[:port]/TOPIC_PREFIX`.
+/// A broker and the topic prefix: `mqtt[s]://[user@]host[:port]/TOPIC_PREFIX`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BrokerAddress {
-    /// True with `mqtts`.
+    /// True for `mqtts`.
     pub is_encrypted: bool,
-    /// The name at the broker; none for a broker that asks for none.
+    /// Name of the broker's user; none if the broker needs none.
     pub user: Option<String>,
-    /// A name or an IP address; IPv6 in brackets.
+    /// Host name or IP address, IPv6 in brackets.
     pub host: String,
-    /// 1883 or, encrypted, 8883 where none is given.
+    /// TCP port; by default 1883, or 8883 if encrypted.
     pub port: u16,
-    /// Without a slash at its ends.
+    /// Topic prefix, without a slash at either end.
     pub prefix: String,
 }
 
 /// Longest topic prefix, bytes: some brokers allow 256 for a whole topic.
 const MAX_PREFIX_BYTES: usize = 200;
 
-/// Why a text is no address of a broker.
+/// Why a text is not the address of a broker.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum AddressError {
-    /// It begins otherwise.
+    /// It does not begin with `mqtt://` or `mqtts://`.
     #[error("the address of the broker does not begin with mqtt:// or mqtts://")]
     Scheme,
-    /// It has a password, which other users of this computer could read.
+    /// It contains a password, which other users of this computer could read in the list of processes.
     #[error(
         "the address has a password, which everybody who lists the programs of this computer can read"
     )]
     Password,
-    /// There is no host, or none that can be one.
+    /// The host is missing, or is neither a name nor an IP address.
     #[error("{host:?} is no name or IP address of a broker")]
     Host {
-        /// What was given.
+        /// The host as given.
         host: String,
     },
-    /// A certificate does not name an IPv6 address in brackets.
+    /// An encrypted connection to an IPv6 address: certificates do not name addresses in brackets.
     #[error("an encrypted connection needs the broker's name, not {host}")]
     EncryptedIpv6 {
-        /// What was given.
+        /// The host as given.
         host: String,
     },
-    /// No number from 1 to 65535.
+    /// The port is not a number from 1 to 65535.
     #[error("{port:?} is no port")]
     Port {
-        /// What was given.
+        /// The port as given.
         port: String,
     },
-    /// No topics can begin like this.
+    /// The topic prefix is not valid.
     #[error("{prefix:?} is no beginning of a topic")]
     Prefix {
-        /// What was given.
+        /// The prefix as given.
         prefix: String,
     },
 }
@@ -92,7 +92,7 @@ impl FromStr for BrokerAddress {
         } else if let Some(rest) = text.strip_prefix("mqtt://") {
             (false, rest)
         } else {
-            // It is not shown: there may be a password in it.
+            // Do not show the text: it may contain a password.
             return Err(AddressError::Scheme);
         };
         let (place, prefix) = rest.split_once('/').unwrap_or((rest, ""));
@@ -105,7 +105,7 @@ impl FromStr for BrokerAddress {
         }
         let found = host_and_port(place, if is_encrypted { 8883 } else { 1883 });
         let (host, port) = found.map_err(|error| match error {
-            // What looks like a port is a password that holds a slash.
+            // What looks like a port is part of a password that contains a slash.
             HostError::Port { .. } if prefix.contains('@') => AddressError::Password,
             HostError::Port { port } => AddressError::Port { port },
             HostError::Host { host } => AddressError::Host { host },
@@ -128,7 +128,7 @@ impl FromStr for BrokerAddress {
     }
 }
 
-/// Topics of a client have no wildcards, and those of the broker itself begin with `$`.
+/// Wildcards are not allowed, nor is `$` at the start, which marks the broker's own topics.
 fn is_prefix(prefix: &str) -> bool {
     let is_bad = |c: char| matches!(c, '+' | '#') || c.is_control();
     (1..=MAX_PREFIX_BYTES).contains(&prefix.len())
@@ -137,7 +137,7 @@ fn is_prefix(prefix: &str) -> bool {
         && prefix.split('/').all(|level| !level.is_empty())
 }
 
-/// Without the prefix: as it is named in messages.
+/// Without the topic prefix, as shown in messages.
 impl fmt::Display for BrokerAddress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let scheme = if self.is_encrypted { "mqtts" } else { "mqtt" };

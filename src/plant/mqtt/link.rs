@@ -1,4 +1,4 @@
-//! The connection to the broker, and the inspections that wait for it.
+//! The connection to the broker, and the queue of inspections for it.
 
 use std::{
     collections::VecDeque,
@@ -24,51 +24,51 @@ use crate::{
     serve::{Answer, CameraStatus, InspectionRecord, PoseKind},
 };
 
-/// So many inspections wait for the broker at most; the oldest are dropped first.
+/// Maximum number of queued inspections; beyond it, the oldest are dropped.
 pub const MAX_UNSENT: usize = 1000;
 
-/// A broker that hears nothing for one and a half times as long takes the cell for offline.
+/// The broker considers the cell offline after 1.5 times this long without a packet.
 pub(super) const KEEP_ALIVE: Duration = Duration::from_secs(15);
-/// Before the second attempt to connect; each further pause is twice as long, up to the longest.
+/// Pause after the first failed attempt to connect; each further pause is twice as long, up to the longest.
 const FIRST_PAUSE: Duration = Duration::from_millis(500);
 const LONGEST_PAUSE: Duration = Duration::from_secs(30);
-/// A broker that answers but leaves a message unacknowledged for so long is connected to again.
+/// If the broker answers pings but leaves a message unacknowledged for longer than this, the connection is renewed.
 const ACK_TIMEOUT: Duration = Duration::from_mins(1);
-/// At the end of the program what waits has so long to go out.
+/// How long queued inspections may still be sent at the end of the program.
 const END_TIMEOUT: Duration = Duration::from_secs(3);
-/// Messages that the client library takes over; one is on its way at a time.
+/// Capacity of the client library's queue; there is one message in flight at a time.
 const CHANNEL: usize = 8;
 
-/// In which numbers poses are given.
+/// How poses are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PoseFormat {
-    /// Which pose.
+    /// Which pose is sent.
     pub kind: PoseKind,
-    /// How it is written.
+    /// The convention of its numbers.
     pub convention: Convention,
 }
 
-/// What stays the same in all messages of a start.
+/// What all messages of one start have in common.
 #[derive(Clone, Debug)]
 pub struct LinkSubject {
-    /// The number of this start, [`crate::serve::Server::boot`].
+    /// Boot number of this start, [`crate::serve::Server::boot`].
     pub boot: u32,
     /// The enrolled parts.
     pub library: LibraryMessage,
-    /// In which numbers poses are given.
+    /// How poses are written.
     pub pose: PoseFormat,
-    /// What inspections are traced by.
+    /// Traceability data of the inspections.
     pub trace: Traceability,
 }
 
-/// An inspection that waits for the broker.
+/// A queued inspection.
 struct Waiting {
     record: InspectionRecord,
     inspected_at: Timestamp,
     captured_at: Option<Timestamp>,
 }
 
-/// What the broker has not acknowledged yet.
+/// A message that the broker has not acknowledged yet.
 #[expect(clippy::large_enum_variant, reason = "there is one of them")]
 enum InFlight {
     State,
@@ -78,7 +78,7 @@ enum InFlight {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     Running,
-    /// What waits goes out, then the state becomes offline.
+    /// The queue is sent, then the offline state.
     Ending,
     Ended,
 }
@@ -92,15 +92,15 @@ enum Told {
 struct Outbox {
     phase: Phase,
     state: StateMessage,
-    /// True if the broker does not know the state.
+    /// True if the state has to be sent.
     is_state_due: bool,
     waiting: VecDeque<Waiting>,
     in_flight: Option<InFlight>,
-    /// When the last message was handed over.
+    /// When the last message was handed to the client library.
     handed_over_at: Instant,
-    /// While connected.
+    /// Set while connected.
     client: Option<Client>,
-    /// What the person at the screen was told last.
+    /// What was last reported to the operator.
     told: Option<Told>,
     news: VecDeque<LinkNews>,
 }
@@ -114,7 +114,7 @@ impl Outbox {
         }
     }
 
-    /// True if the broker ought to have acknowledged by `now` what is on its way.
+    /// True if the message in flight should have been acknowledged by `now`.
     fn is_overdue(&self, now: Instant) -> bool {
         let waited = now.saturating_duration_since(self.handed_over_at);
         self.in_flight.is_some() && waited > ACK_TIMEOUT
@@ -128,14 +128,14 @@ struct Shared {
     phase_changed: Condvar,
 }
 
-/// The connection to a broker. Dropped, it is ended as by [`Self::end`].
+/// The connection to a broker. Dropping it is the same as [`Self::end`].
 pub struct MqttLink {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl MqttLink {
-    /// Connects on a thread of its own, and again whenever the connection is lost.
+    /// Starts a thread that connects, and reconnects whenever the connection is lost.
     pub fn start(access: &BrokerAccess, subject: LinkSubject) -> Result<Self, LinkError> {
         let state = StateMessage {
             schema: MESSAGE_SCHEMA,
@@ -175,7 +175,7 @@ impl MqttLink {
         })
     }
 
-    /// Publishes an inspection once the broker is there.
+    /// Queues an inspection for publication.
     pub fn inspected(&self, record: InspectionRecord) {
         let inspected_at = Timestamp::now();
         let age = record.answer().age_ms;
@@ -191,7 +191,7 @@ impl MqttLink {
         self.shared.send_next(&mut outbox);
     }
 
-    /// Publishes how the camera is, if that is new.
+    /// Publishes the camera's status if it has changed.
     pub fn set_camera(&self, camera: CameraStatus) {
         let mut outbox = lock(&self.shared.outbox);
         if outbox.state.camera.as_ref() != Some(&camera) {
@@ -201,12 +201,12 @@ impl MqttLink {
         }
     }
 
-    /// The oldest news that was not taken yet.
+    /// Takes the oldest event that was not taken yet.
     pub fn news(&self) -> Option<LinkNews> {
         lock(&self.shared.outbox).news.pop_front()
     }
 
-    /// Sends what waits, for a few seconds at most, and takes leave of the broker.
+    /// Sends what is queued, for at most 3 s, then the offline state, and disconnects.
     pub fn end(mut self) -> Result<(), Unsent> {
         self.take_leave()
     }
@@ -232,10 +232,10 @@ impl MqttLink {
         let has_ended = outbox.phase == Phase::Ended;
         drop(outbox);
         if has_ended {
-            // A fault of the thread has been told.
+            // A panic of the thread has been reported.
             let _ = thread.join();
         }
-        // Else it waits for the network, which nobody can interrupt; it ends with the program.
+        // Otherwise it waits for the network, which cannot be interrupted; it ends with the program.
         if num > 0 {
             let broker = shared.broker.clone();
             return Err(Unsent { num, broker });
@@ -260,7 +260,7 @@ impl Shared {
             let Err(trouble) = ended.unwrap_or_else(|fault| Err(fault.into())) else {
                 break;
             };
-            // A connection that breaks right away, again and again, is a cause to wait as well.
+            // If connections keep breaking right away, keep increasing the pause.
             if begun.elapsed() > LONGEST_PAUSE {
                 pause = FIRST_PAUSE;
             }
@@ -273,7 +273,7 @@ impl Shared {
         self.phase_changed.notify_all();
     }
 
-    /// One connection, until it breaks or the program has taken leave.
+    /// Runs one connection until it breaks or the program disconnects.
     fn connection(&self, mut options: MqttOptions) -> Result<(), LinkTrouble> {
         let will = lock(&self.outbox).state.offline().to_json();
         options.set_last_will(LastWill::new(
@@ -282,9 +282,10 @@ impl Shared {
             QoS::AtLeastOnce,
             true,
         ));
-        // A client of its own for every connection: what is on its way is remembered here, not there.
+        // Use a new client for every connection: this type tracks the message in flight, not the client.
         let (client, mut connection) = Client::new(options, CHANNEL);
-        // Else the end of a message that needs several packets waits until the broker has acknowledged the first ones.
+        // Without this, the end of a message of several packets is held back until the broker has acknowledged the first
+        // ones.
         let mut network = NetworkOptions::new();
         network.set_tcp_nodelay(true);
         connection.eventloop.set_network_options(network);
@@ -296,7 +297,7 @@ impl Shared {
                     outbox.in_flight = None;
                     self.send_next(&mut outbox);
                 }
-                // It comes every few seconds, as long as the broker is there.
+                // Arrives every few seconds while the broker is there.
                 Event::Incoming(Packet::PingResp)
                     if lock(&self.outbox).is_overdue(Instant::now()) =>
                 {
@@ -315,7 +316,7 @@ impl Shared {
     fn connected(&self, client: Client) {
         let mut outbox = lock(&self.outbox);
         outbox.client = Some(client);
-        // The broker may have lost it, or published the last will.
+        // The broker may have lost the state, or published the last will.
         outbox.is_state_due = true;
         if outbox.told != Some(Told::Connected) {
             outbox.told = Some(Told::Connected);
@@ -328,7 +329,7 @@ impl Shared {
         self.send_next(&mut outbox);
     }
 
-    /// Puts what was on its way back, tells of the loss once, and waits before the next attempt; `Break` if there is none.
+    /// Requeues the message in flight, reports the loss once, and waits before the next attempt; `Break` if there is none.
     fn lost(&self, trouble: LinkTrouble, pause: Duration) -> ControlFlow<()> {
         let mut outbox = lock(&self.outbox);
         outbox.client = None;
@@ -360,7 +361,7 @@ impl Shared {
         waited.unwrap_or_else(PoisonError::into_inner).0
     }
 
-    /// Hands the next message to the client library, if the broker has acknowledged the one before.
+    /// Hands the next message to the client library, unless one is still unacknowledged.
     fn send_next(&self, outbox: &mut Outbox) {
         let Some(client) = &outbox.client else {
             return;
@@ -369,9 +370,9 @@ impl Shared {
             return;
         }
         let is_ending = outbox.phase != Phase::Running;
-        // At the end what waits goes out before the state says that nobody is there.
+        // When ending, send the queue before the offline state.
         let is_state_next = outbox.is_state_due && (!is_ending || outbox.waiting.is_empty());
-        // Handing over fails once the connection is over: `lost` puts what was on its way back.
+        // Errors are ignored: publishing fails only after the connection is lost, and then `lost` requeues the message.
         if is_state_next {
             outbox.is_state_due = false;
             outbox.in_flight = Some(InFlight::State);

@@ -1,4 +1,4 @@
-//! What is published, as JSON.
+//! The published JSON messages.
 
 use jiff::Timestamp;
 use schemars::{JsonSchema, generate::SchemaSettings, json_schema};
@@ -10,7 +10,7 @@ use crate::{
     serve::{CameraStatus, PoseKind, Trouble, VerdictCode},
 };
 
-/// The version of the messages; fields are only ever added to one.
+/// Version of the messages; compatible changes only add fields.
 pub const MESSAGE_SCHEMA: u32 = 1;
 
 /// How the cell is: the retained message of `PREFIX/state`.
@@ -90,12 +90,12 @@ pub struct PoseMessage {
 }
 
 impl StateMessage {
-    /// The message.
+    /// Serialises the message.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("numbers and text have a JSON form")
     }
 
-    /// The same of a cell that is not there.
+    /// Returns the same state for a cell that is offline.
     #[must_use]
     pub fn offline(&self) -> Self {
         Self {
@@ -107,16 +107,15 @@ impl StateMessage {
 }
 
 impl InspectionMessage {
-    /// The message.
+    /// Serialises the message.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("numbers and text have a JSON form")
     }
 }
 
-/// The JSON schema of both messages, with a line's end; that of each is under `$defs`. `assets/mqtt.schema.json` holds
-/// the same.
+/// Returns the JSON schema of both messages, each under `$defs`, with a final newline; `assets/mqtt.schema.json` is a copy.
 pub fn messages_schema() -> String {
-    // Of what is written: every field is there, null or not.
+    // The schema of serialised messages: every field is present, null or not.
     let mut generator = SchemaSettings::default().for_serialize().into_generator();
     let state = generator.subschema_for::<StateMessage>();
     let inspection = generator.subschema_for::<InspectionMessage>();
@@ -225,7 +224,7 @@ mod tests {
             assert_eq!(holds("InspectionMessage", &message), Ok(()));
             assert_eq!(conforms(&message, &schema, &schema), Ok(()));
         }
-        // The check can fail.
+        // Make sure that the check can fail.
         let mut broken = value(&accepted().to_json());
         broken["verdict"] = "good".into();
         assert!(holds("InspectionMessage", &broken).is_err());

@@ -5,12 +5,12 @@
 //! Camera ─► CameraStatus ─────►           state ─► StateMessage ──────► PREFIX/state, retained
 //! ```
 //!
-//! A thread of its own holds the connection to the broker, and connects again with growing pauses. Inspections wait in a
-//! queue of at most [`MAX_UNSENT`]; nobody who inspects ever waits for the broker. One message is on its way at a time:
-//! the next one goes out once the broker has acknowledged it (`QoS` 1), so that they arrive in order, and after an outage
-//! at most one of them arrives twice. Its sequence and boot number tell.
+//! A thread of its own holds the connection to the broker, and reconnects with growing pauses. Inspections are queued, at
+//! most [`MAX_UNSENT`]; inspecting never waits for the broker. One message is in flight at a time: the next is sent once
+//! the broker has acknowledged it (`QoS` 1). Messages therefore arrive in order, and after an outage at most one arrives
+//! twice; its sequence and boot number identify it.
 //!
-//! A message is written when it goes out, by [`crate::serve::InspectionRecord`]: a pose that has become too old in the
+//! A message is written when it is sent, from a [`crate::serve::InspectionRecord`]: a pose that has become too old in the
 //! queue is not sent.
 
 mod access;

@@ -1,4 +1,4 @@
-//! What happens to the connection, for the person at the screen.
+//! Events of the connection, and its errors.
 
 use std::io;
 
@@ -11,53 +11,53 @@ use crate::{
     files::words_of,
 };
 
-/// Something about the connection, for the person at the screen.
+/// An event of the connection, to be shown to the operator.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinkNews {
-    /// It is there, for the first time or again.
+    /// Connected to the broker, for the first time or again.
     Connected {
-        /// Inspections that waited for it.
+        /// Inspections that were queued.
         num_waiting: usize,
         /// Inspections dropped since the start.
         num_dropped: u64,
     },
-    /// It is not; told once until it is there again.
+    /// The connection is lost; reported once until it is back.
     Lost(LinkTrouble),
 }
 
 /// Why there is no connection.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum LinkTrouble {
-    /// Nothing answers there.
+    /// The broker does not answer.
     #[error("{broker} cannot be reached: {cause}")]
     Unreachable {
-        /// Which broker.
+        /// The broker.
         broker: BrokerAddress,
-        /// What the system says.
+        /// The system's message.
         cause: String,
     },
-    /// The broker does not let the program in.
+    /// The broker refuses the login.
     #[error("{broker} refuses the connection: {cause}")]
     Refused {
-        /// Which broker.
+        /// The broker.
         broker: BrokerAddress,
-        /// What it says.
+        /// The reason it gave.
         cause: &'static str,
     },
-    /// No encrypted connection comes about.
+    /// The encrypted connection cannot be established.
     #[error("no encrypted connection to {broker}: {cause}")]
     Tls {
-        /// Which broker.
+        /// The broker.
         broker: BrokerAddress,
-        /// What the library for encryption says.
+        /// The TLS library's message.
         cause: String,
     },
-    /// It was there, and broke.
+    /// An existing connection broke.
     #[error("the connection to {broker} was lost: {cause}")]
     Broken {
-        /// Which broker.
+        /// The broker.
         broker: BrokerAddress,
-        /// What the client library says.
+        /// The client library's message.
         cause: String,
     },
     /// The program itself failed.
@@ -126,13 +126,13 @@ impl Advice for LinkTrouble {
     }
 }
 
-/// Why there is no link at all.
+/// Why a link cannot be started.
 #[derive(Debug, Error)]
 pub enum LinkError {
-    /// The system gives no thread.
+    /// The system refuses a thread.
     #[error("the thread for MQTT cannot be started: {source}")]
     NoThread {
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
 }
@@ -145,7 +145,7 @@ impl Advice for LinkError {
     }
 }
 
-/// At the end of the program some inspections had not gone out.
+/// Some inspections were still unsent at the end of the program.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("inspections that did not reach {broker}: {num}")]
 pub struct Unsent {

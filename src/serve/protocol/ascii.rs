@@ -1,11 +1,12 @@
-//! An answer as a line of fields, for PLCs.
+//! ASCII answers: one line of fields, for PLCs.
 //!
 //! ```text
 //! TRIGGER;accepted;41;1234567;215;running;fender;4;5;0;0;;1200.500;-400.125;1900.000;86.0000;-5.0000;120.0000;;
 //! ```
 //!
-//! Request, verdict, sequence, boot, age in ms (-1: no frame), camera, part, number, flags, point, points, speed in mm/s,
-//! the numbers of the convention, reason, message. Every answer has every field; the numbers are empty without a pose.
+//! The fields: request, verdict, sequence, boot, age in ms (-1: no frame), camera, part, number, flags, point, points,
+//! speed in mm/s, the numbers of the convention, reason, message. Every answer has every field; without a pose the numbers
+//! are empty.
 
 use super::{MAX_MESSAGE, plain};
 use crate::{
@@ -44,7 +45,7 @@ pub(super) fn write(answer: &Answer, convention: Convention) -> String {
     line
 }
 
-/// The word of a request.
+/// The word for a request.
 pub(super) fn name_of(request: Request) -> &'static str {
     request.name().0
 }

@@ -1,41 +1,41 @@
-//! Why bytes are no request.
+//! Why bytes are not a request.
 
 use thiserror::Error;
 
 use super::{ByteOrder, binary::VERSION, plain};
 use crate::error::Advice;
 
-/// Why bytes are no request. The client is told, and its connection closed: where the next request begins is not known.
+/// Why bytes are not a request. The client is told and disconnected, because the start of the next request is unknown.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum BadRequest {
-    /// Longer than any request.
+    /// The request is longer than any valid one.
     #[error("a request longer than {limit} bytes")]
     TooLong {
-        /// Bytes that a request may have.
+        /// Maximum length, bytes.
         limit: usize,
     },
-    /// It began and did not end in time.
+    /// The request did not end in time.
     #[error("a request that was not complete after {seconds} s")]
     Incomplete {
-        /// How long it was waited for.
+        /// How long its end was waited for, seconds.
         seconds: u64,
     },
-    /// Another word.
+    /// The word is not a request.
     #[error("no request: {found:?}")]
     Unknown {
-        /// What was found, in printable letters.
+        /// The text found, in printable characters.
         found: String,
     },
-    /// The number behind `PATH` is none.
+    /// The text after `PATH` is not a number.
     #[error("no number of a point: {found:?}")]
     NoPoint {
-        /// What was found, in printable letters.
+        /// The text found, in printable characters.
         found: String,
     },
-    /// A frame that begins with something else.
+    /// The frame does not begin with the expected bytes.
     #[error("the frame does not begin with PSRQ")]
     Magic,
-    /// A frame of another version, or of the other byte order.
+    /// The frame has another version, or the other byte order.
     #[error("a frame of version {found}, expected {}", VERSION)]
     Version {
         /// The version found.
@@ -43,31 +43,31 @@ pub enum BadRequest {
         /// The byte order in which it was read.
         order: ByteOrder,
     },
-    /// A frame whose length is not that of a request.
+    /// The frame's length field is not the length of a request.
     #[error("a frame that gives its length as {found} bytes, expected {expected}")]
     Length {
         /// The length found.
         found: u16,
-        /// That of a request.
+        /// The length of a request.
         expected: u16,
     },
-    /// A frame that was changed on its way, or whose sender counts the checksum otherwise.
+    /// The frame was corrupted, or its sender computes the checksum differently.
     #[error("the frame's checksum is {found:08x}, expected {expected:08x}")]
     Checksum {
         /// The checksum found.
         found: u32,
-        /// That of its bytes.
+        /// The checksum computed from the frame's bytes.
         expected: u32,
     },
-    /// Not the XML that is expected.
+    /// The request is not the expected XML.
     #[error("not the expected XML: {found:?}")]
     NotXml {
-        /// What was found, in printable letters.
+        /// The text found, in printable characters.
         found: String,
     },
 }
 
-/// Letters of a wrong request that are shown.
+/// Number of characters of a bad request that are shown.
 const SHOWN: usize = 40;
 
 impl BadRequest {
@@ -86,7 +86,7 @@ impl BadRequest {
         Self::NotXml { found }
     }
 
-    /// The word for it in an answer.
+    /// The reason word in an answer.
     pub fn reason(&self) -> &'static str {
         match self {
             Self::TooLong { .. } => "too_long",

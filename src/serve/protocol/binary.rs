@@ -1,7 +1,7 @@
-//! Frames of fixed length, for PLCs that would rather not read text.
+//! Frames of fixed length, for PLCs that cannot easily parse text.
 //!
-//! Whole numbers and reals (IEEE 754) are in the byte order that the port was opened with. Texts are UTF-8, filled with
-//! zeros. The checksum is CRC-32 (ISO 3309, as ZIP and PNG count it) over all bytes before it.
+//! Integers and reals (IEEE 754) are in the byte order chosen for the port. Texts are UTF-8, padded with zeros. The
+//! checksum is CRC-32 (ISO 3309, as in ZIP and PNG) over all bytes before it.
 //!
 //! | request: from | bytes | |
 //! | --- | --- | --- |
@@ -18,7 +18,7 @@
 //! | 0 | 4 | `PSAN` |
 //! | 4 | 2 | version, 1 |
 //! | 6 | 2 | length, 256 |
-//! | 8 | 2 | what was asked for; 0: nothing that could be read |
+//! | 8 | 2 | code of the request; 0: it could not be read |
 //! | 10 | 2 | verdict |
 //! | 12 | 4 | boot |
 //! | 16 | 4 | sequence |
@@ -28,7 +28,7 @@
 //! | 28 | 4 | number of the part |
 //! | 32 | 4 | point |
 //! | 36 | 4 | points |
-//! | 40 | 2 | how many numbers the pose has; 0: none |
+//! | 40 | 2 | number of the pose's reals; 0: no pose |
 //! | 42 | 6 | reserved, 0 |
 //! | 48 | 8 | speed in mm/s; 0: none |
 //! | 56 | 56 | seven reals: the numbers of the convention, then zeros |
@@ -44,13 +44,13 @@ use crate::{
     serve::answer::{Answer, Request},
 };
 
-/// The version of the frames.
+/// Version of the frames.
 pub(super) const VERSION: u16 = 1;
-/// Bytes of a request.
+/// Length of a request, bytes.
 pub const REQUEST_BYTES: usize = 20;
-/// Bytes of an answer.
+/// Length of an answer, bytes.
 pub const ANSWER_BYTES: usize = 256;
-/// Numbers that a pose has room for.
+/// Maximum number of a pose's reals.
 pub const MAX_NUMBERS: usize = 7;
 
 const REQUEST_MAGIC: [u8; 4] = *b"PSRQ";
@@ -155,7 +155,7 @@ pub(super) fn write(answer: &Answer, convention: Convention, order: ByteOrder) -
     frame.bytes
 }
 
-/// A frame as it grows.
+/// A frame under construction.
 struct FrameWriter {
     bytes: Vec<u8>,
     order: ByteOrder,
@@ -187,7 +187,7 @@ impl FrameWriter {
         self.bytes.resize(self.bytes.len() + num_bytes, 0);
     }
 
-    /// A text in a field of this size, cut off between two letters.
+    /// Writes a text into a field of this size, truncated at a character boundary and padded with zeros.
     fn text(&mut self, text: &str, num_bytes: usize) {
         let end = text.floor_char_boundary(num_bytes);
         self.bytes.extend(&text.as_bytes()[..end]);
@@ -195,7 +195,7 @@ impl FrameWriter {
     }
 }
 
-/// The frame of a request.
+/// Encodes a request as a frame.
 pub fn request(request: Request, order: ByteOrder) -> Vec<u8> {
     let mut frame = FrameWriter {
         bytes: REQUEST_MAGIC.to_vec(),
@@ -252,7 +252,7 @@ mod tests {
                 assert_eq!(parse(&frame, order), Parsed::read(20, Ok(wanted)));
             }
         }
-        // As the guide has it.
+        // As in the guide.
         assert_eq!(
             request(Request::Trigger, ByteOrder::Little)[..16],
             *b"PSRQ\x01\x00\x14\x00\x01\x00\x00\x00\x00\x00\x00\x00"

@@ -1,4 +1,4 @@
-//! XML as KUKA's option package Ethernet KRL (EKI) reads and writes it.
+//! XML as read and written by KUKA's option package Ethernet KRL (EKI).
 //!
 //! ```text
 //! <Robot><Request>TRIGGER</Request><Point>0</Point></Robot>
@@ -6,8 +6,8 @@
 //! <Partsight><Request>TRIGGER</Request><Verdict>accepted</Verdict><Code>1</Code>…<Pose X="1200.500" …/>…</Partsight>
 //! ```
 //!
-//! A request is read as the guide's configuration makes EKI send it, not as any XML that means the same: its elements have
-//! no attributes, no comments and no references. The pose is an element of EKI's type FRAME and is missing without one.
+//! Only the form that EKI sends with the guide's configuration is read, not every equivalent XML: no attributes, comments
+//! or references. The pose is an element of EKI's type FRAME; without a pose it is missing.
 
 use super::{
     MAX_MESSAGE,
@@ -22,7 +22,7 @@ use crate::{
     serve::answer::{Answer, Request},
 };
 
-/// Bytes of the longest request, with room for a declaration and line breaks.
+/// Maximum length of a request, bytes, with room for an XML declaration and line breaks.
 const MAX_REQUEST: usize = 512;
 const END: &[u8] = b"</Robot>";
 
@@ -61,13 +61,13 @@ fn request(bytes: &[u8]) -> Result<Request, BadRequest> {
         .ok_or_else(wrong)?;
     let word = content_of(inner, "Request").ok_or_else(wrong)?;
     let point = content_of(inner, "Point").unwrap_or_default();
-    // EKI sends the point with every request.
+    // EKI sends a point with every request; only a path request uses it.
     let is_path = word.eq_ignore_ascii_case(name_of(Request::Path(0)));
     let point = Some(point.as_bytes()).filter(|point| is_path && !point.is_empty());
     named(word.as_bytes(), point).ok_or_else(|| BadRequest::unknown(word.as_bytes()))?
 }
 
-/// What stands between the tags of an element, without blanks around it.
+/// Returns the trimmed text between an element's tags.
 fn content_of<'a>(text: &'a str, tag: &str) -> Option<&'a str> {
     let (_, rest) = text.split_once(&format!("<{tag}>"))?;
     let (content, _) = rest.split_once(&format!("</{tag}>"))?;

@@ -1,6 +1,6 @@
 //! A request as a line of text: `TRIGGER`, `STATUS`, `LAST`, `PATH` or `PATH 3`.
 //!
-//! A line ends with LF, CR or both. Capitals do not matter; blanks and zeros around it, and empty lines, are read over.
+//! A line ends with LF, CR or both. Case does not matter. Empty lines, and blanks and zeros around a request, are ignored.
 
 use super::{
     bad_request::BadRequest,
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::serve::answer::Request;
 
-/// Bytes of the longest line, more than any request has.
+/// Maximum length of a line, bytes; every request is shorter.
 const MAX_LINE: usize = 64;
 
 pub(super) fn parse(bytes: &[u8]) -> Parsed {
@@ -36,7 +36,7 @@ fn request(line: &[u8]) -> Result<Request, BadRequest> {
     named(word, number).ok_or_else(|| BadRequest::unknown(line))?
 }
 
-/// The request of this word, and of this number behind it; `None` of another word.
+/// Finds a request by its word and the number after it; `None` if the word is no request or takes no number.
 pub(super) fn named(word: &[u8], number: Option<&[u8]>) -> Option<Result<Request, BadRequest>> {
     let word = std::str::from_utf8(word).ok()?;
     let request = Request::of_name(word, 0)?;
@@ -91,7 +91,7 @@ mod tests {
             (second.used, second.request),
             (9, Some(Ok(Request::Trigger)))
         );
-        // The other half of the line's end.
+        // The second half of the line ending.
         assert_eq!(parse(&text[16..]), Parsed::skipped(1));
         assert_eq!(parse(&text[17..]), Parsed::PARTIAL);
     }

@@ -1,4 +1,4 @@
-//! The protocols: which bytes are a request, and which bytes an answer is. Pure functions of their input.
+//! The protocols: parsing of requests and encoding of answers, as pure functions.
 //!
 //! | protocol | request | answer | pose |
 //! | --- | --- | --- | --- |
@@ -7,11 +7,11 @@
 //! | [`Eki`](Protocol::Eki) | an XML element | an XML element | KUKA |
 //! | [`UrScript`](Protocol::UrScript) | a line | a list of numbers in parentheses | Universal Robots |
 //!
-//! `docs/guide/robots_that_ask.md` describes them in full. They only grow: a field goes to the end, or into room that is
-//! reserved for it.
+//! `docs/guide/robots_that_ask.md` describes them in full. They stay compatible: a new field is appended, or uses reserved
+//! space.
 //!
 //! Sources: KUKA, *Ethernet KRL 2.1*, for the elements that EKI reads and writes; Universal Robots, *Script manual*,
-//! `socket_read_ascii_float`, for the list of numbers. Nothing was tried on a controller.
+//! `socket_read_ascii_float`, for the list of numbers. None of this has been tested on a controller.
 
 mod ascii;
 pub(super) mod bad_request;
@@ -26,30 +26,30 @@ use crate::robot::Convention;
 
 use self::parsed::Parsed;
 
-/// How a client and the server speak with each other.
+/// A protocol between client and server.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Protocol {
     /// Lines of text, for PLCs.
     Ascii,
     /// Frames of fixed length, for PLCs.
     Binary(ByteOrder),
-    /// XML as KUKA's option package Ethernet KRL reads and writes it.
+    /// XML as read and written by KUKA's option package Ethernet KRL.
     Eki,
-    /// Lists of numbers as a program of Universal Robots reads them.
+    /// Lists of numbers, as read by a Universal Robots program.
     UrScript,
 }
 
-/// Which byte of a number comes first.
+/// Byte order of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ByteOrder {
-    /// The least one, as in PCs and most controllers.
+    /// Least significant byte first, as in PCs and most controllers.
     Little,
-    /// The greatest one, as in Siemens S7.
+    /// Most significant byte first, as in Siemens S7.
     Big,
 }
 
 impl Protocol {
-    /// Every protocol.
+    /// Every protocol and byte order.
     pub const ALL: [Self; 5] = [
         Self::Ascii,
         Self::Binary(ByteOrder::Little),
@@ -69,7 +69,7 @@ impl Protocol {
         }
     }
 
-    /// The convention that comes with the protocol; none where it has to be chosen.
+    /// The convention that the protocol prescribes; none if it has to be chosen.
     pub fn own_convention(self) -> Option<Convention> {
         match self {
             Self::Ascii | Self::Binary(_) => None,
@@ -78,7 +78,7 @@ impl Protocol {
         }
     }
 
-    /// What the bytes that have come so far begin with.
+    /// Parses the request at the start of the bytes received so far.
     pub fn parse(self, bytes: &[u8]) -> Parsed {
         match self {
             Self::Ascii | Self::UrScript => line::parse(bytes),
@@ -87,7 +87,7 @@ impl Protocol {
         }
     }
 
-    /// The bytes of an answer, with its pose in this convention.
+    /// Encodes an answer, with its pose in this convention.
     pub fn write(self, answer: &Answer, convention: Convention) -> Vec<u8> {
         match self {
             Self::Ascii => ascii::write(answer, convention).into_bytes(),
@@ -98,10 +98,10 @@ impl Protocol {
     }
 }
 
-/// Longest message in an answer, letters.
+/// Maximum length of a message in an answer, characters.
 const MAX_MESSAGE: usize = 200;
 
-/// A text that every controller can show: printable ASCII without the letters that end fields, and not too long.
+/// Makes a text safe for every controller: printable ASCII without field separators, truncated.
 fn plain(text: &str, max_letters: usize) -> String {
     let letters = text.chars().map(|c| match c {
         ';' => ',',
@@ -119,7 +119,7 @@ mod tests {
     use super::*;
     use crate::serve::answer::{CameraState, Request, Trouble, VerdictCode};
 
-    /// An answer without a pose, of which everything else is as bad as it can be.
+    /// An answer without a pose whose other fields are as awkward as possible.
     pub(super) fn refused() -> Answer {
         Answer {
             request: Some(Request::Trigger),
@@ -159,7 +159,7 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever comes: no panic, never more bytes taken than there are, and no more kept than a request can have.
+        /// For any bytes: no panic, no more bytes used than there are, and no more kept than a request can have.
         #[test]
         fn any_bytes_are_a_request_or_refused_and_never_pile_up(
             bytes in proptest::collection::vec(any::<u8>(), 0..2000)
@@ -183,7 +183,7 @@ mod tests {
             }
         }
 
-        /// A request that comes in pieces is the same as in one.
+        /// A request that comes in pieces is read as if it came whole.
         #[test]
         fn a_request_in_pieces_is_read_when_it_is_whole(cut in 0_usize..100) {
             let requests: [(Protocol, Vec<u8>); 5] = [
@@ -196,7 +196,7 @@ mod tests {
             for (protocol, bytes) in requests {
                 let cut = cut % bytes.len();
                 let begun = protocol.parse(&bytes[..cut]);
-                // A line ends with either half of its end.
+                // Either half of CR LF ends a line.
                 if protocol == Protocol::Ascii && cut + 1 == bytes.len() {
                     continue;
                 }
@@ -209,7 +209,7 @@ mod tests {
 
     #[test]
     fn nothing_in_an_answer_without_a_pose_is_a_number_of_one() {
-        // A pose that would show: the digits of its numbers appear nowhere else.
+        // A pose that would be noticed: the digits of its numbers appear nowhere else.
         let with_pose = Answer {
             verdict: VerdictCode::Accepted,
             pose: Some(crate::geometry::rigid::from_euler_zyx([

@@ -1,25 +1,25 @@
-//! What is read of the bytes that a client sent.
+//! The result of parsing a client's bytes.
 
 use super::bad_request::BadRequest;
 use crate::serve::answer::Request;
 
-/// What the bytes that have come so far begin with.
+/// The result of parsing the start of a client's bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parsed {
-    /// Bytes at their beginning that are done with.
+    /// Number of bytes at the start that were used up.
     pub used: usize,
-    /// The request there, or why it is none; `None` if it is not complete.
+    /// The request, or why the bytes are none; `None` if it is incomplete.
     pub request: Option<Result<Request, BadRequest>>,
 }
 
 impl Parsed {
-    /// More has to come.
+    /// More bytes are needed.
     pub(super) const PARTIAL: Self = Self {
         used: 0,
         request: None,
     };
 
-    /// Bytes that mean nothing.
+    /// Filler that is skipped.
     pub(super) fn skipped(used: usize) -> Self {
         Self {
             used,
@@ -27,7 +27,7 @@ impl Parsed {
         }
     }
 
-    /// A request in these first bytes, or why there is none.
+    /// A request in the first `used` bytes, or why they are none.
     pub(super) fn read(used: usize, request: Result<Request, BadRequest>) -> Self {
         Self {
             used,
@@ -35,13 +35,13 @@ impl Parsed {
         }
     }
 
-    /// Bytes that cannot become a request.
+    /// The bytes cannot become a request.
     pub(super) fn bad(why: BadRequest) -> Self {
         Self::read(0, Err(why))
     }
 }
 
-/// True for what may stand between two requests: ends of lines, blanks, and the zeros behind a text of a PLC.
+/// True for bytes allowed between requests: line ends, blanks, and the zeros with which PLCs pad texts.
 pub(super) fn is_filler(byte: u8) -> bool {
     byte == 0 || byte.is_ascii_whitespace()
 }

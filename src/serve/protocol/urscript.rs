@@ -1,12 +1,12 @@
-//! An answer as a list of numbers in parentheses, as `socket_read_ascii_float` of Universal Robots reads it.
+//! Answers as a list of numbers in parentheses, as read by Universal Robots' `socket_read_ascii_float`.
 //!
 //! ```text
 //! (16, 1, 41, 1234567, 215, 1, 5, 3, 0, 0, 0.0, 1.200500, -0.400000, 1.900000, 0.412000, -0.131000, 1.287000)
 //! ```
 //!
-//! How many numbers follow, verdict, sequence, boot, age in ms (-1: no frame), camera, flags, number of the part, point,
-//! points, speed in mm/s; with a pose x, y, z in metres and the rotation vector. Without one the list ends before them, so
-//! that a program cannot read numbers that are not there: the function's own count then is less.
+//! The numbers: count of those that follow, verdict, sequence, boot, age in ms (-1: no frame), camera, flags, number of the
+//! part, point, points, speed in mm/s; with a pose also x, y, z in metres and the rotation vector. Without a pose the list
+//! ends earlier and the function returns a smaller count, so that a program cannot take missing numbers for a pose.
 
 use crate::{
     robot::{Convention, RobotValue},
@@ -43,7 +43,7 @@ mod tests {
         serve::{answer::VerdictCode, protocol::tests::refused},
     };
 
-    /// As the function reads it: the numbers between the parentheses.
+    /// Parses as the function does: the numbers between the parentheses.
     fn read(text: &str) -> Vec<f64> {
         let inner = text
             .strip_prefix('(')

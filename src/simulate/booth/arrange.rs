@@ -1,4 +1,4 @@
-//! Puts the booth together: camera, part, stand, walls.
+//! Arrangement of the booth: camera, part, stand, walls.
 
 use nalgebra::Point3;
 use rand::{RngExt as _, SeedableRng as _};
@@ -22,7 +22,7 @@ use crate::{
     },
 };
 
-/// A structured-light camera whose depth is registered to a colour picture, reduced to a quarter of its 2560 × 1920.
+/// A structured-light camera whose depth is registered to a colour picture, reduced from 2560 × 1920 to 640 × 480.
 pub(in crate::simulate) const CAMERA: Intrinsics = Intrinsics {
     width: 640,
     height: 480,
@@ -33,14 +33,14 @@ pub(in crate::simulate) const CAMERA: Intrinsics = Intrinsics {
     distortion: Distortion::NONE,
 };
 
-/// Keeps the draws of the booth apart from others made with the same seed.
+/// Separates the booth's random numbers from others with the same seed.
 const STREAM: u64 = 0xb007_b007_b007_b007;
 
-/// The booth that the setup's seed draws. A fixed pose is kept; the rest is arranged around it.
+/// Draws the booth from the setup's seed. A fixed pose is kept, and the rest arranged around it.
 pub(in crate::simulate) fn arrange<'a>(setup: &CellSetup, part: &'a TriangleMesh) -> Cell<'a> {
     let mut random = Pcg64::seed_from_u64(setup.seed ^ STREAM);
     let camera = &setup.intrinsics;
-    // The stand of an empty booth is made for a part that is not there.
+    // The stand of an empty booth is built for a part that is not there.
     let held_elsewhere;
     let held = if part.vertices.is_empty() {
         let kind = PartKind::ALL[random.random_range(0..PartKind::ALL.len())];

@@ -1,34 +1,34 @@
-//! Where a depth picture that is registered to a colour picture holds readings: a quadrilateral within the picture.
+//! The field of view of a depth picture registered to a colour picture: a quadrilateral within the picture.
 //!
-//! Its sides are a little out of true, its corners may be rounded, its borders are ragged by a pixel or two. The left
-//! border is where the projector's light ends: it moves with the disparity, so that near surfaces end farther inside.
+//! Its sides are slightly skew, its corners may be rounded, its borders are ragged by a pixel or two. The left border is
+//! where the projector's light ends: it moves with the disparity, so that near surfaces end further inside.
 
 use rand::{Rng as _, RngExt as _};
 use rand_pcg::Pcg64;
 
 use crate::{geometry::depth_frame::Intrinsics, simulate::sensor::BASELINE};
 
-/// The part of the picture in which the sensor gives readings.
+/// The region of the picture in which the sensor delivers readings; `None` for the whole picture.
 pub(super) struct FieldOfView(Option<Borders>);
 
 struct Borders {
     /// Left, right, top, bottom.
     sides: [Border; 4],
-    /// Pixels.
+    /// In pixels.
     corner_radius: f64,
-    /// Pixels that the left border moves per metre⁻¹ beyond [`BORDER_DEPTH`].
+    /// Focal length times baseline: pixels that the left border moves per 1/m beyond [`BORDER_DEPTH`].
     focal_baseline: f64,
 }
 
-/// The points inside are those with `across · u + along · v + offset` above the border's raggedness.
+/// A point (u, v) is inside if `across[0] · u + across[1] · v + offset` exceeds the border's raggedness there.
 struct Border {
     across: [f64; 2],
     offset: f64,
-    /// How far the border is off the straight line, pixels, by place along it.
+    /// Deviation of the border from a straight line in pixels, by position along it.
     ragged: Vec<f64>,
 }
 
-/// The depth at which the left border is where it was drawn, metres.
+/// The depth at which the left border is where it was drawn, in metres.
 const BORDER_DEPTH: f64 = 2.2;
 /// Share of frames that have readings up to the picture's edge.
 const NO_BORDER: f64 = 0.15;
@@ -40,7 +40,7 @@ impl FieldOfView {
         }
         let (width, height) = (camera.width as f64, camera.height as f64);
         let widest = if random.random_bool(0.6) { 0.11 } else { 0.2 };
-        // Mounted with care or not.
+        // Some cameras are mounted with less care.
         let turned = if random.random_bool(0.75) {
             0.015
         } else {
@@ -78,7 +78,7 @@ impl FieldOfView {
         }))
     }
 
-    /// Whether a surface at this depth has a reading in column `u`, row `v`.
+    /// Returns true if a surface at this depth yields a reading in column `u`, row `v`.
     pub(super) fn contains(&self, u: f64, v: f64, depth: f64) -> bool {
         let Some(borders) = &self.0 else {
             return true;
@@ -98,7 +98,7 @@ impl FieldOfView {
         aside > 0.0 && upright > 0.0
     }
 
-    /// The middle of the field, column and row.
+    /// Returns the middle of the field of view as column and row.
     pub(super) fn middle(&self, camera: &Intrinsics) -> [f64; 2] {
         let middle = [0.5 * camera.width as f64, 0.5 * camera.height as f64];
         let Some(Borders { sides, .. }) = &self.0 else {
@@ -115,14 +115,14 @@ impl FieldOfView {
 }
 
 impl Border {
-    /// Distance to the inside, pixels, ragged at a place along the border.
+    /// Returns the distance inside the border in pixels, with the raggedness at position `along`.
     fn distance(&self, u: f64, v: f64, along: f64) -> f64 {
         let place = (along.max(0.0) as usize).min(self.ragged.len() - 1);
         self.across[0] * u + self.across[1] * v + self.offset - self.ragged[place]
     }
 }
 
-/// Steps of up to two pixels that last for some pixels: noise that forgets.
+/// Draws correlated noise of up to about two pixels.
 fn ragged(num_places: usize, random: &mut Pcg64) -> Vec<f64> {
     let amplitude = random.random_range(0.2..0.8);
     let mut value = 0.0;

@@ -1,4 +1,4 @@
-//! Where the camera on the robot's flange stands: rolled, tilted, and so near that the picture often cuts the part.
+//! Pose of the camera on the robot's flange: rolled, tilted, and so near that the picture often cuts the part.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -14,21 +14,21 @@ use crate::{
     simulate::rasteriser::{Rendering, SurfaceLabel},
 };
 
-/// Depth of the part's middle, metres.
+/// Depth of the part's middle, in metres.
 const DISTANCE: std::ops::Range<f64> = 0.8..1.5;
-/// Nothing of the part is nearer to the camera, metres: the sensor's range begins at half a metre.
+/// Least depth of any point of the part, in metres: the sensor's range begins at half a metre.
 const NEAREST: f64 = 0.52;
-/// Share of a part that is cut by the picture which stays in it.
+/// Share of a cut part that stays in the picture.
 const CUT_SHARE: std::ops::Range<f64> = 0.27..1.0;
-/// Share of frames that show the whole part, where it fits.
+/// Share of frames that show the whole part, if it fits.
 const WHOLE: f64 = 0.25;
-/// The part is turned to the camera by up to this about its two axes in the picture, radians.
+/// Largest rotation of the part about its x and y axes relative to the camera, in radians.
 const TURN: f64 = 0.52;
 
-/// The camera's attitude, and the part's.
+/// Orientation of camera and part.
 pub(super) struct Flange {
     pub(super) camera_from_world: UnitQuaternion<f64>,
-    /// Without the place.
+    /// The rotation alone.
     pub(super) camera_from_part: UnitQuaternion<f64>,
 }
 
@@ -36,7 +36,7 @@ impl Flange {
     pub(super) fn draw(random: &mut Pcg64) -> Self {
         let about = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
         let roll = drawn_roll(random);
-        // Straight ahead or looking down.
+        // Straight ahead, or looking down.
         let looks_down = if random.random_bool(0.3) {
             random.random_range(-0.05..0.12)
         } else {
@@ -44,7 +44,7 @@ impl Flange {
         };
         let roll_of_camera = about(Vector3::z_axis(), roll);
         let camera_from_world = roll_of_camera * about(Vector3::x_axis(), looks_down);
-        // A part leans on its stand so that it faces the robot; it lies there upright, or on another edge.
+        // A part leans on its stand so that it faces the robot, upright or on another edge.
         let mounted = if random.random_bool(0.7) {
             random.random_range(-0.2..0.2)
         } else {
@@ -61,9 +61,9 @@ impl Flange {
         }
     }
 
-    /// Puts the part before the camera: all of it in the field of view, or cut to a drawn share.
+    /// Places the part in front of the camera: all of it in the field of view, or cut to a drawn share.
     ///
-    /// `seen` are points of its surface, turned like the part, about its origin.
+    /// `seen` are points of its surface, rotated like the part, about its origin.
     pub(super) fn place(
         &self,
         seen: &[Point3<f64>],
@@ -80,7 +80,7 @@ impl Flange {
         let how_far = random.random::<f64>();
         let (sin, cos) = f64::sin_cos(direction);
 
-        // The middle of what is seen, in the middle of the field.
+        // Start with the middle of the visible points in the middle of the field of view.
         let [middle_u, middle_v] = field.middle(camera);
         let centred = |distance: f64| {
             let aim = camera.point_at(middle_u, middle_v, distance);
@@ -111,13 +111,13 @@ impl Flange {
                 high = middle;
             }
         }
-        // A part that is cut is cut to the share; one that is not hangs anywhere up to the border.
+        // A cut part is cut to the drawn share; a whole one is placed anywhere up to the border.
         let by = if is_whole { how_far * low } else { low };
         RigidTransform::from_parts(Translation3::from(shifted(by)), self.camera_from_part)
     }
 }
 
-/// Upright, on either side or upside down with some scatter; or any other roll.
+/// Draws a roll: upright, on either side or upside down with some scatter, or any other.
 fn drawn_roll(random: &mut impl Rng) -> f64 {
     if random.random_bool(0.2) {
         return random.random_range(-PI..PI);
@@ -145,13 +145,13 @@ fn middle_of_box(points: &[Point3<f64>]) -> Point3<f64> {
     nalgebra::center(&low, &high)
 }
 
-/// Points of the surface that a camera sees of a turned part, evenly over the picture, about the part's origin.
+/// Returns points of the surface that a camera sees of a rotated part, even over the picture, about the part's origin.
 pub(super) fn seen_surface(
     part: &TriangleMesh,
     camera_from_part: &UnitQuaternion<f64>,
 ) -> Vec<Point3<f64>> {
     const DEPTH: f64 = 1.2;
-    // Wide enough for every part, and so coarse that a few thousand points are left.
+    // Wide enough for every part, and so coarse that a few thousand points remain.
     let small = Intrinsics {
         width: 200,
         height: 200,

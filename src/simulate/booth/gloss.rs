@@ -1,4 +1,4 @@
-//! Patches of a part that give no reading: the shadow in a door's handle bowl, a slot, the reflection of a lamp.
+//! Patches of a part without readings: the shadow in a door's handle recess, a slot, the reflection of a lamp.
 
 use nalgebra::{Point2, Point3, Vector3};
 use rand::RngExt as _;
@@ -30,7 +30,7 @@ impl SpecularDropout {
         Self(Vec::new())
     }
 
-    /// Up to three patches on what is seen of the part, and more often than not the handle of a door.
+    /// Draws up to three patches on the visible surface of the part, and for doors usually the handle.
     pub(super) fn draw(
         subject: SimulatedObject,
         seen: &[Point3<f64>],
@@ -74,7 +74,7 @@ impl SpecularDropout {
         Self(patches)
     }
 
-    /// Whether the reading at a pixel is lost; `noise` of unit variance makes the edges ragged.
+    /// Returns true if the reading at a pixel is lost. `noise` of unit variance makes the edges ragged.
     pub(super) fn takes(&self, u: f64, v: f64, noise: f64) -> bool {
         self.0.iter().any(|patch| {
             let p = Point2::new(u, v);
@@ -86,7 +86,7 @@ impl SpecularDropout {
     }
 }
 
-/// The middle of a door's handle, in part space.
+/// Returns the middle of a door's handle, in part space.
 fn handle_of(subject: SimulatedObject) -> Option<Point3<f64>> {
     let SimulatedObject::Part { kind, side, .. } = subject else {
         return None;

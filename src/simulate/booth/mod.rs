@@ -1,7 +1,7 @@
 //! A paint booth: a depth camera on the robot's flange looks at a part on a stand of tubes.
 //!
-//! Modelled on depth frames of a real paint shop. What makes them harder than the plain cell: the picture often cuts the
-//! part; readings end inside the picture; tubes and clamps touch the part; walls carry ribs, frames and columns.
+//! Modelled on depth frames of a real paint shop. It is harder than the plain cell: the picture often cuts the part,
+//! readings end inside the picture, tubes and clamps touch the part, and walls have ribs, frames and columns.
 //!
 //! ```text
 //! flange ─► camera_from_part, camera_from_world ─┬─► trestle ─┐
@@ -9,7 +9,7 @@
 //! gloss ─────────┴─► registered_camera ────────────────────────────────────────────► DepthFrame
 //! ```
 //!
-//! World space: the camera's origin, x level, y down, z level and away from the camera.
+//! World space: origin at the camera, x level, y down, z level and away from the camera.
 
 mod arrange;
 mod field_of_view;

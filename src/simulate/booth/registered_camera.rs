@@ -1,10 +1,10 @@
 //! A structured-light camera whose depth is registered to a colour picture.
 //!
-//! As [`crate::simulate::sensor`] has it, with these differences: readings end inside the picture ([`FieldOfView`]); no
-//! steps of disparity are left after registering; jumps of depth lose fewer pixels and carry *flying* ones, whose depth
-//! lies between the two surfaces; glossy patches give nothing ([`SpecularDropout`]). The noise was fitted to real frames of a
+//! Like [`crate::simulate::sensor`], with these differences: readings end inside the picture ([`FieldOfView`]); no steps of
+//! disparity are left after registration; depth discontinuities lose fewer pixels and have *flying* ones, whose depth is
+//! between the two surfaces; glossy patches have no readings ([`SpecularDropout`]). The noise was fitted to real frames of a
 //! paint shop: 0.9 to 1.5 mm at 1 m, growing with z², with a correlation of 0.77, 0.50, 0.24 between columns one to
-//! three apart and of 0.77, 0.45, 0.14 between rows, which is what lets walls look rippled.
+//! three apart and of 0.77, 0.45, 0.14 between rows, which makes walls look rippled.
 
 use rand::{Rng as _, RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
@@ -21,24 +21,24 @@ use crate::{
     },
 };
 
-/// One unit of the frame, metres.
+/// One unit of the frame, in metres.
 const METRES_PER_UNIT: f64 = 0.001;
-/// Readings outside this range are lost, metres.
+/// Readings outside this range are lost, in metres.
 const RANGE: std::ops::Range<f64> = 0.4..4.0;
-/// Axial noise at 1 m, metres.
+/// Axial noise at 1 m, in metres.
 const AXIAL_AT_1M: std::ops::Range<f64> = 0.9e-3..1.6e-3;
-/// Share of the axial noise's variance that neighbours do not share.
+/// Share of the axial noise's variance that is uncorrelated between neighbours.
 const WHITE: f64 = 0.06;
-/// Lateral noise, pixels: edges wander by this.
+/// Lateral noise in pixels, which moves edges.
 const LATERAL: f32 = 0.5;
-/// Beside a jump so large a share of the pixels flies: noise above this.
+/// Beside a depth discontinuity, pixels whose noise is above this fly.
 const FLIES_ABOVE: f32 = 0.8;
 
-/// The camera with what it cannot see.
+/// A camera with its field of view and its lost patches.
 pub(in crate::simulate) struct RegisteredCamera {
     field_of_view: FieldOfView,
     gloss: SpecularDropout,
-    /// Metres at 1 m.
+    /// In metres.
     axial_at_1m: f64,
 }
 
@@ -51,7 +51,7 @@ impl RegisteredCamera {
         }
     }
 
-    /// How many pixels of the field of view show the part.
+    /// Counts the pixels in the field of view that show the part.
     pub(in crate::simulate) fn num_part_pixels(&self, rendering: &Rendering) -> usize {
         let width = rendering.intrinsics.width;
         let labels = rendering.labels.iter().enumerate();
@@ -67,7 +67,7 @@ impl RegisteredCamera {
             .count()
     }
 
-    /// The frame of a perfect rendering. Without noise the field of view is all that is lost.
+    /// Turns a perfect rendering into a frame. Without noise only pixels outside the field of view are lost.
     pub(in crate::simulate) fn sense(
         &self,
         rendering: &Rendering,
@@ -162,7 +162,7 @@ fn in_units(metres: f64) -> u16 {
     }
 }
 
-/// A disparity between this pixel's and that of the neighbour that differs most.
+/// Returns a disparity between this pixel's and that of the neighbour that differs most.
 fn flying(disparity: &[f32], camera: &Intrinsics, pixel: usize, seen: f32, noise: f32) -> f32 {
     let neighbours = [
         pixel.checked_sub(1),
@@ -177,14 +177,14 @@ fn flying(disparity: &[f32], camera: &Intrinsics, pixel: usize, seen: f32, noise
     seen + (other.unwrap_or(seen) - seen) * share
 }
 
-/// The loss field (unit variance) above which a pixel is lost. Tuned by eye to pictures of real frames.
+/// Returns the value of the loss field (unit variance) above which a pixel is lost. Tuned by eye to real frames.
 fn loss_threshold(edge_nearness: u8, facing: f32) -> f32 {
     let at_edge: f32 = match edge_nearness {
         0 => 3.2,
         1 => 2.4,
         _ => 1.2,
     };
-    // cos 70° = 0.34: nothing lost; cos 84° = 0.105: nearly all.
+    // Below cos 70° = 0.34 readings begin to be lost; at cos 84° = 0.105 nearly all are.
     let grazing = if facing < 0.34 {
         2.8 - (0.34 - facing) / (0.34 - 0.105) * 4.3
     } else {
@@ -193,15 +193,15 @@ fn loss_threshold(edge_nearness: u8, facing: f32) -> f32 {
     at_edge.min(grazing)
 }
 
-/// Noise of unit variance that neighbours in a row share a little farther than those in a column: the sensor's smooth
-/// noise, widened, and some that neighbours do not share.
+/// Noise of unit variance, correlated slightly further along rows than along columns: the sensor's smooth noise, widened,
+/// plus some white noise.
 struct RippledNoise {
     smooth: SmoothNoise,
     white: Pcg64,
-    /// The last three rows of the smooth noise, row r at r modulo 3.
+    /// The last three rows of the smooth noise; row r is at index r modulo 3.
     rows: [Vec<f32>; 3],
     num_rows: usize,
-    /// Their sum, weighted 1 2 1.
+    /// Sum of the three rows with weights 1 2 1.
     column_sum: Vec<f32>,
     row: Vec<f32>,
 }
@@ -232,12 +232,12 @@ impl RippledNoise {
         for (u, sum) in self.column_sum.iter_mut().enumerate() {
             *sum = above[u] + 2.0 * here[u] + below[u];
         }
-        // (1 2 1)/4 turns a binomial filter of width 5 into one of width 7, and (1 4 6 4 1)/16 into one of width 9, whose
+        // (1 2 1)/4 turns a binomial filter of width 5 into one of width 7, and (1 4 6 4 1)/16 into one of width 9. Their
         // squared weights add up to 924/4096 and 12870/65536 instead of 70/256.
         let per_five = 70.0 / 256.0;
         let variance = (924.0 / 4096.0 / per_five) * (12870.0 / 65536.0 / per_five);
         let scale = f64::sqrt((1.0 - WHITE) / variance) as f32 / 64.0;
-        // Even noise on ± 1 has variance 1/3.
+        // Uniform noise on ±1 has variance 1/3.
         let white = f64::sqrt(3.0 * WHITE) as f32;
         let last = self.row.len() - 1;
         let sum = &self.column_sum;

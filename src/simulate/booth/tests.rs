@@ -65,7 +65,7 @@ fn what_is_in_sight_is_what_the_picture_shows() {
 
 #[test]
 fn the_stand_touches_the_part() {
-    // Beside a pixel of the part one of the stand within 2 cm, at places enough for a clamp, in most frames.
+    // In most frames, enough pixels for a clamp have a pixel of the stand next to one of the part, within 2 cm.
     let num_touching = shots(24)
         .filter(|SimulatedFrame { frame, truth }| {
             let width = frame.intrinsics.width;

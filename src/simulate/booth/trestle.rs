@@ -1,7 +1,7 @@
-//! What holds a part in a paint booth: a frame of tubes behind it, clamps on its edge, bars beside it, legs to the floor.
+//! The stand of a part in a paint booth: a frame of tubes behind it, clamps on its edge, bars beside it, legs to the floor.
 //!
-//! The frame lies in part space, as the part was laid or hung on it; the legs run down the world. The clamps touch the
-//! part, and so do bars of the frame as often as not: a stand that could be told by a gap would be too easy.
+//! The frame is built in part space, because the part was laid or hung on it; the legs follow the world's vertical. The clamps
+//! touch the part, and often bars of the frame do too: a gap around the part would make it too easy.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -24,7 +24,7 @@ pub(super) struct Trestle {
     pub(super) floor: Plane,
 }
 
-/// A stand for the part with these vertices, in part space. `down` in camera space.
+/// Builds a stand for the part with these vertices (part space). `down` is in camera space.
 pub(super) fn trestle(
     part: &[Point3<f64>],
     camera_from_part: &RigidTransform,
@@ -58,7 +58,7 @@ pub(super) fn trestle(
         .fold(f64::NEG_INFINITY, f64::max);
     let floor = Plane {
         normal: *down,
-        // A flange is not moved about at knee height.
+        // A camera on a flange is not this low above the floor.
         offset: f64::max(
             lowest + random.random_range(0.3..1.0),
             random.random_range(0.9..1.5),
@@ -72,13 +72,13 @@ pub(super) fn trestle(
     }
 }
 
-/// The tubes of one stand are of one kind.
+/// The kind of tube of a stand.
 struct Tube {
     section: Section,
     thickness: f64,
 }
 
-/// Longer tubes are built of pieces: the rasteriser tries every pixel of a triangle's box.
+/// Longest piece of a tube, in metres: the rasteriser tries every pixel of a triangle's bounding box.
 const PIECE: f64 = 0.12;
 
 impl Tube {
@@ -115,19 +115,19 @@ impl Tube {
         let path: Vec<Point3<f64>> = (0..=num_pieces)
             .map(|k| from + along * (k as f64 / num_pieces as f64))
             .collect();
-        // The axis that runs least along the tube.
+        // The axis most nearly perpendicular to the tube.
         let facing = Vector3::ith_axis(along.iamin()).into_inner();
         sweep(tubes, &path, self.section, facing);
     }
 }
 
-/// Two long bars and some cross bars in a plane behind the part. Part space.
+/// Two long bars and some cross bars in a plane behind the part, in part space.
 struct Frame {
-    /// The axis of part space that the long bars follow; the cross bars follow the other one of x and y.
+    /// The axis along the long bars, 0 for x or 1 for y; the cross bars follow the other one.
     along: usize,
-    /// The ends of the long bars, on `along`.
+    /// Positions of the long bars' ends on `along`.
     ends: [f64; 2],
-    /// Where the long bars are, on the other axis.
+    /// Positions of the long bars on the other axis.
     bars: [f64; 2],
     /// The plane of the bars.
     z: f64,
@@ -155,7 +155,7 @@ impl Frame {
         } else {
             random.random_range(0.0..0.1)
         };
-        // What of the part lies over the bars rests on them.
+        // The part rests on the bars below it.
         let over_bars = part.iter().filter(|p| {
             bars.iter()
                 .any(|bar| (p[across] - bar).abs() < tube.thickness)
@@ -173,7 +173,7 @@ impl Frame {
         }
     }
 
-    /// The point of the frame's plane at these places along and across the long bars.
+    /// Returns the point of the frame's plane at these positions along and across the long bars.
     fn at(&self, along: f64, across: f64) -> Point3<f64> {
         if self.along == 0 {
             Point3::new(along, across, self.z)
@@ -206,7 +206,7 @@ impl Frame {
         }
     }
 
-    /// The nearest point of a long bar.
+    /// Returns the nearest point of a long bar.
     fn nearest(&self, to: &Point3<f64>) -> Point3<f64> {
         let across = to[1 - self.along];
         let [a, b] = self.bars;
@@ -219,7 +219,7 @@ impl Frame {
     }
 }
 
-/// The part's edge in a direction of the xy plane, its front.
+/// Returns the frontmost point of the part's edge in a direction of the xy plane.
 fn edge_in_direction(part: &[Point3<f64>], direction: f64) -> Option<Point3<f64>> {
     let (sin, cos) = direction.sin_cos();
     let reach = |p: &Point3<f64>| p.x * cos + p.y * sin;
@@ -230,7 +230,7 @@ fn edge_in_direction(part: &[Point3<f64>], direction: f64) -> Option<Point3<f64>
         .copied()
 }
 
-/// A clamp: an arm from the frame to beside the edge, a jaw over the edge, a spindle with a cross handle.
+/// Adds a clamp: an arm from the frame to beside the edge, a jaw over the edge, a spindle with a cross handle.
 fn add_clamp(
     tubes: &mut Assembly,
     part: &[Point3<f64>],
@@ -252,7 +252,7 @@ fn add_clamp(
     let top = beside - Vector3::z() * (0.5 * size);
     arm.add(tubes, base, top);
     if random.random_bool(0.7) {
-        // The jaw lies on the paint side.
+        // The jaw is on the paint side.
         let reach = random.random_range(0.01..0.04);
         let jaw = edge - Vector3::z() * (0.5 * size + 0.001);
         arm.add(tubes, jaw + outwards * size, jaw - outwards * reach);
@@ -269,7 +269,7 @@ fn add_clamp(
     }
 }
 
-/// A bar beside the outline, at the part's own depth, on arms from the frame.
+/// Adds a bar beside the outline, at about the edge's depth, on arms from the frame.
 fn add_bar_beside(
     tubes: &mut Assembly,
     part: &[Point3<f64>],
@@ -302,8 +302,8 @@ fn add_bar_beside(
     }
 }
 
-/// Legs from the frame's corners to the floor, a beam between two of them, a foot on each. `backwards` points from the
-/// paint side to the other one.
+/// Adds legs from the frame's corners to the floor, each with a foot, and beams between some of them. `backwards` points from
+/// the paint side to the back.
 fn add_legs(
     tubes: &mut Assembly,
     corners: &[Point3<f64>; 4],
@@ -316,14 +316,14 @@ fn add_legs(
         let v = Vector3::from_fn(|_, _| random.random_range(-0.2..0.2));
         v - floor.normal * floor.normal.dot(&v)
     };
-    // Below a part that leans forwards the legs slant back: they do not stand before it.
+    // If the part leans forwards, the legs slant back so that they do not stand in front of it.
     let down = &floor.normal;
     let level_back = backwards - down * down.dot(backwards);
     let needed = (0.05 - down.dot(backwards)).max(0.0);
     let back = level_back * (needed / level_back.norm_squared().max(0.1));
     let legs = corners.map(|top| {
         let along = floor.normal + back + level();
-        // `along` goes down by one per unit of length.
+        // `along` descends by one, so this reaches the floor.
         let foot = top + along * (floor.offset - floor.normal.dot(&top.coords));
         (top, foot)
     });

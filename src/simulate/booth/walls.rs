@@ -1,4 +1,4 @@
-//! The booth around the stand: one wall or a corner, the floor, and what is fixed to them.
+//! The booth around the stand: one wall or a corner, the floor, and fixtures and clutter.
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use rand::RngExt as _;
@@ -10,25 +10,25 @@ use crate::simulate::{
     rasteriser::{Plane, SurfaceLabel},
 };
 
-/// Walls and floor, ribs and frames on the walls, what stands before them. Camera space.
+/// Walls and floor, ribs and frames on the walls, and clutter in front of them, in camera space.
 pub(super) struct Walls {
     pub(super) planes: Vec<(Plane, SurfaceLabel)>,
     pub(super) fixtures: Assembly,
     pub(super) clutter: Assembly,
 }
 
-/// The back wall stays this far behind the part, metres.
+/// Distance of the back wall behind the part, in metres.
 const BEHIND: std::ops::Range<f64> = 0.8..2.0;
-/// Up to this angle to the view a wall is about square to it, radians.
+/// Largest angle at which a wall counts as facing the camera, in radians.
 const SQUARE: f64 = 0.25;
-/// A second wall stays this far beside it.
+/// Distance of a second wall beside the part, in metres.
 const BESIDE: std::ops::Range<f64> = 0.25..1.0;
-/// Larger boxes are built of pieces: the rasteriser tries every pixel of a triangle's box.
+/// Longest side of a box's pieces, in metres: the rasteriser tries every pixel of a triangle's bounding box.
 const PIECE: f64 = 0.6;
-/// Fixtures are built out to this far from the wall's middle.
+/// Fixtures extend this far from the wall's middle, in metres.
 const REACH: f64 = 2.4;
 
-/// Walls around the part with these points, in camera space.
+/// Draws walls around the part with these points (camera space).
 pub(super) fn walls(
     part: &[Point3<f64>],
     camera_from_world: &UnitQuaternion<f64>,
@@ -37,7 +37,7 @@ pub(super) fn walls(
 ) -> Walls {
     let mut fixtures = Assembly::default();
     let mut clutter = Assembly::default();
-    // Square to the view as a rule, oblique at times.
+    // Usually facing the camera, sometimes oblique.
     let oblique = if random.random_bool(0.65) {
         SQUARE
     } else {
@@ -56,7 +56,7 @@ pub(super) fn walls(
         (back.plane, SurfaceLabel::Wall),
         (floor, SurfaceLabel::Floor),
     ];
-    // An oblique wall recedes beyond the sensor's range unless another one closes it off.
+    // An oblique wall recedes beyond the sensor's range unless a second wall closes it off.
     let is_closed_off = heading.abs() > SQUARE;
     if is_closed_off || random.random_bool(0.4) {
         let receding = -heading.signum();
@@ -80,7 +80,7 @@ pub(super) fn walls(
     }
 }
 
-/// An upright wall with coordinates of its own: along it, down, and through it away from the viewer.
+/// An upright wall with its own coordinates: along it, down, and through it away from the viewer.
 struct Wall {
     plane: Plane,
     /// The point of the wall behind the part's middle.
@@ -99,7 +99,7 @@ impl Wall {
         let (sin, cos) = heading.sin_cos();
         let normal = camera_from_world * Vector3::new(sin, 0.0, cos);
         let reach = part.iter().map(|p| normal.dot(&p.coords));
-        // The camera is before it too.
+        // The camera is in front of it too.
         let offset = reach.fold(0.2, f64::max) + gap;
         let sum: Vector3<f64> = part.iter().map(|p| p.coords).sum();
         let middle = sum / part.len().max(1) as f64;
@@ -115,12 +115,12 @@ impl Wall {
         self.middle + self.along * p.x + self.down * p.y + self.plane.normal * p.z
     }
 
-    /// Adds a box on the wall: its middle along and down, its width, height, and how far it stands out.
+    /// Adds a box on the wall: its middle (along, down), its width and height, and how far it protrudes.
     fn add_block(&self, to: &mut Assembly, middle: [f64; 2], size: [f64; 2], out: f64) {
         self.add_box(to, middle, size, [0.0, out]);
     }
 
-    /// The same between two distances before the wall.
+    /// Adds a box between two distances in front of the wall.
     fn add_box(&self, to: &mut Assembly, middle: [f64; 2], size: [f64; 2], out: [f64; 2]) {
         let z = -f64::midpoint(out[0], out[1]);
         let depth = out[1] - out[0];
@@ -141,7 +141,7 @@ impl Wall {
         to.add(&pieces.into_mesh(), |p| self.place(p));
     }
 
-    /// Ribs, panels, frames and vents.
+    /// Adds ribs or panels, or neither, and up to four frames.
     fn add_fixtures(&self, fixtures: &mut Assembly, random: &mut Pcg64) {
         match random.random_range(0..4) {
             0 => self.add_ribs(fixtures, random),
@@ -183,7 +183,7 @@ impl Wall {
         }
     }
 
-    /// A window's frame, or a vent: a frame with slats.
+    /// Adds a window's frame, or a vent: a frame with slats.
     fn add_frame(&self, fixtures: &mut Assembly, random: &mut Pcg64) {
         let middle = [
             random.random_range(-1.2..1.2),
@@ -217,7 +217,7 @@ impl Wall {
         }
     }
 
-    /// A column and a rail before the wall, boxes on the floor at its foot.
+    /// Adds a column and a rail in front of the wall, and boxes on the floor at its foot.
     fn put_before(&self, clutter: &mut Assembly, floor: &Plane, random: &mut Pcg64) {
         let side = if random.random_bool(0.5) { 1.0 } else { -1.0 };
         if random.random_bool(0.5) {

@@ -50,7 +50,7 @@ fn every_model_of_every_part_is_a_sound_mesh() {
 
 #[test]
 fn no_model_loses_a_web_or_closes_an_opening() {
-    // Vertices - edges + triangles counts pieces less openings.
+    // Vertices - edges + triangles is the number of pieces minus that of openings.
     let euler = |mesh: &TriangleMesh| {
         let mut edges: Vec<(u32, u32)> = mesh
             .triangles
@@ -110,7 +110,7 @@ fn the_paint_side_faces_the_viewer() {
                 -(b - a).cross(&(c - a)).z / 2.0
             })
             .sum();
-        // The slats of the grille are closed bars: they add nothing.
+        // The slats of the grille are closed bars, which contribute nothing.
         assert!(towards_viewer > 0.03, "{kind}: {towards_viewer} m²");
     }
 }
@@ -128,7 +128,7 @@ fn right_is_the_mirror_image_of_left_for_sided_parts_and_the_same_for_others() {
             for (l, r) in left.mesh().vertices.iter().zip(&right.mesh().vertices) {
                 assert_eq!(Point3::new(-l.x, l.y, l.z), *r);
             }
-            // A mirror image that is its own original would not need sides.
+            // A part that equals its mirror image would not need sides.
             assert!(
                 num_vertices_apart(left.mesh(), right.mesh(), 0.02) > 5,
                 "{kind}"

@@ -9,7 +9,7 @@ use crate::simulate::region::{Region, bend};
 use crate::simulate::sheet::Sheet;
 use crate::simulate::variation::Variation;
 
-/// The back bumper, seen from behind the car.
+/// Builds the back bumper, seen from behind the car.
 pub(super) fn build(vary: &mut Variation) -> Assembly {
     let curve = PlanCurve::new(&PlanShape {
         half_width: vary.overall(0.700),
@@ -54,7 +54,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     let skirt = 0.085 + vary.shift(0.01);
 
     let lift = |u: f64, v: f64| {
-        // The ledge: the face turns inwards above its upper edge, then stands up again to the shoulders.
+        // The ledge: above its edge the face turns inwards, then upwards again to the shoulders.
         let ledge_depth = ledge_slope * (bend(ledge - v, 0.012) - bend(ledge - 0.065 - v, 0.012));
         let outwards = 0.03
             - ledge_depth

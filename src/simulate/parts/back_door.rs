@@ -5,7 +5,7 @@ use crate::simulate::assembly::Assembly;
 use crate::simulate::region::Region;
 use crate::simulate::variation::Variation;
 
-/// The left back door; the front of the car is at negative x.
+/// Builds the left back door; the front of the car is at negative x.
 pub(super) fn build(vary: &mut Variation) -> Assembly {
     let half = vary.overall(0.505);
     let roof = -vary.overall(0.525);

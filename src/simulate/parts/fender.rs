@@ -7,7 +7,7 @@ use crate::simulate::region::{Region, bend, smooth_step};
 use crate::simulate::sheet::Sheet;
 use crate::simulate::variation::Variation;
 
-/// The left fender; the front of the car is at negative x.
+/// Builds the left fender; the front of the car is at negative x.
 pub(super) fn build(vary: &mut Variation) -> Assembly {
     let half = vary.overall(0.455);
     let arch_centre = (-0.045 + vary.shift(0.012), 0.285 + vary.shift(0.01));
@@ -18,7 +18,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     let tail_top = -vary.of(0.315);
     let bumper_joint = vary.of(0.040);
     let outline = Region::outline(&[
-        // Along the bonnet, back to the tip beside the wind screen.
+        // Along the bonnet, back to the tip beside the windscreen.
         (-half + 0.10, lamp_top, 0.02),
         (-0.12, -0.235, 0.50),
         (half - 0.09, tail_top + 0.012, 0.10),
@@ -67,7 +67,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         spacing: 0.0075,
         lift: &lift,
         fold: &|x, y| {
-            // The bonnet's edge carries the screws: a broader flange.
+            // The flange is narrower along the bonnet.
             if y < crown && x < 0.35 { 0.020 } else { 0.024 }
         },
     }

@@ -1,4 +1,4 @@
-//! The front bumper: a U seen from above, cut low in the middle for the grille, with plate recess, lower intake and
+//! The front bumper: U-shaped seen from above, cut low in the middle for the grille, with plate recess, lower intake and
 //! fog lamp openings, and the front edge of the wheel arch at either end.
 
 use nalgebra::Point3;
@@ -9,7 +9,7 @@ use crate::simulate::region::{Region, bend};
 use crate::simulate::sheet::Sheet;
 use crate::simulate::variation::Variation;
 
-/// The front bumper.
+/// Builds the front bumper, seen from in front of the car.
 pub(super) fn build(vary: &mut Variation) -> Assembly {
     let curve = PlanCurve::new(&PlanShape {
         half_width: vary.overall(0.700),

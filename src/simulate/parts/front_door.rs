@@ -1,11 +1,11 @@
-//! The front door: slanted A-pillar edge in front, mirror triangle, open window, handle bowl at the back.
+//! The front door: slanted A-pillar edge in front, mirror triangle, open window, handle recess at the back.
 
 use super::side_panel::{Door, SidePanel};
 use crate::simulate::assembly::Assembly;
 use crate::simulate::region::Region;
 use crate::simulate::variation::Variation;
 
-/// The left front door; the front of the car is at negative x.
+/// Builds the left front door; the front of the car is at negative x.
 pub(super) fn build(vary: &mut Variation) -> Assembly {
     let half = vary.overall(0.53);
     let roof = -vary.overall(0.53);

@@ -8,7 +8,7 @@ use crate::simulate::region::Region;
 use crate::simulate::sheet::Sheet;
 use crate::simulate::variation::Variation;
 
-/// The grille, seen from in front of the car.
+/// Builds the grille, seen from in front of the car.
 pub(super) fn build(vary: &mut Variation) -> Assembly {
     let half_top = vary.overall(0.450);
     let half_bottom = vary.of(0.330);
@@ -76,7 +76,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     grille
 }
 
-/// Half the width of the opening at height `y`.
+/// Returns half the width of the opening at height `y`.
 fn slat_reach(opening: &Region, y: f64) -> f64 {
     let (mut inside, mut outside) = (0.0, 0.6);
     for _ in 0..20 {

@@ -1,7 +1,7 @@
-//! The eight parts, one file each: dimensions of a small city car, left side where there are sides.
+//! The eight parts, one file each, with the dimensions of a small city car; parts with sides are modelled for the left.
 //!
-//! A part is one or two pressed sheets ([`super::sheet`]) and, for the open ones, bars ([`super::beam`]). Dimensions
-//! were set by eye against photographs' proportions, not taken from any maker's drawing. The sheet has no thickness.
+//! A part is one or two pressed sheets ([`super::sheet`]) and, for the grille, bars ([`super::beam`]). Dimensions were set
+//! by eye from the proportions in photographs, not from any maker's drawing. The sheet has no thickness.
 
 mod back_bumper;
 mod back_door;
@@ -17,7 +17,7 @@ use super::assembly::Assembly;
 use super::part::PartKind;
 use super::variation::Variation;
 
-/// Builds a part with the dimensions that `vary` gives out.
+/// Builds a part with the dimensions that `vary` supplies.
 pub(super) fn build(kind: PartKind, vary: &mut Variation) -> Assembly {
     match kind {
         PartKind::FrontBumper => front_bumper::build(vary),

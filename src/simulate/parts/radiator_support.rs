@@ -8,7 +8,7 @@ use crate::simulate::region::Region;
 use crate::simulate::sheet::Sheet;
 use crate::simulate::variation::Variation;
 
-/// The radiator support, seen from in front of the car.
+/// Builds the radiator support, seen from in front of the car.
 pub(super) fn build(vary: &mut Variation) -> Assembly {
     let half = vary.overall(0.575);
     let top = -vary.overall(0.250);
@@ -39,7 +39,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         (0.5 * brace, opening_bottom, 0.03),
     ])
     .on_both_sides();
-    // The lamp sits in a round seat; what is left of the bracket is a ring.
+    // The lamp sits in a round seat, so that the bracket is a ring.
     let lamp = Region::disc(
         (
             half - 0.094 + vary.shift(0.006),
@@ -63,7 +63,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     let lamp_set_back = vary.of(0.055);
 
     let lift = |x: f64, y: f64| {
-        // The upper beam stands in front of the lower one; the lamp brackets lie behind both.
+        // The upper beam stands in front of the lower one; the lamp brackets are behind both.
         let lean = 0.10 * y;
         let bracket = lamp_set_back * ((x.abs() - upright) / 0.10).clamp(0.0, 1.0);
         let pressed = beads.pressing(x, y, 0.012) + lower_beads.pressing(x, y, 0.012)

@@ -1,4 +1,4 @@
-//! What both doors share: the barrel of the car's side, its lines, and how a door is pressed.
+//! Common to both doors: the curved side of the car, its lines, and the pressing of a door.
 
 use nalgebra::Point3;
 
@@ -7,29 +7,29 @@ use crate::simulate::region::{Region, bend};
 use crate::simulate::sheet::Sheet;
 use crate::simulate::variation::Variation;
 
-/// Height at which a car's side bulges out farthest, y.
+/// Height (y) at which a car's side bulges most.
 const BULGE_MIDDLE: f64 = 0.12;
 
 /// The outer surface of a car's side, as depth over (x, y).
 pub(super) struct SidePanel {
-    /// Height of the waistline (lower edge of the window), y.
+    /// Height (y) of the waistline, the lower edge of the window.
     pub(super) waist: f64,
-    /// Slope that the window frame adds at the waist, metres of depth per metre of height.
+    /// Slope of the window frame above the waist, in metres of depth per metre of height.
     pub(super) tumblehome: f64,
     /// Radius of the panel's bulge below the waist.
     pub(super) bulge_radius: f64,
     /// Radius of the panel's bow along the car.
     pub(super) bow_radius: f64,
-    /// Height of the character line, y at x = 0, and its slope.
+    /// The character line: its y at x = 0, and its slope.
     pub(super) line: (f64, f64),
-    /// How far the line stands out, metres.
+    /// Height of the character line above the surface, in metres.
     pub(super) line_height: f64,
-    /// Height of the lower scallop, y.
+    /// Height (y) of the lower scallop.
     pub(super) scallop: f64,
 }
 
 impl SidePanel {
-    /// The side of the car model; `waist` is the door's own.
+    /// Draws the side of a car model; `waist` is given by the door.
     pub(super) fn new(vary: &mut Variation, waist: f64) -> Self {
         Self {
             waist,
@@ -42,15 +42,15 @@ impl SidePanel {
         }
     }
 
-    /// Depth of the surface; smaller is nearer to the viewer.
+    /// Returns the depth of the surface; smaller is nearer to the viewer.
     pub(super) fn depth(&self, x: f64, y: f64) -> f64 {
         let above = bend(self.waist - y, 0.04);
-        // The bulge ends at the waist; the window frame goes on straight.
+        // The bulge ends at the waist; the window frame continues straight.
         let off_middle = y.max(self.waist) - BULGE_MIDDLE;
         let onwards = (y - self.waist).min(0.0) * (self.waist - BULGE_MIDDLE);
         let bulge = (0.5 * off_middle * off_middle + onwards) / self.bulge_radius;
         let bow = x * x / (2.0 * self.bow_radius);
-        // The character line: a ridge, sharp on top, running out over 8 cm below and 5 cm above.
+        // The character line: a sharp ridge that runs out over 8 cm below and 5 cm above.
         let off_line = y - (self.line.0 + self.line.1 * x);
         let reach = if off_line > 0.0 { 0.08 } else { 0.05 };
         let ridge = (1.0 - off_line.abs() / reach).max(0.0).powi(2) * self.line_height;
@@ -59,18 +59,18 @@ impl SidePanel {
     }
 }
 
-/// A door: its outline with the window taken out, its panel, and what is pressed into it.
+/// A door: its outline without the window, its panel, and what is pressed into it.
 pub(super) struct Door<'a> {
     pub(super) region: &'a Region,
     pub(super) panel: &'a SidePanel,
-    /// The bowl behind the handle.
+    /// The recess behind the handle.
     pub(super) handle: &'a Region,
-    /// The flat triangle that carries the mirror, or any other patch set in.
+    /// A recessed patch such as the flat triangle for the mirror.
     pub(super) patch: Option<&'a Region>,
 }
 
 impl Door<'_> {
-    /// Presses the door.
+    /// Builds the door.
     pub(super) fn build(&self) -> Assembly {
         let lift = |x: f64, y: f64| {
             let mut z = self.panel.depth(x, y) + 0.022 * self.handle.pressing(x, y, 0.014);

@@ -7,16 +7,16 @@ use crate::simulate::region::Region;
 use crate::simulate::sheet::Sheet;
 use crate::simulate::variation::Variation;
 
-/// The side view: two lines and the arc between them, by arc length from the bend.
+/// The side view: two lines joined by an arc, parametrised by arc length from the middle of the bend.
 struct Profile {
-    /// Direction of the deck and of the rear face against straight down, radians, positive towards the viewer.
+    /// Directions of the deck and of the rear face relative to straight down, in radians, positive towards the viewer.
     deck: f64,
     face: f64,
     bend_radius: f64,
 }
 
 impl Profile {
-    /// (y, z) and the outward normal at arc length `v` from the middle of the bend, positive down the rear face.
+    /// Returns (y, z) and the outward normal at arc length `v` from the middle of the bend, positive down the rear face.
     fn at(&self, v: f64) -> ((f64, f64), (f64, f64)) {
         let half_arc = 0.5 * (self.deck - self.face) * self.bend_radius;
         let middle = 0.5 * (self.deck + self.face);
@@ -36,7 +36,7 @@ impl Profile {
     }
 }
 
-/// The trunk lid, seen from behind the car and a little above.
+/// Builds the trunk lid, seen from behind the car and a little above.
 pub(super) fn build(vary: &mut Variation) -> Assembly {
     let profile = Profile {
         deck: 1.02 + vary.shift(0.06),

@@ -86,7 +86,7 @@ fn the_same_setup_gives_the_same_bits_and_another_seed_other_ones() {
     );
 }
 
-/// Bench results are compared from one version to the next: a frame of a seed may not change.
+/// Bench results are compared from version to version, so the frame of a seed must not change.
 #[test]
 fn the_plain_cell_gives_the_frames_it_always_gave() {
     let sums = [
@@ -139,7 +139,7 @@ fn a_part_cut_off_by_the_frame_says_so() {
         ..CellSetup::with_part(PartKind::TrunkLid, Side::Left, 0, 1)
     };
     assert!(frame(&setup(pose)).truth.fully_visible);
-    // The middle of the lid on the edge of the frame.
+    // Put the middle of the lid on the edge of the frame.
     pose.translation.x = 320.0 / 525.0 * 1.2;
     let truth = frame(&setup(pose)).truth;
     assert!(!truth.fully_visible);

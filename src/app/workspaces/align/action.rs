@@ -1,4 +1,4 @@
-//! What can happen in the workspace, and what a person is asked to choose.
+//! Actions of the workspace, and the files that it asks for.
 
 use std::path::PathBuf;
 
@@ -11,54 +11,54 @@ use crate::app::{
 /// Something that happened in the workspace.
 #[derive(Debug)]
 pub enum AlignAction {
-    /// Align something else.
+    /// Choose what is aligned to what.
     Choose(Pairing),
-    /// Take this enrolled part.
+    /// Choose this enrolled part.
     ChoosePart(String),
-    /// Begin here.
+    /// Choose the start.
     ChooseStart(Start),
-    /// Begin at the next random start.
+    /// Choose the next random start.
     DrawStart,
-    /// Write a start, or stop writing.
+    /// Open or close the form for a custom start.
     ToggleCustom,
-    /// The custom start now reads so.
+    /// Replace the text of the custom start.
     WriteCustom(String),
-    /// Begin at the custom start.
+    /// Choose the custom start.
     UseCustom,
-    /// Have a person choose a file.
+    /// Ask for a file.
     Ask(AlignFile),
-    /// A person chose it.
+    /// A file was chosen.
     Chosen(AlignFile, PathBuf),
     /// Align.
     Run,
-    /// Stop what is at work.
+    /// Cancel the running job.
     Cancel,
-    /// Go on with Table I.
+    /// Continue Table I.
     RunTable,
-    /// Work out Table I from its first row.
+    /// Compute Table I from its first row.
     RestartTable,
-    /// Take part and start of this row of Table I, and align.
+    /// Choose part and start of this row of Table I, and align.
     OpenRow(usize),
     /// Show this iteration.
     Scrub(f32),
-    /// Go forwards by this many iterations, or backwards if negative.
+    /// Move by this many iterations; negative is backwards.
     Step(f32),
     /// Play or pause.
     TogglePlay,
     /// Advance playback by this many seconds.
     Advance(f32),
-    /// Put Table I on the clipboard.
+    /// Copy Table I to the clipboard.
     CopyTable,
 }
 
-/// What a person is asked to choose.
+/// A file that a person is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AlignFile {
-    /// The file that is moved.
+    /// The file that is moved onto the target.
     Source,
-    /// The file that stays.
+    /// The file that the source is moved onto.
     Target,
-    /// Where Table I is written to.
+    /// The file that Table I is written to.
     TableFile,
 }
 

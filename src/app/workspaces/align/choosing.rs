@@ -1,4 +1,4 @@
-//! Above the views: what is aligned to what, from where, and Run.
+//! Above the views: what is aligned to what, the start, and Run.
 
 use egui::{
     Align, Align2, Button, DragValue, Label, Layout, Response, RichText, TextEdit, Ui, Vec2, vec2,
@@ -22,13 +22,13 @@ use crate::app::{
     },
 };
 
-/// Longest name shown of a file.
+/// Longest file name shown, characters.
 const NAME: usize = 22;
 
-/// Height of a remark about a custom start, logical pixels.
+/// Height of a remark on a custom start, logical pixels.
 const REMARK: f32 = 18.0;
 
-/// The height that everything takes.
+/// Height of this panel's contents, logical pixels.
 pub(super) fn height(align: &AlignState) -> f32 {
     let rows = 2.0 * space::TARGET + space::SMALL;
     if align.pairing != Pairing::MovedCopy || align.custom.form == Form::Closed {
@@ -38,7 +38,7 @@ pub(super) fn height(align: &AlignState) -> f32 {
     rows + space::SMALL + space::TARGET + num_remarks * (space::SMALL + REMARK)
 }
 
-/// Draws it; answers from where the views are to look, if a person said so.
+/// Draws the panel; returns the view direction if one was chosen.
 pub(super) fn ui(
     ui: &mut Ui,
     align: &AlignState,
@@ -83,7 +83,7 @@ pub(super) fn ui(
     look
 }
 
-/// From where the views look, for all of them at once.
+/// Menu of view directions, for all views at once.
 fn look_menu(ui: &mut Ui) -> Option<ViewDirection> {
     let menu = ui.menu_button(format!("{} ▼", text!("align-view-menu")), |ui| {
         let looks = [
@@ -177,7 +177,7 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
     menu.response.on_hover_text(text!("align-part-hint"));
 }
 
-/// Starts of a moved copy.
+/// Draws the starts of a moved copy.
 fn starts(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
     let start = align.start;
     ui.label(RichText::new(text!("align-start")).color(theme.weak_text));
@@ -217,7 +217,7 @@ fn starts(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
     }
 }
 
-/// The six numbers of a start, for a person.
+/// Formats the six numbers of a start.
 fn numbers(start: Start) -> String {
     let transform = start.transform();
     let (rx, ry, rz) = transform.rotation.euler_angles();
@@ -236,7 +236,7 @@ fn numbers(start: Start) -> String {
     format!("{numbers}\nR = Rz·Ry·Rx")
 }
 
-/// A start being written.
+/// Draws the form of a custom start.
 fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
     let custom = &align.custom;
     ui.horizontal(|ui| {
@@ -279,7 +279,7 @@ fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
     }
 }
 
-/// Which scene is aligned.
+/// Draws which scene is aligned.
 fn scene(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
     ui.set_min_height(space::TARGET);
     let text = match (&session.shown, align.choice(session)) {
@@ -295,7 +295,7 @@ fn scene(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
     ui.label(RichText::new(text).color(theme.weak_text));
 }
 
-/// Which files are aligned.
+/// Draws which files are aligned.
 fn files(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
     for (role, path, file) in [
         (text!("align-source"), &align.source, AlignFile::Source),

@@ -1,15 +1,15 @@
-//! A start that a person writes: six numbers, with units or without.
+//! A start that a person enters: six numbers, with or without units.
 
 use crate::geometry::written_pose::parse_pose;
 
-/// A start as a person writes it.
+/// A start as entered by a person.
 #[derive(Debug, Default)]
 pub struct CustomStart {
-    /// Whether it is being written.
+    /// Whether its form is open.
     pub form: Form,
-    /// The text.
+    /// The text entered.
     pub text: String,
-    /// What is wrong with it, and what is odd about it.
+    /// Errors and doubts found in the text.
     pub remarks: Vec<String>,
 }
 
@@ -32,7 +32,7 @@ impl CustomStart {
         self.text = text;
     }
 
-    /// True if the text is a start.
+    /// True if the text can be read as a start.
     pub fn is_start(&self) -> bool {
         parse_pose(&self.text).is_ok()
     }

@@ -1,4 +1,4 @@
-//! Align, the engineer's: every method on the same two clouds, side by side, and Table I.
+//! Align, for the engineer: every method on the same two clouds, side by side, and Table I.
 //!
 //! ```text
 //! choosing  what is aligned to what, from where       start, custom, pair
@@ -48,9 +48,9 @@ use crate::app::{
     ui::viewport::{ViewError, ViewportGpu},
 };
 
-/// Width of the panel on the right, logical pixels, and in a narrow window.
+/// Width of the panel on the right in a wide and in a narrow window, logical pixels.
 const SIDE: [f32; 2] = [340.0, 300.0];
-/// Height of the plot, logical pixels, and in a low window.
+/// Height of the plot in a high and in a low window, logical pixels.
 const PLOT: [f32; 2] = [236.0, 200.0];
 
 /// The shortcuts of this workspace.
@@ -93,7 +93,7 @@ pub struct AlignWorkspace {
 }
 
 impl AlignWorkspace {
-    /// Before anything was aligned.
+    /// Creates the workspace without a result.
     pub fn new(gpu: &Result<ViewportGpu, ViewError>, runner: &TaskRunner) -> Self {
         Self {
             state: AlignState::new(runner),
@@ -102,12 +102,12 @@ impl AlignWorkspace {
         }
     }
 
-    /// What it knows.
+    /// The state of the workspace.
     pub fn state(&self) -> &AlignState {
         &self.state
     }
 
-    /// The same, to be changed without a person.
+    /// The state, to be changed by a program.
     pub fn state_mut(&mut self) -> &mut AlignState {
         &mut self.state
     }

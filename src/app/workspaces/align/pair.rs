@@ -1,4 +1,4 @@
-//! Two clouds to be aligned, made ready once: what is searched, what is drawn, and the truth where it is known.
+//! The two clouds to be aligned, prepared once for searching and drawing, with the truth where it is known.
 
 use std::{
     path::{Path, PathBuf},
@@ -32,60 +32,60 @@ use crate::{
     },
 };
 
-/// Which two clouds.
+/// Where the two clouds come from.
 #[derive(Clone, Debug)]
 pub enum PairSource {
-    /// An enrolled part moved by a known transform, and the same points where they were: the protocol of Table I.
+    /// An enrolled part moved by a known transform, and the same part unmoved: the protocol of Table I.
     MovedCopy {
-        /// The part's name.
+        /// Name of the enrolled part.
         part: String,
-        /// How it is moved.
+        /// The transform that moves it.
         start: Start,
     },
-    /// The part found in an inspected scene, and an enrolled one.
+    /// The part found in an inspected scene, and an enrolled part.
     Scene {
         /// The scene.
         inspected: Arc<Inspected>,
-        /// The enrolled part's name.
+        /// Name of the enrolled part.
         part: String,
     },
     /// Two files.
     Files {
-        /// What is moved.
+        /// The file that is moved onto the target.
         source: PathBuf,
-        /// What stays.
+        /// The file that the source is moved onto.
         target: PathBuf,
     },
 }
 
-/// Two clouds, ready to be aligned and drawn. The source starts as it lies.
+/// Two clouds, ready to be aligned and drawn. Methods begin with the source where it lies.
 #[derive(Debug)]
 pub struct Pair {
-    /// What a person calls it.
+    /// Title shown to a person.
     pub title: String,
-    /// What is moved.
+    /// The cloud that is moved onto the target.
     pub source: PointCloud,
-    /// What stays.
+    /// The cloud that the source is moved onto.
     pub target: PointCloud,
-    /// The points of the source that E is measured over, thinned as for the estimate's own figures.
+    /// The points of the source over which E is measured, thinned as for the estimate's own figures.
     pub sample: Vec<Point3<f32>>,
-    /// The target as a method searches it, or why none can.
+    /// The target prepared for the methods, or why it cannot be.
     pub prepared: Result<PreparedTarget, PoseError>,
     /// Search tree over the target's finite points.
     pub target_tree: KdTree,
-    /// The source as it is drawn, in its own space.
+    /// The source as drawn, in its own frame.
     pub source_points: PointSet,
-    /// The target as it is drawn.
+    /// The target as drawn.
     pub target_points: PointSet,
-    /// The pose that lays the source exactly over the target, where it is known.
+    /// The pose that maps the source exactly onto the target, where it is known.
     pub truth: Option<RigidTransform>,
-    /// Middle of the source's points, where shifts are compared; source space.
+    /// Centroid of the source, where shifts are compared; source frame.
     pub middle: Point3<f64>,
-    /// What is odd about the files.
+    /// Warnings about the files.
     pub warnings: Vec<UserError>,
 }
 
-/// E is measured over so many points of the source, up to twice as many.
+/// E is measured over this many to twice as many points of the source, or over all if there are fewer.
 const SAMPLE: usize = 4_000;
 
 impl Pair {
@@ -120,7 +120,7 @@ impl Pair {
                 let mut warnings = Vec::new();
                 let mut source = open(source, &mut warnings)?;
                 let mut target = open(target, &mut warnings)?;
-                // Far from the origin neither drawing nor E would resolve the points.
+                // Far from the origin, `f32` resolves the points too coarsely for drawing and for E.
                 if let Some((low, high)) = target.bounds() {
                     let middle = nalgebra::center(&low.cast::<f64>(), &high.cast::<f64>()).coords;
                     for point in source.points.iter_mut().chain(&mut target.points) {
@@ -136,7 +136,7 @@ impl Pair {
         }
     }
 
-    /// The protocol of Table I: the same points, moved.
+    /// Makes a pair by the protocol of Table I: the same points, moved.
     pub fn moved_copy(reference: &Reference, title: &str, start: Start) -> Self {
         let moved = start.transform();
         let points = &reference.cloud.points;
@@ -178,19 +178,19 @@ impl Pair {
         }
     }
 
-    /// How far a pose is from the truth, where that is known.
+    /// Returns the error of a pose where the truth is known.
     pub fn true_error(&self, target_from_source: &RigidTransform) -> Option<rigid::PoseDelta> {
         let truth = self.truth.as_ref()?;
         Some(rigid::pose_error(target_from_source, truth, &self.middle))
     }
 
-    /// E(R, t) of eq. 12 at a pose, square metres, over [`sample`](Self::sample): the mean squared distance to the
-    /// closest points of the target, however far they are. Infinite without points.
+    /// Returns E(R, t) of eq. 12 at a pose, square metres, over [`sample`](Self::sample): the mean squared distance to
+    /// the closest points of the target, at any distance. Infinite without points.
     pub fn e_m2(&self, target_from_source: &RigidTransform) -> f64 {
         self.e_m2_over(target_from_source, 1)
     }
 
-    /// The same over every `step`-th point of the sample.
+    /// Returns E over every `step`-th point of the sample.
     pub(super) fn e_m2_over(&self, target_from_source: &RigidTransform, step: usize) -> f64 {
         let moved = target_from_source.cast::<f32>();
         let nearest = |p| self.target_tree.nearest(&(moved * p), f32::INFINITY);
@@ -212,7 +212,7 @@ fn drawn(cloud: &PointCloud, role: Role) -> PointSet {
     PointSet::new(points, role)
 }
 
-/// The enrolled part of this name, and its name for people.
+/// Finds the enrolled part of this name, and its title.
 fn find<'a>(shelved: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
     let place = shelved.shown.place_of(part);
     let reference = place.and_then(|place| shelved.library.references.get(place));

@@ -1,4 +1,4 @@
-//! What is shown of a comparison: which iteration, and whether it moves on.
+//! Which iteration of a comparison is shown, and playback.
 
 use std::sync::Arc;
 
@@ -8,23 +8,23 @@ use super::{
     track::{MethodRun, Track},
 };
 
-/// A pair and what the methods made of it.
+/// A pair and the results of the methods on it.
 #[derive(Debug)]
 pub struct MethodComparison {
-    /// The pair.
+    /// The pair of clouds.
     pub pair: Arc<Pair>,
-    /// One per method that has run, in their order.
+    /// One per method that has run, in the order of the methods.
     pub runs: Vec<Arc<MethodRun>>,
 }
 
 impl MethodComparison {
-    /// The longest way's last place.
+    /// Last iteration of the longest track.
     pub fn last_place(&self) -> usize {
         let tracks = self.tracks().map(|(_, track)| track.poses.len());
         tracks.max().unwrap_or(1).saturating_sub(1)
     }
 
-    /// The ways of the methods that found a pose.
+    /// The tracks of the methods that found a pose.
     pub fn tracks(&self) -> impl Iterator<Item = (&MethodRun, &Track)> {
         let found = |run: &'_ MethodRun| run.track.is_ok();
         let runs = self.runs.iter().map(Arc::as_ref);
@@ -33,23 +33,23 @@ impl MethodComparison {
     }
 }
 
-/// Whether the scrubber moves by itself.
+/// Whether the scrubber advances by itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Playback {
-    /// It stands.
+    /// The scrubber stands still.
     #[default]
     Paused,
-    /// It moves on.
+    /// The scrubber advances.
     Playing,
 }
 
-/// The scrubber plays a whole way in so many seconds, short ones more quickly.
+/// Duration of a playback, seconds; short tracks take less.
 const PLAY_SECONDS: f32 = 6.0;
-/// Slowest pace, iterations per second.
+/// Slowest playback, iterations per second.
 const LEAST_PACE: f32 = 10.0;
 
 impl AlignState {
-    /// The last place of the scrubber.
+    /// Last place of the scrubber, iterations.
     pub fn last_place(&self) -> usize {
         self.shown.as_ref().map_or(0, MethodComparison::last_place)
     }
@@ -82,7 +82,7 @@ impl AlignState {
         }
     }
 
-    /// A method has run: the first of a pair brings the pair to the front.
+    /// Adds a method's run; the first run of a pair shows that pair.
     pub(super) fn add_run(&mut self, run: Arc<MethodRun>) {
         match (self.coming.take(), &mut self.shown) {
             (Some(pair), shown) => {
@@ -93,7 +93,7 @@ impl AlignState {
             (None, Some(shown)) => shown.runs.push(run),
             (None, None) => return,
         }
-        // The end is what a person wants to see first.
+        // Show the end first.
         if self.playback == Playback::Paused {
             self.place = self.last_place() as f32;
         }

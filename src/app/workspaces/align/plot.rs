@@ -1,4 +1,4 @@
-//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3, the genetic searches.
+//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3, and the genetic searches.
 
 use egui::{Align2, Painter, Pos2, Rect, Stroke, Ui, Vec2, pos2};
 use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotTransform, Points, Span};
@@ -18,7 +18,7 @@ use crate::app::{
 
 /// The goal of Algorithm 3, 1e-6 m², as a power of ten.
 const GOAL: f64 = -6.0;
-/// Opacity of a method's level after its end.
+/// Opacity of the line that continues a curve beyond its end.
 const HELD: f32 = 0.5;
 
 /// Draws axes, goal, searches, curves and the scrubber at `place`.
@@ -53,7 +53,7 @@ pub(super) fn show(
             let line = curve(&track.log_e, colour).width(2.0);
             plot.line(line.style(series::style(run.method)));
             let [x, y] = end_of(track);
-            // Where it ended it stays, while others go on.
+            // Continue at the final level while other methods still iterate.
             let held = Line::new("", vec![[x, y], [last as f64, y]]).width(1.0);
             plot.line(held.color(colour.gamma_multiply(HELD)));
             plot.points(Points::new("", vec![[x, y]]).color(colour).radius(3.5));
@@ -71,12 +71,12 @@ pub(super) fn show(
     let x = drawn.position_from_point_x(f64::from(place));
     let stroke = Stroke::new(1.5, theme.text);
     painter.vline(x, area.y_range(), stroke);
-    // Above the curves: below them are the numbers.
+    // The handle is above the curves; the numbers are below them.
     painter.circle_filled(pos2(x, area.top()), 5.0, theme.text);
     drawn
 }
 
-/// Where the curve of a way ends.
+/// End of a track's curve, plot coordinates.
 fn end_of(track: &Track) -> [f64; 2] {
     let last = track.log_e.len().saturating_sub(1);
     [
@@ -85,7 +85,7 @@ fn end_of(track: &Track) -> [f64; 2] {
     ]
 }
 
-/// What the shaded stretches are, once, in the first of them, on a plate over the grid.
+/// Labels the first of the shaded genetic searches, on a plate over the grid.
 fn name_the_searches(
     painter: &Painter,
     drawn: &PlotTransform,
@@ -105,7 +105,7 @@ fn name_the_searches(
     Some(rect)
 }
 
-/// The goal's name above its line, where no curve runs through it: at the right end, in the middle or at the left.
+/// Labels the goal where no curve runs through the label: above its line at the right, middle or left, else below it.
 fn name_the_goal(
     painter: &Painter,
     drawn: &PlotTransform,
@@ -142,7 +142,7 @@ fn name_the_goal(
     rect
 }
 
-/// True if the curve crosses the rectangle, nearly enough: its pieces are looked at in small steps.
+/// True if the curve crosses the rectangle, sampled at a few steps per segment.
 fn runs_through(points: &[Pos2], rect: Rect) -> bool {
     const STEPS: usize = 8;
     points.windows(2).any(|ends| {
@@ -150,7 +150,7 @@ fn runs_through(points: &[Pos2], rect: Rect) -> bool {
     })
 }
 
-/// The method's name beside the end of its curve, moved up or down to where it is free.
+/// Draws the method's name beside the end of its curve, moved up or down to a free place.
 fn name(
     painter: &Painter,
     area: Rect,

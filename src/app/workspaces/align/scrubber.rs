@@ -1,4 +1,4 @@
-//! Below the views: the plot, which is also the scrubber, and Play.
+//! Below the views: the plot, which is also the scrubber, and playback.
 
 use egui::{Align, Button, Id, Layout, RichText, Sense, Ui, vec2};
 
@@ -17,7 +17,7 @@ use crate::app::{
     },
 };
 
-/// Page Up and Page Down go so many iterations.
+/// Iterations moved by Page Up and Page Down.
 const PAGE: f32 = 10.0;
 
 /// Draws heading and plot.
@@ -106,7 +106,7 @@ fn heading(
     });
 }
 
-/// Before there is a curve.
+/// Draws the panel before there is a curve.
 fn none(ui: &mut Ui, align: &AlignState, theme: &Theme) {
     ui.label(
         RichText::new("E(R, t), m²")

@@ -1,4 +1,4 @@
-//! How a method is told from the others: by its name, its colour, and the dashes of its curve.
+//! Name, colour and line style by which methods are told apart.
 
 use egui::Color32;
 use egui_plot::LineStyle;
@@ -8,7 +8,7 @@ use crate::{
     stages::pose::PoseMethod,
 };
 
-/// What a person calls a method.
+/// Name of a method, for a person.
 pub(super) fn title(method: PoseMethod) -> String {
     match method {
         PoseMethod::Icp => "ICP".into(),
@@ -17,7 +17,7 @@ pub(super) fn title(method: PoseMethod) -> String {
     }
 }
 
-/// Its colour.
+/// Colour of a method.
 pub(super) fn colour(method: PoseMethod, theme: &Theme) -> Color32 {
     match method {
         PoseMethod::Icp => theme.second_series,
@@ -26,7 +26,7 @@ pub(super) fn colour(method: PoseMethod, theme: &Theme) -> Color32 {
     }
 }
 
-/// Its curve: whole for ICP, in dashes or dots for the others.
+/// Line style of a method's curve: solid for ICP, dashed or dotted for the others.
 pub(super) fn style(method: PoseMethod) -> LineStyle {
     match method {
         PoseMethod::Icp => LineStyle::Solid,

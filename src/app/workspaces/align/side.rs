@@ -1,4 +1,4 @@
-//! On the right: Table I, and how far the methods shown are from the truth.
+//! On the right: Table I, and how far the shown methods ended from the truth.
 
 use std::{fmt::Write as _, time::Duration};
 
@@ -20,14 +20,14 @@ use crate::{
     stages::pose::{PoseMethod, Uncertainty},
 };
 
-/// Width of a column of numbers at most, logical pixels.
+/// Largest width of a column of numbers, logical pixels.
 const COLUMN: f32 = 88.0;
-/// Room for the names on the left of them.
+/// Width of the names on the left, logical pixels.
 const NAMES: f32 = 44.0;
-/// Height of the name above the rows of a part.
+/// Height of a part's name above its rows, logical pixels.
 const PART: f32 = 26.0;
 
-/// What the panel keeps between frames: how many rows were there, to follow them as they come.
+/// State kept between frames: the number of rows seen, to scroll to new ones.
 #[derive(Default)]
 pub(super) struct SidePanel {
     num_seen: usize,
@@ -81,7 +81,7 @@ impl SidePanel {
     }
 }
 
-/// How far the table is, and how to begin, go on or stop.
+/// Draws the progress of the table, and the buttons to start, continue or cancel it.
 fn progress(
     ui: &mut Ui,
     align: &AlignState,
@@ -147,7 +147,7 @@ fn progress(
     }
 }
 
-/// How far the table is while rows are being added.
+/// Progress while rows are being added, in words.
 fn going(num: usize, total: usize, remaining: Option<Duration>) -> String {
     match remaining {
         Some(time) => {
@@ -163,7 +163,7 @@ fn going(num: usize, total: usize, remaining: Option<Duration>) -> String {
     }
 }
 
-/// How far the table is when nobody works on it.
+/// Progress while the table is not at work, in words.
 fn standing(num: usize, total: usize) -> String {
     match num {
         0 => text!("align-rows", total = total),
@@ -179,7 +179,7 @@ fn shortly(time: Duration) -> String {
     }
 }
 
-/// The right edges of the columns, from left to right.
+/// Number and right edge of each column, from left to right.
 fn columns(rect: Rect) -> impl Iterator<Item = (usize, f32)> {
     let num = PoseMethod::ALL.len();
     let width = ((rect.width() - NAMES) / num as f32).min(COLUMN);
@@ -279,19 +279,19 @@ fn paint_row(painter: &Painter, rect: Rect, row: &TableRow, theme: &Theme) {
     }
 }
 
-/// The sign of the best: a tick.
+/// Draws a tick, the mark of the best result.
 fn tick(painter: &Painter, centre: Pos2, stroke: Stroke) {
     let at = |x: f32, y: f32| centre + vec2(x, y);
     let corners = vec![at(-4.0, 0.0), at(-1.0, 3.5), at(4.5, -4.0)];
     painter.add(Shape::line(corners, stroke));
 }
 
-/// A small number in little room: "2.0e-3".
+/// Formats a small number briefly: "2.0e-3".
 fn short(value: f64) -> String {
     format!("{value:.1e}")
 }
 
-/// A row for a screen reader.
+/// Describes a row for a screen reader.
 fn spoken(row: &TableRow) -> String {
     let mut text = format!("{}, {}", row.title, Start::Paper(row.start).title());
     for (place, cell) in row.cells.iter().enumerate() {
@@ -309,7 +309,7 @@ fn spoken(row: &TableRow) -> String {
     text
 }
 
-/// How far the methods shown ended from the truth.
+/// Draws the errors of the shown methods, or their bounds where the truth is not known.
 fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
     let Some(shown) = &align.shown else {
         return;

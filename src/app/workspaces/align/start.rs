@@ -1,4 +1,4 @@
-//! How far off the source begins: the paper's five transforms, one that a person writes, one drawn at random.
+//! Starts of a moved copy: the paper's five transforms, a custom one, or a random one.
 
 use std::f64::consts::PI;
 
@@ -11,17 +11,17 @@ use crate::{
     stages::pose::displacements::DISPLACEMENTS,
 };
 
-/// Largest shift along each axis of a random start, metres: that of T1.
+/// Largest shift of a random start along each axis, metres: that of T1.
 const RANDOM_SHIFT: f64 = 0.8;
 
-/// The transform that the points are moved by before they are aligned to where they were.
+/// The transform that moves a part's points before they are aligned to the unmoved part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
     /// One of T1..T5 (eq. 15), counted from 0.
     Paper(usize),
-    /// One that a person wrote.
+    /// A transform entered by a person.
     Custom(RigidTransform),
-    /// The one that this seed draws: angles up to half a turn, shifts as large as T1's.
+    /// A transform drawn with this seed: any rotation, shifts up to that of T1.
     Random(u64),
 }
 
@@ -32,10 +32,10 @@ impl Default for Start {
 }
 
 impl Start {
-    /// How many the paper has.
+    /// Number of transforms of the paper.
     pub const NUM_PAPER: usize = DISPLACEMENTS.len();
 
-    /// What a person calls it.
+    /// Name for a person.
     pub fn title(self) -> String {
         match self {
             Self::Paper(place) => format!("T{}", place + 1),
@@ -44,7 +44,7 @@ impl Start {
         }
     }
 
-    /// The transform.
+    /// The transform that moves the points.
     pub fn transform(self) -> RigidTransform {
         match self {
             Self::Paper(place) => {
@@ -56,7 +56,7 @@ impl Start {
                 let mut rng = Pcg64::seed_from_u64(seed);
                 let angle = [(); 3].map(|()| rng.random_range(-PI..PI));
                 let shift = [(); 3].map(|()| rng.random_range(-RANDOM_SHIFT..RANDOM_SHIFT));
-                // Half the range: beyond it the same turns come again.
+                // Half the range: beyond it the same rotations repeat.
                 from_euler_zyx([
                     angle[0],
                     0.5 * angle[1],

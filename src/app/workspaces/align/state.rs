@@ -1,4 +1,4 @@
-//! What the workspace knows, and what changes it.
+//! State of the workspace, and the actions that change it.
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
@@ -26,48 +26,48 @@ use crate::{
     pipeline::Verdict,
 };
 
-/// What the workspace knows.
+/// State of the workspace.
 #[derive(Debug)]
 pub struct AlignState {
     /// What is aligned to what.
     pub pairing: Pairing,
-    /// Name of the enrolled part; without one the library's first.
+    /// Name of the chosen enrolled part; `None` means the library's first.
     pub part: Option<String>,
-    /// How far off a moved copy begins.
+    /// The start of a moved copy.
     pub start: Start,
-    /// The custom start as it is being written.
+    /// The form of a custom start.
     pub custom: CustomStart,
-    /// The file that is moved.
+    /// The file that is moved onto the target.
     pub source: Option<PathBuf>,
-    /// The file that stays.
+    /// The file that the source is moved onto.
     pub target: Option<PathBuf>,
-    /// The last result; methods are added as they come.
+    /// The last result; methods are added as they finish.
     pub shown: Option<MethodComparison>,
-    /// The pair being aligned, until its first method has run: then it is shown.
+    /// The pair being aligned, until its first method has run and it is shown.
     pub coming: Option<Arc<Pair>>,
     /// Place on the scrubber, iterations.
     pub place: f32,
-    /// Whether the scrubber moves by itself.
+    /// Whether the scrubber advances by itself.
     pub playback: Playback,
-    /// Table I as far as it is there.
+    /// Table I as far as computed.
     pub table: TableShown,
     task: Task<AlignResult>,
-    /// What the task does, or did last.
+    /// The current job of the task, or its last.
     job: AlignJob,
     writing: Task<PathBuf>,
     dialog: FileDialog<AlignFile>,
 }
 
-/// What the task does.
+/// A job of the task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum AlignJob {
-    /// It aligns a pair.
+    /// Aligns a pair.
     Pair,
-    /// It adds rows to Table I.
+    /// Adds rows to Table I.
     Table,
 }
 
-/// What the task hands over, part after part.
+/// A result, partial or final, of the task.
 #[derive(Clone, Debug)]
 pub enum AlignResult {
     /// The pair is ready; the methods follow.
@@ -76,24 +76,24 @@ pub enum AlignResult {
     Ran(Arc<MethodRun>),
     /// A row of Table I.
     Row {
-        /// The row.
+        /// The new row.
         row: Arc<TableRow>,
-        /// Since the first row of this run was begun.
+        /// Time since this run began its first row.
         elapsed: Duration,
     },
-    /// Everything asked for was handed over.
+    /// Everything requested has been handed over.
     Finished,
 }
 
 /// What is aligned to what.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pairing {
-    /// An enrolled part, moved by a known transform, to itself.
+    /// A moved copy of an enrolled part to the part itself.
     #[default]
     MovedCopy,
-    /// The part of the inspected scene to an enrolled one.
+    /// The part of the inspected scene to an enrolled part.
     Scene,
-    /// A file to another.
+    /// One file to another.
     Files,
 }
 
@@ -101,7 +101,7 @@ impl Pairing {
     /// Every pairing, in the order of the buttons.
     pub const ALL: [Self; 3] = [Self::MovedCopy, Self::Scene, Self::Files];
 
-    /// What a person calls it.
+    /// Name for a person.
     pub fn title(self) -> String {
         match self {
             Self::MovedCopy => text!("align-moved-copy"),
@@ -112,7 +112,7 @@ impl Pairing {
 }
 
 impl AlignState {
-    /// Before anything was aligned.
+    /// Creates the state without a result.
     pub fn new(runner: &TaskRunner) -> Self {
         Self {
             pairing: Pairing::default(),
@@ -133,7 +133,7 @@ impl AlignState {
         }
     }
 
-    /// The run that is aligning, if any.
+    /// The alignment job in progress, if any.
     pub fn running(&self) -> Option<&Running> {
         self.task.running()
     }
@@ -153,7 +153,7 @@ impl AlignState {
         self.running().is_some() && self.job == AlignJob::Pair
     }
 
-    /// The part that is chosen, if the library has any.
+    /// Name of the chosen part, or of the first; `None` without a part in the library.
     pub fn chosen_part<'a>(&'a self, session: &'a Session) -> Option<&'a str> {
         let parts = &session.library.as_ref()?.parts;
         let is_there = |name: &&str| parts.iter().any(|part| part.name.as_str() == *name);
@@ -161,7 +161,7 @@ impl AlignState {
         chosen.or_else(|| parts.first().map(|part| part.name.as_str()))
     }
 
-    /// What Run would align, or what is missing for it, in words.
+    /// Returns what Run would align, or what is missing, in words.
     pub fn choice(&self, session: &Session) -> Result<PairSource, String> {
         let part = || {
             match &session.library {
@@ -272,7 +272,7 @@ impl AlignState {
         }
     }
 
-    /// Stops what is at work.
+    /// Cancels the alignment job in progress.
     pub fn cancel(&mut self) {
         self.task.cancel();
     }
@@ -301,7 +301,7 @@ impl AlignState {
         });
     }
 
-    /// Takes part and start of a row of Table I, and aligns them.
+    /// Chooses part and start of a row of Table I, and aligns them.
     fn open_row(&mut self, row: usize, cx: &ShellContext<'_>) {
         let Some(row) = self.table.rows.get(row).cloned() else {
             return;
@@ -309,7 +309,7 @@ impl AlignState {
         self.pairing = Pairing::MovedCopy;
         self.part = Some(row.part.clone());
         self.start = Start::Paper(row.start);
-        // Table I goes on; a second look must not end it.
+        // Do not cancel Table I to look at one of its rows.
         if !self.is_table_at_work() {
             self.run(cx);
         }
@@ -322,7 +322,7 @@ impl AlignState {
             .start(title, move |_| Ok(work::write(path, &text)?));
     }
 
-    /// Takes in what the tasks and the dialog report.
+    /// Takes in the results of the tasks and of the file dialog.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.task.poll() {
             match event {
@@ -365,7 +365,7 @@ impl AlignState {
         }
     }
 
-    /// Shows runs of a pair made elsewhere; what is at work is cancelled.
+    /// Shows runs made elsewhere; cancels the job in progress.
     pub fn show(&mut self, pair: Arc<Pair>, runs: impl IntoIterator<Item = Arc<MethodRun>>) {
         self.task.cancel();
         self.coming = Some(pair);
@@ -373,7 +373,7 @@ impl AlignState {
     }
 }
 
-/// The enrolled part that the scene in front was recognised as, accepted or not.
+/// Name of the part that the current scene was recognised as, accepted or not.
 fn recognised(session: &Session) -> Option<String> {
     let inspected = &session.shown.as_ref()?.inspected;
     match &inspected.inspection.verdict {

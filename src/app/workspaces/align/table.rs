@@ -1,4 +1,4 @@
-//! Table I: every enrolled part from T1 to T5 by every method, row after row.
+//! Table I: every enrolled part from T1 to T5 by every method.
 
 use std::{fmt::Write as _, sync::Arc, time::Duration};
 
@@ -8,19 +8,19 @@ use super::{
 };
 use crate::{app::user_error::UserError, stages::pose::PoseMethod};
 
-/// Table I as far as it is there.
+/// Table I as far as computed.
 #[derive(Debug, Default)]
 pub struct TableShown {
-    /// The rows, part after part.
+    /// The rows, grouped by part.
     pub rows: Vec<Arc<TableRow>>,
-    /// Rows that were there when it began.
+    /// Number of rows present when the current run began.
     pub num_before: usize,
-    /// How long it took for the rows that it added.
+    /// Time spent on the rows added since.
     pub elapsed: Duration,
 }
 
 impl TableShown {
-    /// About how long the rest takes, from the rows that were added since the work began.
+    /// Estimates the time left, from the rows added in this run.
     pub fn remaining(&self, total: usize) -> Option<Duration> {
         let num_added = self.rows.len().saturating_sub(self.num_before);
         let num_left = total.saturating_sub(self.rows.len());
@@ -28,27 +28,27 @@ impl TableShown {
     }
 }
 
-/// One part from one start.
+/// The results of one part from one start.
 #[derive(Debug)]
 pub struct TableRow {
     /// The part's name.
     pub part: String,
-    /// Its name for people.
+    /// The part's title.
     pub title: String,
-    /// Which of T1..T5, counted from 0.
+    /// Index of the start in T1..T5, counted from 0.
     pub start: usize,
-    /// One per method, in the order of [`PoseMethod::ALL`].
+    /// One cell per method, in the order of [`PoseMethod::ALL`].
     pub cells: Vec<TableCell>,
 }
 
-/// One method's result.
+/// The result of one method.
 #[derive(Debug)]
 pub struct TableCell {
-    /// The method.
+    /// The method that ran.
     pub method: PoseMethod,
     /// How long the estimation took.
     pub time: Duration,
-    /// Its figures, or why there are none.
+    /// The figures, or why there are none.
     pub figures: Result<TableFigures, UserError>,
 }
 
@@ -57,15 +57,15 @@ pub struct TableCell {
 pub struct TableFigures {
     /// E at the end, square metres.
     pub e_m2: f64,
-    /// Root mean square distance of what lies on the target, metres.
+    /// Root mean square distance of the overlapping points, metres.
     pub rms_m: f64,
-    /// Angle to the true pose, degrees.
+    /// Rotation error, degrees.
     pub rotation_deg: f64,
-    /// Shift to the true pose at the part's middle, millimetres.
+    /// Shift error at the part's centroid, millimetres.
     pub shift_mm: f64,
-    /// Iterations.
+    /// Number of iterations.
     pub num_iterations: usize,
-    /// Why it ended, as in reports.
+    /// Why the method stopped, named as in reports.
     pub stopped: &'static str,
 }
 
@@ -92,11 +92,11 @@ impl TableCell {
     }
 }
 
-/// E below this is the rounding of the coordinates, square metres: 1 µm.
+/// Values of E below this are rounding of the coordinates, square metres: (1 µm)².
 const ROUNDING: f64 = 1e-12;
 
 impl TableRow {
-    /// True if no other cell has a smaller E, rounding left aside: several may be best.
+    /// True if no other cell has a smaller E, up to rounding; several cells may be best.
     pub fn is_best(&self, place: usize) -> bool {
         let e = |cell: &TableCell| cell.figures.as_ref().map_or(f64::INFINITY, |f| f.e_m2);
         let least = self.cells.iter().map(e).fold(f64::INFINITY, f64::min);
@@ -105,7 +105,7 @@ impl TableRow {
     }
 }
 
-/// The columns of a method, after its name.
+/// The columns of a method; headers are prefixed with its name.
 const COLUMNS: [&str; 7] = [
     "e_m2",
     "rms_m",
@@ -116,7 +116,7 @@ const COLUMNS: [&str; 7] = [
     "time_ms",
 ];
 
-/// The table as text: a header, then one line per row; `separator` stands between the cells.
+/// Writes the table as text, a header and one line per row, with `separator` between cells.
 pub(super) fn text(rows: &[impl AsRef<TableRow>], separator: char) -> String {
     let mut text = format!("part{separator}start");
     for method in PoseMethod::ALL {

@@ -1,4 +1,4 @@
-//! The way of one method from its start to its end, with E at every pose: ready to be drawn and scrubbed.
+//! The poses of one method from start to end, with E at each, ready to be drawn and scrubbed.
 
 use std::{
     ops::Range,
@@ -19,47 +19,47 @@ use crate::{
     },
 };
 
-/// What one method made of a pair.
+/// The run of one method on a pair.
 #[derive(Clone, Debug)]
 pub struct MethodRun {
-    /// The method.
+    /// The method that ran.
     pub method: PoseMethod,
     /// How long the estimation took.
     pub time: Duration,
-    /// Its way, or why there is none.
+    /// The track, or why there is none.
     pub track: Result<Track, UserError>,
 }
 
-/// A method's way.
+/// The poses that a method went through.
 #[derive(Clone, Debug)]
 pub struct Track {
-    /// The pose of every iteration, and last the one it ended at.
+    /// The pose of every iteration, then the final pose.
     pub poses: Vec<RigidTransform>,
-    /// E of eq. 12 at each of them, square metres, measured alike for all methods: [`Pair::e_m2`].
+    /// E of eq. 12 at each pose, square metres, measured alike for all methods: [`Pair::e_m2`].
     pub e_m2: Vec<f64>,
-    /// Their base-10 logarithms.
+    /// Base-10 logarithms of E.
     pub log_e: Vec<f32>,
-    /// The iterations in which the genetic algorithm searched.
+    /// The iterations of each genetic search.
     pub searches: Vec<Range<usize>>,
-    /// Why it ended.
+    /// Why the method stopped.
     pub stopped: Stopped,
-    /// How well the end fits.
+    /// Fit at the final pose.
     pub fit: FitQuality,
-    /// How far off the end may be.
+    /// Uncertainty of the final pose.
     pub uncertainty: Option<Uncertainty>,
-    /// How far the end is from the truth, where that is known.
+    /// Error of the final pose, where the truth is known.
     pub true_error: Option<rigid::PoseDelta>,
-    /// Why the end should not be relied upon.
+    /// Why the final pose should not be relied upon.
     pub doubt: Option<UserError>,
 }
 
-/// Nothing that `f32` points resolve is smaller: E of 1e-16 m² is 10 nm.
+/// Smallest E plotted, square metres: (10 nm)², below the resolution of `f32` points.
 const LEAST_E: f64 = 1e-16;
 
-/// A way is measured with at most so many searches for a closest point: a long one on fewer points.
+/// Limit of closest-point searches per track; long tracks are measured over fewer points.
 const MOST_SEARCHES: usize = 1_000_000;
 
-/// Runs a method on a pair, and takes the time.
+/// Runs a method on a pair and measures the time.
 pub(super) fn estimated(
     method: PoseMethod,
     pair: &Pair,
@@ -73,7 +73,7 @@ pub(super) fn estimated(
 }
 
 impl MethodRun {
-    /// Runs the method on the pair, and follows its way.
+    /// Runs the method on the pair and records its track.
     pub fn of(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
         let (aligned, time) = estimated(method, pair, is_cancelled);
         let track = match aligned {
@@ -109,12 +109,12 @@ impl Track {
         }
     }
 
-    /// E at the end, square metres.
+    /// E at the final pose, square metres.
     pub fn end_e_m2(&self) -> f64 {
         self.e_m2.last().copied().unwrap_or(f64::INFINITY)
     }
 
-    /// The pose of an iteration; beyond the end that of the end.
+    /// Returns the pose of an iteration, or the final pose beyond the end.
     pub fn pose_at(&self, place: usize) -> RigidTransform {
         let last = self.poses.len().saturating_sub(1);
         self.poses
@@ -123,7 +123,7 @@ impl Track {
             .unwrap_or_else(RigidTransform::identity)
     }
 
-    /// How it stopped, in words.
+    /// Describes why and after how many iterations the method stopped.
     pub fn ending(&self) -> String {
         let num = self.poses.len().saturating_sub(1);
         let is_lost = self
@@ -145,7 +145,7 @@ impl Track {
     }
 }
 
-/// E at every pose. Where a pose is the one before, as between generations without progress, so is its E.
+/// Measures E at every pose; reuses it where the pose did not change, as between generations without progress.
 fn e_along(poses: &[RigidTransform], pair: &Pair) -> Vec<f64> {
     let step = (poses.len() * pair.sample.len())
         .div_ceil(MOST_SEARCHES)
@@ -161,7 +161,7 @@ fn e_along(poses: &[RigidTransform], pair: &Pair) -> Vec<f64> {
     all
 }
 
-/// The stretches in which the genetic algorithm searched.
+/// Finds the ranges of iterations in which the genetic algorithm searched.
 fn searches(iterations: &[Iteration]) -> Vec<Range<usize>> {
     let mut place = 0;
     let stretches = iterations.chunk_by(|a, b| a.phase == b.phase);
@@ -174,7 +174,7 @@ fn searches(iterations: &[Iteration]) -> Vec<Range<usize>> {
     genetic.map(|(_, stretch)| stretch).collect()
 }
 
-/// The error with advice that can be followed in the window.
+/// Words an error with advice that can be followed in the window.
 pub(super) fn in_the_window(error: &PoseError) -> UserError {
     let advice = match error {
         PoseError::OneSidedPairs { .. } | PoseError::NoOverlap { .. } => {
@@ -195,7 +195,7 @@ fn doubted(doubt: &PoseWarning, pair: &Pair) -> UserError {
             text!("align-look-for-edge")
         }
         PoseWarning::Unsettled { .. } => text!("align-other-method"),
-        // They do show the same.
+        // Source and target do show the same part.
         PoseWarning::LittleOverlap { .. } if pair.truth.is_some() => {
             text!("align-nearer-start")
         }

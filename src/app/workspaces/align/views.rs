@@ -1,4 +1,4 @@
-//! One 3-D view for each method, all seen through one camera.
+//! One 3-D view per method, all with the same camera.
 
 use std::sync::Arc;
 
@@ -27,32 +27,33 @@ use crate::{
     units::Metres,
 };
 
-/// Height of the words above a view, logical pixels, and where the view is narrow.
+/// Height of the text above a wide and a narrow view, logical pixels.
 const HEAD: [f32; 2] = [66.0, 98.0];
-/// A view narrower than this has its figures on two lines.
+/// Width below which a view's figures take two lines, logical pixels.
 const NARROW: f32 = 300.0;
-/// Reference clouds are thinned to 8 mm: closed from afar, with the other cloud still seen between.
+/// Point size. Reference clouds are thinned to 8 mm: they look closed from afar, and the other cloud still shows
+/// between.
 const POINT: Metres = Metres(0.0075);
 
-/// From where the views are to look.
+/// Direction from which the views look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ViewDirection {
-    /// As now, but so that all is seen.
+    /// The present direction, fitted to show everything.
     Fit,
-    /// From a side.
+    /// One of the standard views.
     From(StandardView),
 }
 
-/// The source's points are smaller than the target's, so that neither hides the other where both lie alike.
+/// Relative point size of the source: smaller than the target's, so that neither hides the other where they coincide.
 const SOURCE_WEIGHT: f32 = 0.6;
 
-/// The views, and what they are drawn with.
+/// The views and their shared camera.
 pub(super) struct LinkedViews {
     views: Vec<View>,
     camera: ViewCamera,
     styled: Option<ThemeChoice>,
     has_focus: bool,
-    /// The pair that the views show.
+    /// The pair shown.
     shows: Option<Arc<Pair>>,
 }
 
@@ -80,7 +81,7 @@ impl LinkedViews {
         }
     }
 
-    /// True while keys go to one of the views.
+    /// True while one of the views has the key focus.
     pub(super) fn has_focus(&self) -> bool {
         self.has_focus
     }
@@ -127,7 +128,7 @@ impl LinkedViews {
         }
     }
 
-    /// Turns all views, and fits them.
+    /// Turns all views and fits them.
     pub(super) fn look(&mut self, look: ViewDirection) {
         if let ViewDirection::From(view) = look {
             self.camera.look(view);
@@ -135,7 +136,7 @@ impl LinkedViews {
         self.camera.request_fit(FitRequest::Focus);
     }
 
-    /// Takes in a pair not seen before; its points are shared, not copied.
+    /// Shows a new pair; its points are shared, not copied.
     fn put_in(&mut self, shown: &MethodComparison, size: egui::Vec2) {
         let pair = &shown.pair;
         if self
@@ -146,11 +147,11 @@ impl LinkedViews {
             return;
         }
         for view in &mut self.views {
-            // The smaller points first: where both lie on the same place, each is seen.
+            // Smaller points first, so that both clouds show where they coincide.
             view.scene.points = vec![pair.source_points.clone(), pair.target_points.clone()];
         }
         self.shows = Some(Arc::clone(pair));
-        // On the target alone: from T1 the source begins far off.
+        // Fit to the target alone: from T1 the source starts far off.
         let target = ViewScene {
             points: vec![pair.target_points.clone()],
             ..ViewScene::default()
@@ -162,7 +163,7 @@ impl LinkedViews {
 }
 
 impl View {
-    /// True if keys go to it.
+    /// Draws the view; returns true if it has the key focus.
     fn ui(
         &mut self,
         ui: &mut Ui,
@@ -238,7 +239,7 @@ impl View {
     }
 }
 
-/// Height of the words above a view of this width.
+/// Height of the text above a view of this width, logical pixels.
 fn head(width: f32) -> f32 {
     HEAD[usize::from(width < NARROW)]
 }
@@ -248,7 +249,7 @@ fn style(method: PoseMethod, choice: ThemeChoice) -> ViewStyle {
         ThemeChoice::Dark => ViewColours::dark(),
         ThemeChoice::Light => ViewColours::light(),
     };
-    // The source has the colour of its curve.
+    // The source has the colour of its method's curve.
     colours.roles[Role::Moving as usize] = RoleColour {
         colour: series::colour(method, Theme::of(choice)),
         weight: SOURCE_WEIGHT,
@@ -267,7 +268,7 @@ fn weak(ui: &mut Ui, text: &str, theme: &Theme) {
     );
 }
 
-/// How a method ended, and its figures.
+/// Draws how a method stopped, and its figures.
 fn heading(ui: &mut Ui, run: &MethodRun, session: &Session, theme: &Theme) {
     let ms = format!("{:.0}", run.time.as_secs_f64() * 1000.0);
     match &run.track {
@@ -296,7 +297,7 @@ fn heading(ui: &mut Ui, run: &MethodRun, session: &Session, theme: &Theme) {
     }
 }
 
-/// On the view: which iteration is seen, and what is to be said against the end.
+/// Draws over the view which iteration is shown, and doubts about the final pose.
 fn below(ui: &Ui, rect: Rect, track: &Track, place: usize, theme: &Theme) {
     let last = track.poses.len().saturating_sub(1);
     let place = place.min(last);
@@ -331,7 +332,7 @@ fn below(ui: &Ui, rect: Rect, track: &Track, place: usize, theme: &Theme) {
     }
 }
 
-/// Before the first result.
+/// Draws the area before the first result.
 fn empty(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
     let rect = ui.available_rect_before_wrap();
     ui.painter().rect_filled(rect, 0.0, theme.canvas);
@@ -348,7 +349,7 @@ fn empty(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
     words(ui, rect, &[(&what, theme.text), (&advice, theme.weak_text)]);
 }
 
-/// Words in the middle of where a view would be, one paragraph after the other.
+/// Draws paragraphs in the middle of the area of a view.
 fn words(ui: &mut Ui, rect: Rect, paragraphs: &[(&str, egui::Color32)]) {
     let inside = rect.shrink(space::LARGE);
     let layout = egui::Layout::top_down(egui::Align::Center);
@@ -360,7 +361,7 @@ fn words(ui: &mut Ui, rect: Rect, paragraphs: &[(&str, egui::Color32)]) {
     });
 }
 
-/// A number as "2.0 × 10⁻³".
+/// Formats a number as "2.0 × 10⁻³".
 pub(super) fn scientific(value: f64) -> String {
     let written = format!("{value:.1e}");
     let Some((digits, power)) = written.split_once('e') else {

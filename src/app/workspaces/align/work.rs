@@ -1,4 +1,4 @@
-//! What the workspace's tasks do: prepare a pair, run the methods one after the other, write Table I.
+//! Jobs of the workspace: prepare a pair, run the methods one after the other, compute and write Table I.
 
 use std::{path::PathBuf, sync::Arc, time::Instant};
 
@@ -38,7 +38,7 @@ pub(super) fn pair(
     Ok(AlignResult::Finished)
 }
 
-/// Works out Table I but for the rows done: name of the part and start.
+/// Computes the rows of Table I that are not in `done`, a list of part names and starts.
 pub(super) fn table(
     done: &[(String, usize)],
     library_cache: &LibraryCache,
@@ -79,7 +79,7 @@ pub(super) fn table(
     Ok(AlignResult::Finished)
 }
 
-/// Writes a text file, whole or not at all.
+/// Writes a text file atomically.
 pub(super) fn write(path: PathBuf, text: &str) -> Result<PathBuf, UserError> {
     write_atomically(&path, |writer| writer.write_all(text.as_bytes()))
         .map_err(|error| UserError::of(&error))?;

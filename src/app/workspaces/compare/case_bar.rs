@@ -94,7 +94,8 @@ fn case_menu(
     });
 }
 
-/// Such as "taken for Front door, left, accepted, and it is"; the menu of truths beside it ends the sentence.
+/// Draws a verdict such as "taken for Front door, left, accepted, and it is"; the menu of truths beside it ends the
+/// sentence.
 fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme) {
     let weak = |text: &str| RichText::new(text).color(theme.weak_text);
     let Some(study) = &compare.study else {
@@ -115,7 +116,7 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme
     ui.label(weak(&verb));
     ui.label(strong(&part));
     let judgement = judged(compare);
-    // A refusal never gets the sign of an accepted part, even where it is right.
+    // A refusal never gets the mark of an accepted part, even if it is right.
     let sign = if found.accepted && judgement != Some(CaseOutcome::WrongAccepted) {
         Mark::Good
     } else {
@@ -209,7 +210,7 @@ fn against_menu(
     });
 }
 
-/// Remark and buttons: keep, remove, run all, undo.
+/// Draws the remark and the buttons: keep, remove, run all, undo.
 fn case_buttons(
     ui: &mut Ui,
     compare: &CompareState,

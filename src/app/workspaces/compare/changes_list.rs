@@ -65,7 +65,7 @@ pub(super) fn ui(
         });
 }
 
-/// Kept short: a row has room for some sixty letters.
+/// Describes a change briefly: a row fits about sixty characters.
 fn words(word: &str, change: &CaseChange, shown: &LibraryView) -> String {
     let found = |found: &FoundVerdict| match (&found.part, found.score) {
         (Some(part), Some(score)) => format!("{} {score:.2}", shown.title_of(part)),

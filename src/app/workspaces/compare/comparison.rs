@@ -79,9 +79,9 @@ pub struct Trace {
     pub name: &'static str,
     /// Unit of its values.
     pub measure: AxisQuantity,
-    /// The scene's.
+    /// The scene's values.
     pub query: Vec<f32>,
-    /// The part's, shifted by the lag where there is one.
+    /// The part's values, shifted by the lag where there is one.
     pub reference: Vec<f32>,
 }
 
@@ -111,11 +111,11 @@ pub struct Correlation {
     pub l1: f64,
 }
 
-/// Closer samples are not joined, metres: about a pixel of the image.
+/// Samples closer than this are not joined, metres: about a pixel of the image.
 const LEAST_JOIN: f64 = 0.005;
-/// More joins cannot be told apart in a picture.
+/// Limit of joins; more cannot be told apart in a picture.
 const NUM_JOINS: usize = 128;
-/// A curve with more values is finer than any picture shows.
+/// Limit of values per curve; more are finer than any picture shows.
 const MAX_VALUES: usize = 1200;
 
 impl OutlineComparison {
@@ -213,7 +213,7 @@ impl Correlation {
         }
     }
 
-    /// Drops values that no picture shows, after the sums are taken.
+    /// Drops values too fine for a picture, after the sums are computed.
     fn thinned(self) -> Self {
         Self {
             auto: every(&self.auto),
@@ -270,7 +270,7 @@ fn of_rays(
     )
 }
 
-/// The paper's figures: L in pixels and Θ in one quadrant, ray by ray of the contour's pixels, without a lag.
+/// The figures of the paper's matcher: L in pixels and Θ in one quadrant, per pixel of the contour, without a lag.
 fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Correlation>) {
     let scene = LiteralSignature::of(&query.contour.outline_pixels);
     let part = reference.literal();
@@ -388,7 +388,7 @@ mod tests {
         let overlay = quarter.overlay.as_ref().expect("placed");
         assert!((overlay.turn - TAU / 4.0).abs() < 0.02, "{}", overlay.turn);
         assert!(overlay.distance < 0.006, "{}", overlay.distance);
-        // The paper's has no lag to look for: the same plate is another to it.
+        // The paper's matcher finds no lag: to it, the rotated plate is a different one.
         assert!(quarter.relative_l1 < 0.01, "{}", quarter.relative_l1);
         let literal = compared(0.6, Matcher::Paper);
         assert!(literal.relative_l1 > quarter.relative_l1 * 2.0);

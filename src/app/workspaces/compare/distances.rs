@@ -79,7 +79,7 @@ pub(super) fn ui(
         });
 }
 
-/// True when it was pressed.
+/// Draws a row; returns true if it was clicked.
 fn row(
     ui: &mut Ui,
     study: &CaseStudy,
@@ -89,7 +89,7 @@ fn row(
 ) -> bool {
     let is_against = study.against.as_deref() == Some(&distance.part);
     let width = ui.available_width() - space::MEDIUM;
-    // Where there is little room the figures stand below the name.
+    // In a narrow row the figures are below the name.
     let is_wide = width > WIDE;
     let below = if is_wide { 0.0 } else { FIGURES };
     let size = vec2(width, ROW + below);

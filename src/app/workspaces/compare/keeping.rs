@@ -40,7 +40,7 @@ impl CompareState {
         let about = CaseDescription {
             kept_at: Timestamp::now(),
             remark: self.remark.trim().to_owned(),
-            // By the recipe on trial, which may not be that of the inspection.
+            // Found by the recipe on trial, which may not be that of the inspection.
             found: study.found.clone(),
             ..CaseDescription::of(&inspected.entry.record, truth)
         };

@@ -77,7 +77,7 @@ pub(super) fn ui(
         });
 }
 
-/// Side by side, or below each other in a narrow window.
+/// Draws matrix and score plots side by side, or one below the other in a narrow window.
 fn matrix_and_calibration(
     ui: &mut Ui,
     run: &CaseRun,
@@ -195,7 +195,7 @@ fn header(
     ui.spacing_mut().interact_size.y = height;
 }
 
-/// All cases, before any run.
+/// Lists all cases, before any run.
 fn list(
     ui: &mut Ui,
     compare: &CompareState,
@@ -226,7 +226,7 @@ fn list(
         });
 }
 
-/// The cases of one cell.
+/// Lists the cases of one cell.
 fn of_cell(
     ui: &mut Ui,
     session: &Session,
@@ -261,7 +261,7 @@ fn of_cell(
     }
 }
 
-/// Says what a cell counts.
+/// Describes what a cell counts.
 fn cell_text(answer: &CaseAnswer, truth: String, title: String, num: usize) -> String {
     match answer {
         CaseAnswer::Part(_) => text!(
@@ -308,7 +308,7 @@ pub(super) fn case_row(
     });
 }
 
-/// Truths from top to bottom, answers from left to right.
+/// Draws the matrix: truths from top to bottom, answers from left to right.
 fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAction>) {
     let num_columns = matrix.columns.len().max(1);
     let room = ui.available_width() - NAMES - 16.0;

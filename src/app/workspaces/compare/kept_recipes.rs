@@ -167,7 +167,7 @@ impl KeptRecipes {
         }
     }
 
-    /// One after the other: a change is never cancelled for the next.
+    /// Starts the next waiting change; a change is never cancelled for the next.
     pub(super) fn start_next(&mut self) {
         if let (None, Some(folder)) = (self.task.running(), &self.folder)
             && let Some(change) = self.waiting.pop_front()

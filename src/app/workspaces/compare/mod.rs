@@ -71,7 +71,7 @@ const SHORTCUTS: [Shortcut<CompareAction>; 3] = [
     },
 ];
 
-/// Width of the recipe, logical pixels, and in a narrow window.
+/// Width of the recipe in a wide and in a narrow window, logical pixels.
 const RECIPE: [f32; 2] = [310.0, 284.0];
 
 /// The workspace.
@@ -87,12 +87,12 @@ impl CompareWorkspace {
         }
     }
 
-    /// Its state.
+    /// The state of the workspace.
     pub fn state(&self) -> &CompareState {
         &self.state
     }
 
-    /// Its state, to be changed by a program.
+    /// The state, to be changed by a program.
     pub fn state_mut(&mut self) -> &mut CompareState {
         &mut self.state
     }
@@ -158,7 +158,7 @@ impl Workspace for CompareWorkspace {
     }
 }
 
-/// Three pictures above; the distances and the kept cases below.
+/// Draws three pictures above; the distances and the kept cases below.
 fn body(
     ui: &mut Ui,
     state: &CompareState,

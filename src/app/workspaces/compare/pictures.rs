@@ -112,7 +112,7 @@ fn angle(radians: f64, units: UnitSystem) -> String {
     }
 }
 
-/// Says what to do while there is no comparison.
+/// Draws what to do while there is no comparison.
 fn empty(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState, theme: &Theme) {
     let text = match (&compare.study, compare.running()) {
         (Some(study), _) => {
@@ -162,7 +162,7 @@ impl Picture {
             theme.weak_text,
             rect.width(),
         );
-        // Side by side the pictures begin at the same height.
+        // Side by side, the pictures begin at the same height.
         let least = if rect.width() < NARROW { 30.0 } else { 15.0 };
         let top = TITLE + lines.size().y.max(least) + 5.0;
         painter.galley(at, lines, theme.weak_text);
@@ -182,7 +182,7 @@ impl Picture {
         self.painter.text(at, anchor, text, font::small(), colour);
     }
 
-    /// Names in the colours of their curves, one below the other.
+    /// Draws names in the colours of their curves, one below the other.
     fn legend(&self, names: &[(&str, Color32)]) {
         for (place, (name, colour)) in names.iter().enumerate() {
             let at = self.inner.min + vec2(0.0, 14.0 * place as f32);
@@ -218,7 +218,7 @@ impl Picture {
     }
 }
 
-/// The rectangle in as many equal rows.
+/// Splits the rectangle into equal rows.
 fn rows(rect: Rect, num: usize) -> impl Iterator<Item = Rect> {
     let height = rect.height() / num as f32;
     (0..num).map(move |place| {
@@ -239,7 +239,7 @@ fn correlation(ui: &mut Ui, correlation: &Correlation, area: Rect, theme: &Theme
         }
     };
     let last = auto.len().max(cross.len()).saturating_sub(1).max(1) as f64;
-    // Lags stand further apart where the curve was thinned.
+    // Lags are further apart where the curve was thinned.
     let first = correlation.first_lag as f64;
     let per_value = -2.0 * first / last;
     let lag_of = move |place: f64| (first + place * per_value).round();

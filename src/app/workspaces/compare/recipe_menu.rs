@@ -155,7 +155,7 @@ pub(super) fn title_of(label: &RecipeLabel) -> String {
     }
 }
 
-/// The field for a name, with its buttons.
+/// Draws the field for a name, with its buttons.
 fn name_ui(
     ui: &mut Ui,
     compare: &CompareState,
@@ -181,7 +181,7 @@ fn name_ui(
         let widths = [&take, &cancel].map(|text| button_width(ui, text).max(64.0));
         let whole = ui.available_width() - space::MEDIUM;
         let beside = whole - widths[0] - widths[1] - 2.0 * space::SMALL;
-        // Where the buttons leave too little room they stand below.
+        // If the buttons leave too little room, they are placed below.
         let width = if beside < NARROWEST_NAME {
             whole
         } else {
@@ -231,7 +231,7 @@ fn name_ui(
     }
 }
 
-/// The number of parameters that differ from their defaults; unfolded, which.
+/// Draws the number of parameters that differ from their defaults and, unfolded, their list.
 fn changes(
     ui: &mut Ui,
     compare: &CompareState,

@@ -129,7 +129,7 @@ fn control(
     parameter_control::control(ui, parameter, recipe, default, theme, &mut changed);
 }
 
-/// The verdict on the case in front, and the button that uses the recipe.
+/// Draws the verdict on the case in front, and the button that uses the recipe.
 fn outcome(
     ui: &mut Ui,
     compare: &CompareState,

@@ -49,7 +49,7 @@ pub(super) fn ui(
     ui.label(weak(words(scaling)));
 }
 
-/// Says from how many references on several workers are faster.
+/// States from how many references on several workers are faster.
 fn words(scaling: &Scaling) -> String {
     let num_cores = scaling.num_cores;
     let cores = match scaling.workers.iter().filter(|w| **w > num_cores).min() {
@@ -105,7 +105,7 @@ fn plot(ui: &mut Ui, scaling: &Scaling, theme: &Theme) {
             plot.line(Line::new("", points).color(colour).width(1.5).style(style));
         }
     });
-    // A list, since the ends lie over each other where there are fewer cores than workers.
+    // List the names: with fewer cores than workers, the ends of the curves coincide.
     let names = scaling.workers.map(|workers| match workers {
         1 => text!("compare-one-worker"),
         workers => workers.to_string(),

@@ -63,13 +63,13 @@ pub(super) enum Job {
 /// Kinds of jobs, by what may cancel them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum JobKind {
-    /// Any other job; it is studied again afterwards.
+    /// May be cancelled for any other job; the case is studied again afterwards.
     Study,
-    /// Nothing: it is quick, and a person relies on it.
+    /// Is never cancelled: it is quick, and a person relies on it.
     Cases,
-    /// Another recipe.
+    /// Is cancelled for a queued job, or when the recipe changes.
     Run,
-    /// Another recipe.
+    /// Is cancelled for a queued job, or when the recipe changes.
     Scaling,
 }
 
@@ -99,7 +99,7 @@ impl CompareState {
         self.job_at_work() == Some(JobKind::Run)
     }
 
-    /// True if the study shown, if any, is not of the newest request; also after that was cancelled.
+    /// True if the study shown, if any, is not that of the newest request, even if that was cancelled.
     pub fn is_study_old(&self) -> bool {
         !self.is_current || self.due != StudyNeed::No
     }

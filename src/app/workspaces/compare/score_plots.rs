@@ -20,7 +20,7 @@ const HEIGHT: f32 = 238.0;
 /// The curve of refusals is dashed: colour must not be the only difference.
 const REFUSED: LineStyle = LineStyle::Dashed { length: 6.0 };
 
-/// A plot of shares from 0 to 1 both ways, with its caption.
+/// Draws a plot of shares, 0 to 1 on both axes, with its caption.
 fn square<'a>(
     ui: &mut Ui,
     said: PlotText,
@@ -61,7 +61,7 @@ struct PlotText {
     help: String,
 }
 
-/// The share of right guesses over the score. On the diagonal the score is the probability that a guess is right.
+/// Draws the share of right guesses over the score. On the diagonal the score is the probability that a guess is right.
 pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration, theme: &Theme) {
     let said = PlotText {
         title: text!("compare-calibration"),
@@ -86,7 +86,7 @@ pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration, theme: &Theme)
         plot.line(Line::new("", places.clone()).color(colour).width(1.5));
         plot.points(Points::new("", places).color(colour).radius(4.0));
     });
-    // Over the plot: the numbers at its upper end stand out of it.
+    // Painted over the plot, as the numbers at its upper end extend beyond it.
     for (num, at) in bins {
         let at = shown.position_from_point(&at.into()) - vec2(0.0, 6.0);
         let (anchor, font) = (Align2::CENTER_BOTTOM, font::small());
@@ -95,7 +95,7 @@ pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration, theme: &Theme)
     }
 }
 
-/// Shares of false accepts and of refusals over the threshold on the score.
+/// Draws the shares of false accepts and of refusals over the threshold on the score.
 pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme: &Theme) {
     let TradeOff {
         num_cases,

@@ -64,7 +64,7 @@ pub struct CompareState {
     /// The kind of the task's newest job.
     pub(super) job: Option<JobKind>,
     dialog: FileDialog<CompareFile>,
-    /// The newest inspection that was taken notice of.
+    /// The newest inspection that was noticed.
     pub(super) followed: Option<Shown>,
     pub(super) is_listed: bool,
     /// The last notice of something done; the next one replaces it.

@@ -22,9 +22,9 @@ use crate::{
 /// The scene of a case.
 #[derive(Clone, Debug)]
 pub enum CaseScene {
-    /// Of an inspection.
+    /// The scene of an inspection.
     Inspected(Arc<Inspected>),
-    /// Of a kept case, which is read.
+    /// The scene of a kept case, still to be read.
     Kept {
         /// Its folder of cases.
         folder: CaseFolder,
@@ -49,7 +49,7 @@ pub struct StudyRequest {
 /// What a study found.
 #[derive(Debug)]
 pub struct CaseStudy {
-    /// The inspection whose scene this is; `None` of a kept case.
+    /// The inspection whose scene this is; `None` for a kept case.
     pub inspected: Option<Arc<Inspected>>,
     /// Its truth, as chosen here or labelled in the history.
     pub truth: Option<Truth>,
@@ -65,7 +65,7 @@ pub struct CaseStudy {
     pub advice: String,
     /// Time of the inspection, milliseconds.
     pub time_ms: f64,
-    /// Every part, the nearest of the matcher in use first.
+    /// The distance of every part, nearest by the matcher in use first.
     pub distances: Vec<PartDistance>,
     /// Name of the part that it is compared with.
     pub against: Option<String>,
@@ -180,7 +180,7 @@ pub fn study(
     Ok(study)
 }
 
-/// The part chosen, else what it truly is where that differs from what was found, else what was found.
+/// The part chosen, else the true part where it differs from the one found, else the one found.
 fn against(
     request: &StudyRequest,
     truth: Option<&Truth>,

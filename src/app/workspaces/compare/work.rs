@@ -51,18 +51,18 @@ pub enum CaseEdit {
 /// A change that was made.
 #[derive(Clone, Debug)]
 pub enum CaseDone {
-    /// They were listed.
+    /// The cases were listed.
     Listed,
-    /// This one was kept.
+    /// A case was kept.
     Kept(Box<KeptCase>),
-    /// One was removed.
+    /// A case was removed.
     Removed {
         /// Its name.
         name: String,
         /// Its path in the trash.
         trash: PathBuf,
     },
-    /// One was put back.
+    /// A removed case was put back.
     Restored(String),
 }
 
@@ -95,7 +95,7 @@ pub enum CompareResult {
 pub struct RunChanges {
     /// The earlier run's file name.
     pub file: String,
-    /// Of each case.
+    /// The change of each case.
     pub changes: Changes,
 }
 
@@ -140,7 +140,7 @@ pub(super) fn run(
     })
 }
 
-/// References at most: with their images below half a gigabyte.
+/// Limit of references: with their images, below half a gigabyte.
 const MOST_REFERENCES: usize = 2048;
 
 fn measure_scaling(context: &TaskContext<CompareResult>) -> Result<CompareResult, TaskError> {

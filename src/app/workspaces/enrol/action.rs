@@ -1,4 +1,4 @@
-//! Everything that can happen in the workspace.
+//! Actions of the workspace, and the files that it asks for.
 
 use std::path::PathBuf;
 
@@ -20,66 +20,66 @@ use crate::{
 /// Something that happened in the workspace.
 #[derive(Debug)]
 pub enum EnrolAction {
-    /// Take the scene in front as the draft.
+    /// Make the scene that Inspect shows the draft.
     TakeShown,
-    /// Correct what is kept.
+    /// Correct which points are kept.
     Correct(Edit),
-    /// Start from other points.
+    /// Start the corrections from another selection.
     TakeAs(InitialSelection),
-    /// Take all corrections away.
+    /// Remove all corrections.
     Reset,
-    /// Draw this by dragging in the 3-D view, or turn the view by it.
+    /// Draw this shape by dragging in the 3-D view; `None` turns the view instead.
     Draw(Option<DrawnShape>),
-    /// Draw a box, or a lasso instead of a box.
+    /// Choose the box, or the lasso if the box was chosen.
     DrawNext,
-    /// Have a box or a lasso do something else.
+    /// Choose what a drawn box or lasso does.
     OutlineMode(OutlineMode),
-    /// Show other panes.
+    /// Choose the panes.
     Panes(DraftPanes),
-    /// Write a line about the draft.
+    /// Fill in a field of the draft's form.
     Write(Field),
-    /// Look at the draft again, after it was cancelled.
+    /// Examine the draft again, after it was cancelled.
     LookAgain,
     /// Save the draft.
     Save,
-    /// Put the draft away.
+    /// Discard the draft.
     Discard,
-    /// Take the last step back.
+    /// Undo the last step.
     Undo,
-    /// Do again what was taken back last.
+    /// Redo the step undone last.
     Redo,
-    /// Look at an enrolled part.
+    /// Open the card of an enrolled part.
     Open(PartName),
-    /// Look at the draft again.
+    /// Close that card and return to the draft.
     Close,
-    /// Write a line about the enrolled part that is looked at.
+    /// Fill in a field of the open part's form.
     WriteOpen(Field),
-    /// Call it so.
+    /// Store the open part's form: name, title and notes.
     Rename,
     /// Move a part to the trash.
     Remove(PartName),
-    /// Enrol this part anew: the draft, or the next one, replaces it.
+    /// Replace this enrolled part by the draft or the next one.
     Replace(PartName),
-    /// Replace none: the draft becomes a new part.
+    /// Replace no part: the draft becomes a new one.
     ReplaceNone,
-    /// Take the spray path of a part away.
+    /// Remove the spray path of a part.
     RemovePath(PartName),
-    /// Have a person choose the folder of a scan to open.
+    /// Ask for the folder of a scan to open.
     OpenScan,
-    /// Have a person choose a file.
+    /// Ask for a file.
     Ask(EnrolFile),
-    /// A person chose it: the spray path of the enrolled part that is looked at.
+    /// A file was chosen.
     Chosen(EnrolFile, PathBuf),
-    /// Of the shots of the draft.
+    /// An action on the shots of the draft.
     Shots(ShotsAction),
 }
 
-/// What a person is asked to choose.
+/// A file that a person is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EnrolFile {
-    /// The spray path of the enrolled part that is looked at.
+    /// The spray path of the open part.
     SprayPath,
-    /// Something of the scan that the draft is.
+    /// A file of the scan that the draft was made of.
     Scan(ShotsFile),
 }
 
@@ -96,23 +96,23 @@ impl EnrolFile {
     }
 }
 
-/// What is shown of the draft.
+/// The panes that show the draft.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DraftPanes {
     /// The picture and the 3-D view.
     #[default]
     Both,
-    /// The picture alone.
+    /// Only the picture.
     Picture,
-    /// The 3-D view alone.
+    /// Only the 3-D view.
     View,
 }
 
 impl DraftPanes {
-    /// Every choice.
+    /// Every choice, in the order of the buttons.
     pub const ALL: [Self; 3] = [Self::Both, Self::Picture, Self::View];
 
-    /// What a person calls it.
+    /// Name for a person.
     pub fn title(self) -> String {
         match self {
             Self::Both => text!("enrol-both"),
@@ -121,7 +121,7 @@ impl DraftPanes {
         }
     }
 
-    /// What choosing it does.
+    /// Describes what choosing it does.
     pub(super) fn label(self) -> String {
         match self {
             Self::Both => text!("enrol-show-both"),

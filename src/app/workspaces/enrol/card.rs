@@ -1,4 +1,4 @@
-//! The card of an enrolled part: what it is called, where it came from, and what can be done with it.
+//! The card of an enrolled part: its name, its origin, and what can be done with it.
 
 use egui::{Button, Rect, RichText, ScrollArea, Ui, pos2, vec2};
 
@@ -100,7 +100,7 @@ pub(super) fn ui(
     });
 }
 
-/// Where it came from.
+/// Draws where the part came from.
 fn origin(ui: &mut Ui, part: &PartMeta, theme: &Theme) {
     let at = part.enrolled.at.to_zoned(jiff::tz::TimeZone::system());
     let seen = if part.simulated {
@@ -129,7 +129,7 @@ fn origin(ui: &mut Ui, part: &PartMeta, theme: &Theme) {
     );
 }
 
-/// What it was enrolled from.
+/// Describes what the part was enrolled from.
 fn described(how: EnrolMethod) -> String {
     match how {
         EnrolMethod::Segmented => text!("enrol-method-segmented"),

@@ -1,4 +1,4 @@
-//! The enrolled parts side by side; a press opens one.
+//! The enrolled parts side by side; a click opens one.
 
 use std::sync::Arc;
 
@@ -21,19 +21,19 @@ use crate::{
 
 /// Size of a part's card, logical pixels.
 const CARD: [f32; 2] = [236.0, 84.0];
-/// Letters that fit beside the picture.
+/// Characters that fit beside the picture.
 const LETTERS: usize = 18;
 
-/// The strip, and what of the library was prepared for it.
+/// The strip of parts, and what it keeps between frames.
 #[derive(Default)]
 pub(super) struct Catalogue {
-    /// The library, and the places of its parts in the order of their titles.
+    /// The library, and the indices of its parts ordered by title.
     sorted: Option<(Arc<LibraryView>, Vec<usize>)>,
-    /// The change of the library that was scrolled to.
+    /// Number of the library change that was scrolled to.
     followed: u64,
 }
 
-/// What a card shows.
+/// Contents of a card.
 struct CardContent<'a> {
     name: &'a str,
     title: &'a str,
@@ -44,7 +44,7 @@ struct CardContent<'a> {
 }
 
 impl Catalogue {
-    /// Sorts the parts when the library is another one.
+    /// Sorts the parts if the library has changed.
     fn sort(&mut self, library: &Arc<LibraryView>) {
         let sorted = self.sorted.as_ref();
         if sorted.is_some_and(|(of, _)| Arc::ptr_eq(of, library)) {
@@ -83,7 +83,7 @@ impl Catalogue {
         );
         let order = self.sorted.as_ref().map_or(&[][..], |(_, order)| order);
         let wants_more = self.followed == enrol.num_changes;
-        // A wheel turns it as well.
+        // The vertical wheel scrolls it as well.
         ui.style_mut().always_scroll_the_only_direction = true;
         ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
             ui.horizontal(|ui| {
@@ -123,7 +123,7 @@ impl Catalogue {
     }
 }
 
-/// When it was enrolled, and from what; that of a simulated one matters less than that no camera saw it.
+/// The day of enrolment, and below it the source, or that the part is simulated.
 fn when(part: &PartMeta) -> [String; 2] {
     let at = part.enrolled.at.to_zoned(jiff::tz::TimeZone::system());
     let seen = if part.simulated {
@@ -165,7 +165,7 @@ fn card(
         mark(&painter, picture.center(), 14.0, Mark::Look, theme);
     }
     let mut at = pos2(picture.right() + space::SMALL, rect.top() + 9.0);
-    // What became of it stands for the day it was enrolled.
+    // For the part changed last, show the change in place of the day.
     let (day, colour) = match shown.latest {
         Some(what) => (what, theme.accepted),
         None => (shown.below[0].as_str(), theme.weak_text),

@@ -1,4 +1,4 @@
-//! Changes of the library, each with the change that takes it back.
+//! Changes of the library, each with the change that reverts it.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -17,39 +17,39 @@ use crate::{
 /// A change of the library.
 #[derive(Clone, Debug)]
 pub enum LibraryChange {
-    /// Save what was prepared, as one more reference of another part if there is one; a part of the same name is replaced.
+    /// Save a prepared part, as another reference of the given part if any; replaces a part of the same name.
     Save(Arc<Enrolled>, PartNaming, Option<PartName>),
-    /// Call a part otherwise.
+    /// Change name, title and notes of a part.
     Rename(PartName, PartNaming),
     /// Move a part to the trash.
     Remove(PartName),
-    /// Bring a part back from where it lies in the trash.
+    /// Restore a part from this place in the trash.
     Restore(PathBuf),
-    /// Store the spray path in this file with a part.
+    /// Read a spray path from this file and store it with a part.
     ReadPath(PartName, PathBuf),
-    /// Store this spray path with a part, or none.
+    /// Store this spray path with a part; `None` removes the present one.
     SetPath(PartName, Option<SprayPath>),
 }
 
-/// What was changed.
+/// A change that was made.
 #[derive(Clone, Debug)]
 pub struct Changed {
-    /// In words.
+    /// Description of the change.
     pub what: ChangeText,
-    /// The change that takes it back.
+    /// The change that reverts it.
     pub back: LibraryChange,
-    /// The part, if it is in the library now.
+    /// The changed part, if it is in the library now.
     pub name: Option<PartName>,
-    /// The library as it is now.
+    /// The library after the change.
     pub library: Arc<LibraryView>,
 }
 
-/// What was changed, in words.
+/// Description of a change.
 #[derive(Clone, Debug, Default)]
 pub struct ChangeText {
-    /// The change alone.
+    /// The change only.
     pub brief: String,
-    /// With what a person should know about it.
+    /// The change and what a person should know about it.
     pub whole: String,
 }
 
@@ -62,7 +62,7 @@ impl From<String> for ChangeText {
     }
 }
 
-/// Changes the library in use and loads it anew.
+/// Changes the library in use and reloads it.
 pub(super) fn change(
     change: &LibraryChange,
     library_cache: &LibraryCache,
@@ -106,7 +106,7 @@ pub(super) fn change(
     })
 }
 
-/// Makes the change; says what was done, what takes it back, and which part is there now.
+/// Makes the change; returns its description, its inverse, and the part that is there now.
 fn make(
     change: &LibraryChange,
     folder: &LibraryFolder,
@@ -160,7 +160,7 @@ fn make(
             (what.into(), back, Some(name))
         }
         LibraryChange::SetPath(name, path) => {
-            // One that is damaged cannot be brought back.
+            // A damaged path cannot be brought back.
             let former = folder.spray_path(name.as_str()).ok().flatten();
             folder.set_spray_path(name, path.as_ref())?;
             let title = title_of(name);
@@ -178,14 +178,14 @@ fn make(
     })
 }
 
-/// The part under the words that a person found for it.
+/// Returns the part with the naming that a person gave it.
 fn described(part: &Part, words: &PartNaming, of: Option<&PartName>) -> Part {
     Part {
         meta: PartMeta {
             name: words.name.clone(),
             title: words.title.clone(),
             notes: words.notes.clone(),
-            // One that replaces the part's own stays that.
+            // A part that replaces the part's own reference remains that part's own.
             part: of.filter(|of| **of != words.name).cloned(),
             ..part.meta.clone()
         },

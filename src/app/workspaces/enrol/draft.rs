@@ -1,4 +1,4 @@
-//! The part that is about to be enrolled, as far as it is.
+//! The part that is about to be enrolled, and the form that describes it.
 
 use std::sync::Arc;
 
@@ -17,27 +17,27 @@ use crate::{
 /// The part that is about to be enrolled.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    /// By which number what belongs to it is known.
+    /// Number of the draft, counted from 1; undo steps refer to it.
     pub number: u64,
-    /// What it is enrolled from.
+    /// The input that it is enrolled from.
     pub subject: Arc<EnrolInput>,
-    /// What was corrected.
+    /// The corrections made to the input's segments.
     pub corrections: Corrections,
-    /// What is kept.
+    /// The points kept.
     pub selection: Arc<Selection>,
-    /// What would be stored; `None` until it is known.
+    /// The part that would be stored, or why none can be; `None` until known.
     pub checked: Option<Result<Arc<Checked>, UserError>>,
-    /// What it shall be called.
+    /// The form that describes the part.
     pub form: Form,
 }
 
 impl Draft {
-    /// What would be stored, once it is known and can be.
+    /// The part that would be stored, if known and possible.
     pub fn ready(&self) -> Option<&Arc<Checked>> {
         self.checked.as_ref()?.as_ref().ok()
     }
 
-    /// The enrolled part that it is hardest to tell from, the one that it replaces left out.
+    /// The enrolled part hardest to tell from the draft, other than the one that it replaces or is a reference of.
     pub fn hardest(&self) -> Option<&Similarity> {
         let mut all = self.ready()?.likenesses.iter();
         let of = self.form.reference_of.as_ref().map(PartName::as_str);
@@ -46,47 +46,47 @@ impl Draft {
     }
 }
 
-/// What a person writes about a part.
+/// The form of a part.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Form {
-    /// Its name for people.
+    /// Title: the name shown to people.
     pub title: String,
-    /// Its name, right or wrong.
+    /// Name as entered, valid or not.
     pub name: String,
-    /// Notes.
+    /// Notes as entered.
     pub notes: String,
     /// Who wrote the name.
     pub named_by: NamedBy,
-    /// The part that it is one more reference of, if it is none of its own.
+    /// The part of which this is another reference; `None` for a part of its own.
     pub reference_of: Option<PartName>,
 }
 
-/// Who wrote a name.
+/// Where a name came from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NamedBy {
-    /// It follows the title.
+    /// It is derived from the title.
     #[default]
     Title,
-    /// A person.
+    /// It was entered by a person.
     Person,
 }
 
-/// A line of a form.
+/// A field of a form with its new content.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Field {
-    /// The name for people.
+    /// The title.
     Title(String),
     /// The name.
     Name(String),
     /// Notes.
     Notes(String),
-    /// The part that it is one more reference of.
+    /// The part of which this is another reference.
     ReferenceOf(Option<PartName>),
 }
 
 impl Form {
-    /// What an enrolled part is called.
+    /// Returns the form of an enrolled part.
     pub fn of(part: &PartMeta) -> Self {
         let words = part.words();
         Self {
@@ -98,7 +98,7 @@ impl Form {
         }
     }
 
-    /// Writes a line; while nobody wrote a name, it follows the title.
+    /// Fills in a field; until a name is entered, it follows the title.
     pub fn write(&mut self, field: Field) {
         match field {
             Field::Title(title) => {
@@ -122,7 +122,7 @@ impl Form {
         }
     }
 
-    /// The words, if the name is one.
+    /// Returns name, title and notes, if the name is valid.
     pub fn words(&self) -> Result<PartNaming, BadName> {
         Ok(PartNaming {
             name: PartName::new(&self.name)?,
@@ -131,26 +131,26 @@ impl Form {
         })
     }
 
-    /// Another part that has the title.
+    /// Finds another part with the same title.
     pub fn shared_title(&self, library: &LibraryView) -> Option<SharedTitle> {
         let of = self.reference_of.as_ref().map(PartName::as_str);
         let of = of.unwrap_or(&self.name);
         SharedTitle::among(&self.title, &self.name, of, &library.parts)
     }
 
-    /// The enrolled part of this name.
+    /// Title of the enrolled part of this name.
     pub fn namesake<'a>(&self, library: &'a LibraryView) -> Option<&'a str> {
         let place = library.place_of(&self.name)?;
         Some(library.title(place))
     }
 }
 
-/// An enrolled part that is looked at.
+/// An enrolled part whose card is open.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OpenedPart {
-    /// The part.
+    /// Name of the part.
     pub name: PartName,
-    /// What it is called, as a person writes it.
+    /// Its form.
     pub form: Form,
 }
 

@@ -1,4 +1,4 @@
-//! What a person writes about a part: title, name, notes.
+//! The fields for title, name and notes of a part.
 
 use egui::{RichText, TextEdit, Ui, vec2};
 
@@ -14,7 +14,7 @@ use crate::{
     error::Advice as _,
 };
 
-/// Draws the lines; says which one was written in.
+/// Draws the fields; returns the one that was edited.
 pub(super) fn ui(ui: &mut Ui, form: &Form, theme: &Theme) -> Option<Field> {
     let mut written = None;
     let line = |ui: &mut Ui, label: String, hint: String, text: &str, rows: usize| {
@@ -71,13 +71,13 @@ pub(super) fn ui(ui: &mut Ui, form: &Form, theme: &Theme) -> Option<Field> {
     written
 }
 
-/// What is wrong, and what to do.
+/// Draws what is wrong and what to do.
 pub(super) fn complaint(ui: &mut Ui, what: &str, advice: &str, theme: &Theme) {
     said(ui, Mark::Look, what, theme);
     ui.label(RichText::new(advice).color(theme.warning));
 }
 
-/// A mark and a sentence.
+/// Draws a mark and a sentence.
 pub(super) fn said(ui: &mut Ui, sign: Mark, text: &str, theme: &Theme) {
     ui.horizontal_top(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(18.0, 18.0), egui::Sense::hover());

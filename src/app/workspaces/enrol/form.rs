@@ -1,4 +1,4 @@
-//! The card of the draft: what will be stored, what it is called, and whether it can be told from the others.
+//! The card of the draft: what will be stored, its name, and whether it can be told from the other parts.
 
 use egui::{
     Align, Button, Frame, Layout, Margin, Panel, Rect, RichText, ScrollArea, Ui, pos2, vec2,
@@ -83,7 +83,7 @@ pub(super) fn ui(
     });
 }
 
-/// The heading: a new part, or one that takes the place of another.
+/// Heading: a new part, or the replacement of another.
 fn what_save_does(enrol: &EnrolState, session: &Session) -> String {
     enrol.replaced_title(session).map_or_else(
         || text!("enrol-new-part"),
@@ -91,7 +91,7 @@ fn what_save_does(enrol: &EnrolState, session: &Session) -> String {
     )
 }
 
-/// The way out of replacing a part.
+/// Draws the button that stops replacing a part.
 pub(super) fn as_new(ui: &mut Ui, actions: &mut Vec<EnrolAction>) {
     let text = text!("enrol-as-new");
     if labelled(ui, Button::new(&text), &text).clicked() {
@@ -99,7 +99,7 @@ pub(super) fn as_new(ui: &mut Ui, actions: &mut Vec<EnrolAction>) {
     }
 }
 
-/// Why the draft cannot be saved now, and what is to be done.
+/// Returns why the draft cannot be saved now, and what to do.
 fn unready(draft: &Draft) -> Option<String> {
     let has_no_words = draft.form.title.is_empty() && draft.form.name.is_empty();
     match &draft.checked {
@@ -111,7 +111,7 @@ fn unready(draft: &Draft) -> Option<String> {
     }
 }
 
-/// The picture of what will be stored, and what it is made of.
+/// Draws the picture of what will be stored, and its figures.
 fn stored(
     ui: &mut Ui,
     draft: &Draft,
@@ -184,7 +184,7 @@ fn seen_from(coverage: Coverage) -> String {
     }
 }
 
-/// The part that it becomes one more reference of; by itself a part of its own.
+/// Draws the menu of parts of which the draft may become another reference; default is a part of its own.
 fn reference_menu(
     ui: &mut Ui,
     draft: &Draft,
@@ -230,7 +230,7 @@ fn reference_menu(
     button.on_hover_text(text!("enrol-reference-of-hint"));
 }
 
-/// Says that another part has this title.
+/// Warns if another part has this title.
 pub(super) fn shared_title(ui: &mut Ui, form: &Form, session: &Session, theme: &Theme) {
     let library = session.library.as_deref();
     if let Some(shared) = library.and_then(|library| form.shared_title(library)) {
@@ -240,7 +240,7 @@ pub(super) fn shared_title(ui: &mut Ui, form: &Form, session: &Session, theme: &
     }
 }
 
-/// Says that a part of this name is there already.
+/// Warns if a part of this name exists already.
 fn namesake(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, session: &Session, theme: &Theme) {
     let library = session.library.as_deref();
     let namesake = library.and_then(|library| draft.form.namesake(library));
@@ -251,7 +251,7 @@ fn namesake(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, session: &Session, t
     }
 }
 
-/// Which enrolled part it is hardest to tell from.
+/// Draws which enrolled part is hardest to tell from the draft.
 fn likeness(
     ui: &mut Ui,
     draft: &Draft,
@@ -264,7 +264,7 @@ fn likeness(
     };
     let title = title_of(session, &likeness.other);
     let percent = match likeness.score * 100.0 {
-        // Some likeness is always left.
+        // The score never reaches zero.
         little if little < 1.0 => "< 1".to_owned(),
         percent => format!("{percent:.0}"),
     };
@@ -293,7 +293,7 @@ fn likeness(
     }
 }
 
-/// Says that nothing can be saved where the library lies.
+/// Warns if nothing can be saved in this library.
 pub(super) fn fixed(ui: &mut Ui, session: &Session, theme: &Theme) {
     let fixed = session
         .library

@@ -1,8 +1,7 @@
-//! The draft as it is kept on the disk, so that a program that is killed loses seconds of work on it.
+//! The draft file: if the program is killed, only seconds of work on the draft are lost.
 //!
-//! Kept is what a person did: what was written about the part, the corrections, and where the scene came from, not the
-//! scene itself. A frame of the simulated cell, a file and a scan can be had again; of a frame of a camera what was
-//! written comes back alone.
+//! The file keeps what a person did: the form, the corrections and the origin of the scene, but not the scene itself. A
+//! frame of the simulated cell, a file or a scan can be obtained again; of a camera frame, only the form comes back.
 
 use std::{
     path::{Path, PathBuf},
@@ -30,28 +29,28 @@ use crate::{
     library::MAX_TITLE,
 };
 
-/// The version of the file.
+/// Version of the file format.
 const SCHEMA: u32 = 1;
-/// A larger file is no draft: a lasso takes a few kilobytes.
+/// Size limit of the file, bytes; a lasso takes a few kilobytes.
 const MAX_BYTES: u64 = 4 << 20;
-/// More corrections than a person makes; each goes through all points.
+/// Limit of corrections; each is applied to all points.
 const MAX_EDITS: usize = 1000;
-/// Seconds without a change until the draft is written.
+/// Seconds without a change before the draft is written.
 const DELAY: f64 = 3.0;
 
-/// A draft as the file has it.
+/// A draft as stored in the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct KeptDraft {
     pub(super) schema: u32,
-    /// Where its scene came from.
+    /// Where the scene came from.
     pub(super) origin: Origin,
-    /// How the scene was taken at first.
+    /// The selection that the scene started from.
     pub(super) usual: InitialSelection,
-    /// What was corrected.
+    /// The corrections.
     pub(super) corrections: Corrections,
-    /// What was written about the part.
+    /// The form of the part.
     pub(super) form: Form,
-    /// The checksum of the selection; `None` where it was not known yet.
+    /// Checksum of the selection; `None` if it was not known yet.
     pub(super) checksum: Option<u32>,
 }
 
@@ -74,24 +73,24 @@ impl KeptDraft {
     }
 }
 
-/// Writes the draft a few seconds after it was changed last, on a thread of its own, and removes the file of one that was
-/// saved or discarded.
+/// Writes the draft on a thread of its own, a few seconds after the last change, and removes the file of a draft that
+/// was saved or discarded.
 pub(super) struct DraftFile {
     path: Option<PathBuf>,
     has_looked: bool,
     writing: Task<()>,
-    /// Keeps an older write from ending after a newer one.
+    /// Prevents an older write from finishing after a newer one.
     turn: Arc<Mutex<()>>,
-    /// The draft as it was seen last.
+    /// The draft as seen last.
     seen: Option<KeptDraft>,
-    /// The file may not have it: at the end it is written once more.
+    /// The file may be out of date, so it is written once more at the end.
     has_changed: bool,
-    /// When that is written, seconds on egui's clock; `None` once it is handed over.
+    /// When to write, seconds on egui's clock; `None` once handed over.
     due: Option<f64>,
 }
 
 impl DraftFile {
-    /// Without a path nothing is kept.
+    /// Without a path, no draft is kept.
     pub(super) fn new(path: Option<PathBuf>, runner: &TaskRunner) -> Self {
         Self {
             path,
@@ -104,7 +103,7 @@ impl DraftFile {
         }
     }
 
-    /// The draft of an earlier start, when asked for the first time. A file that cannot be used is set aside.
+    /// On the first call, loads the draft of an earlier start. A file that cannot be used is set aside.
     pub(super) fn load(&mut self) -> Option<Result<KeptDraft, UserError>> {
         let path = self.path.as_ref()?;
         if std::mem::replace(&mut self.has_looked, true) {
@@ -115,19 +114,20 @@ impl DraftFile {
         Some(loaded)
     }
 
-    /// Has what changed written, and says what went wrong. Costs a comparison in a frame without a change.
+    /// Schedules writing of changes and returns the error of a failed write. Costs one comparison per frame without a
+    /// change.
     pub(super) fn keep(&mut self, enrol: &EnrolState, ctx: &egui::Context) -> Option<UserError> {
         self.path.as_ref()?;
         let now = ctx.input(|input| input.time);
         if self.see(enrol) {
             self.has_changed = true;
-            // What was saved or discarded shall not come back.
+            // A saved or discarded draft must not come back: remove its file at once.
             let delay = if self.seen.is_some() { DELAY } else { 0.0 };
             self.due = Some(now + delay);
         }
         match self.due {
             Some(due) if now < due => ctx.request_repaint_after_secs((due - now) as f32),
-            // While the draft is examined, its selection is that of a moment ago.
+            // Wait: while the draft is examined, its selection is still the previous one.
             Some(_) if self.seen.is_some() && enrol.running().is_some() => {}
             Some(_) => {
                 self.due = None;
@@ -149,7 +149,8 @@ impl DraftFile {
         }
     }
 
-    /// Looks at the draft; true if it is another one. Until the one of the file is back, the file has it.
+    /// Updates `seen`; returns true if the draft has changed. While a kept draft is being brought back, the file has
+    /// it.
     fn see(&mut self, enrol: &EnrolState) -> bool {
         if enrol.coming.is_some() {
             return false;
@@ -165,7 +166,7 @@ impl DraftFile {
         !is_same
     }
 
-    /// Writes what may still wait to be written, or could not be.
+    /// Writes a change that is still pending or could not be written.
     pub(super) fn finish(&mut self, enrol: &EnrolState) {
         self.has_changed |= self.see(enrol);
         if let Some(path) = &self.path
@@ -173,7 +174,7 @@ impl DraftFile {
         {
             self.writing.cancel();
             let _turn = lock(&self.turn);
-            // The window is closing: nobody is left to read why it failed.
+            // The window is closing, so an error could not be shown.
             let _ = save(path, self.seen.clone(), examined(enrol).as_deref());
         }
     }
@@ -184,7 +185,7 @@ impl DraftFile {
     }
 }
 
-/// The selection of the draft, once it is that of its corrections.
+/// The selection of the draft, once it matches the corrections.
 fn examined(enrol: &EnrolState) -> Option<Arc<Selection>> {
     let draft = enrol.draft.as_ref()?;
     draft
@@ -193,7 +194,7 @@ fn examined(enrol: &EnrolState) -> Option<Arc<Selection>> {
         .then(|| Arc::clone(&draft.selection))
 }
 
-/// Why the file was not used.
+/// Why the file cannot be used.
 #[derive(Debug, thiserror::Error)]
 enum BadDraft {
     #[error(transparent)]
@@ -204,13 +205,13 @@ enum BadDraft {
     Newer { found: u32 },
 }
 
-/// All that every version of the file has.
+/// The fields common to all versions of the file.
 #[derive(Deserialize)]
 struct Versioned {
     schema: u32,
 }
 
-/// Reads the file, if it is there; a bad one is set aside, its place is free for the next.
+/// Reads the file, if present; sets a bad one aside.
 fn load(path: &Path) -> Option<Result<KeptDraft, UserError>> {
     if !path.exists() {
         return None;
@@ -247,7 +248,7 @@ fn read(path: &Path) -> Result<KeptDraft, BadDraft> {
     Ok(draft)
 }
 
-/// Writes the file, whole or not at all; without a draft there is none.
+/// Writes the file atomically; without a draft, removes it.
 fn save(
     path: &Path,
     draft: Option<KeptDraft>,
@@ -363,7 +364,7 @@ mod tests {
             b"{\"schema\":99}".to_vec(),
             b"\xff\xfe\x00".to_vec(),
             good.replace("0.1,", "1e999,").into(),
-            // Infinite where it is stored.
+            // Infinite as `f32`.
             good.replace("0.1,", "1e39,").into(),
             good.replace("Plate", &"x".repeat(MAX_TITLE + 1)).into(),
             good.replace(r#""edits":["#, &format!(r#""edits":[{many},"#))

@@ -64,7 +64,7 @@ use crate::app::{
     },
 };
 
-/// The keys of the workspace. Those with more modifiers come first: the others would take them too.
+/// The shortcuts of this workspace. Those with more modifiers come first, as the others would match them too.
 const SHORTCUTS: [Shortcut<EnrolAction>; 5] = [
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
@@ -103,7 +103,7 @@ const SHORTCUTS: [Shortcut<EnrolAction>; 5] = [
     },
 ];
 
-/// Width of the card, logical pixels, and in a narrow window.
+/// Width of the card in a wide and in a narrow window, logical pixels.
 const CARD: [f32; 2] = [360.0, 320.0];
 /// Height of the strip of enrolled parts, logical pixels.
 const STRIP: f32 = 150.0;
@@ -115,7 +115,7 @@ pub struct EnrolWorkspace {
     panes: Panes,
 }
 
-/// What is drawn with: nothing but what was made of the state, and an outline being drawn.
+/// The panes: derived from the state, except for an outline being drawn.
 struct Panes {
     view: DraftView,
     picture: PicturePane,
@@ -125,8 +125,8 @@ struct Panes {
 }
 
 impl EnrolWorkspace {
-    /// Without a draft, until that of an earlier start is back from the file in which drafts are kept; without a file
-    /// none is kept.
+    /// Creates the workspace. The draft of an earlier start is brought back from the file `draft`; without a file, no
+    /// draft is kept.
     pub fn new(
         gpu: Result<ViewportGpu, ViewError>,
         draft: Option<PathBuf>,
@@ -145,12 +145,12 @@ impl EnrolWorkspace {
         }
     }
 
-    /// What it knows.
+    /// The state of the workspace.
     pub fn state(&self) -> &EnrolState {
         &self.state
     }
 
-    /// The same, to be changed without a person.
+    /// The state, to be changed by a program.
     pub fn state_mut(&mut self) -> &mut EnrolState {
         &mut self.state
     }
@@ -281,7 +281,7 @@ impl Panes {
         }
     }
 
-    /// The draft, and the tools to correct it.
+    /// Draws the draft, and the tools to correct it.
     fn draft(
         &mut self,
         ui: &mut Ui,
@@ -333,7 +333,7 @@ impl Panes {
     }
 }
 
-/// The scan that the draft is, if it is one.
+/// The shots of the draft, if it is a scan.
 fn shown_scan<'a>(
     enrol: &'a EnrolState,
     session: &'a Session,
@@ -357,7 +357,7 @@ fn strip_height(shots: Option<&ShotsState>) -> f32 {
     }
 }
 
-/// Without a draft: where one comes from.
+/// Draws the area without a draft: where one comes from.
 fn empty(
     ui: &mut Ui,
     enrol: &EnrolState,
@@ -409,7 +409,7 @@ fn empty(
     });
 }
 
-/// The name for people of an enrolled part.
+/// Title of an enrolled part, or its name if it is not in the library.
 fn title_of<'a>(session: &'a Session, name: &'a str) -> &'a str {
     let library = session.library.as_deref();
     let title = library.and_then(|library| Some(library.title(library.place_of(name)?)));

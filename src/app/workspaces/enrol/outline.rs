@@ -1,8 +1,8 @@
-//! A box or a lasso that a person drew, and which points it encloses.
+//! A box or lasso drawn by a person, and the points that it encloses.
 //!
-//! A point is enclosed where the outline goes around the place at which it is seen, however often and either way round
-//! (non-zero winding rule): a lasso may cross itself, and its ends may overlap. How deep the point lies does not matter:
-//! what is hidden behind others is enclosed as well.
+//! A point is enclosed if the outline winds around the place where it is seen, any number of times in either direction
+//! (non-zero winding rule), so a lasso may cross itself and its ends may overlap. Depth does not matter: hidden points
+//! are enclosed as well.
 
 use std::sync::Arc;
 
@@ -12,33 +12,34 @@ use serde::{Deserialize, Serialize};
 use super::subject::EnrolInput;
 use crate::app::ui::viewport::seen_at;
 
-/// A box or a lasso that a person drew.
+/// A box or lasso drawn by a person.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "StoredOutline", try_from = "StoredOutline")]
 pub struct DrawnOutline {
-    /// In shares of width and height of what it was drawn over, from the top left; the last is joined to the first.
+    /// Corners as fractions of the width and height of what it was drawn over, from the top left; the last joins the
+    /// first.
     pub corners: Arc<[Vec2]>,
-    /// Over what it was drawn.
+    /// What it was drawn over.
     pub over: DrawnOver,
 }
 
 /// What an outline was drawn over.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DrawnOver {
-    /// The picture of what is enrolled. A point is seen in the middle of its pixel.
+    /// The picture of the input. A point is seen at the centre of its pixel.
     Picture,
     /// The 3-D view.
     View {
-        /// As the camera of the view stood.
+        /// Projection of the view when the outline was drawn.
         clip_from_world: Mat4,
     },
 }
 
-/// The same in a file.
+/// A drawn outline as stored in a file.
 #[derive(Serialize, Deserialize)]
 struct StoredOutline {
     corners: Vec<[f32; 2]>,
-    /// Column after column; `None` of one that was drawn over the picture.
+    /// Projection, column by column; `None` if drawn over the picture.
     clip_from_world: Option<[f32; 16]>,
 }
 
@@ -82,7 +83,7 @@ impl TryFrom<StoredOutline> for DrawnOutline {
 }
 
 impl DrawnOutline {
-    /// For each point of a subject whether it is enclosed; what lies behind the eye or has no coordinates is not.
+    /// Returns for each point whether it is enclosed; points behind the eye or without coordinates are not.
     pub(super) fn encloses(&self, subject: &EnrolInput) -> Vec<bool> {
         let edges = Edges::of(&self.corners);
         let points = subject.cloud().points.iter();
@@ -105,7 +106,7 @@ impl DrawnOutline {
     }
 }
 
-/// The edges of a polygon by the rows they cross, so that a place meets a few of a thousand.
+/// The edges of a polygon, binned by rows so that a query tests only a few of a thousand.
 struct Edges {
     low: Vec2,
     high: Vec2,
@@ -113,19 +114,20 @@ struct Edges {
     rows: Vec<Vec<Edge>>,
 }
 
-/// From its upper end to its lower one, whichever way the outline runs: there and back it is the same line to the bit.
+/// An edge from its upper to its lower end, whichever way the outline runs, so that both directions give identical
+/// bits.
 #[derive(Clone, Copy)]
 struct Edge {
     upper: Vec2,
-    /// Where its lower end lies.
+    /// y of the lower end.
     lower_y: f32,
-    /// How far it goes to the right on its way down; never asked for where it is level.
+    /// Slope dx/dy; not used for level edges.
     right_per_down: f32,
-    /// 1 where the outline runs down, −1 where it runs up.
+    /// 1 if the outline runs down, −1 if it runs up.
     turns: i32,
 }
 
-/// More rows than this hold no fewer edges each.
+/// Limit of rows; more would not reduce the edges per row.
 const MAX_ROWS: usize = 256;
 
 impl Edges {
@@ -161,15 +163,15 @@ impl Edges {
         edges
     }
 
-    /// Grows with `y`: the rows of an edge are those of all places between its ends.
+    /// Row of a height; monotonic in `y`, so the rows of an edge lie between those of its ends.
     fn row(&self, y: f32) -> usize {
         let row = (y - self.low.y) * self.rows_per_share;
         (row as usize).min(self.rows.len() - 1)
     }
 
-    /// True where they go around. Of two outlines with an edge in common a place on it is in one.
+    /// True if the edges wind around the place. A place on an edge shared by two outlines is in exactly one of them.
     fn go_around(&self, at: Vec2) -> bool {
-        // False for NaN as well.
+        // Also false for NaN.
         let is_near = self.low.cmple(at).all() && at.cmplt(self.high).all();
         if !is_near {
             return false;

@@ -1,4 +1,4 @@
-//! The draft as the camera sees it, and the box or lasso that a person draws in it.
+//! The draft as the camera sees it, with the box or lasso being drawn.
 
 use std::sync::Arc;
 
@@ -24,18 +24,18 @@ use crate::app::{
     },
 };
 
-/// The texture of the picture, and what is drawn in it.
+/// The texture of the picture, and the outline being drawn in it.
 #[derive(Default)]
 pub(super) struct PicturePane {
     made: Option<(Arc<Selection>, TextureHandle)>,
     drawing: Drawing,
-    /// The box that the keys move, picture shares.
+    /// The box moved by the keys, fractions of the picture.
     keyed: Option<Rect>,
 }
 
-/// One press of an arrow key moves the box by this share of the picture.
+/// Distance that an arrow key moves the box, fraction of the picture.
 const STEP: f32 = 0.02;
-/// Room for two lines below the picture, logical pixels.
+/// Height of the caption below the picture (two lines), logical pixels.
 const CAPTION: f32 = 38.0;
 
 impl PicturePane {
@@ -67,7 +67,7 @@ impl PicturePane {
         let painter = ui.painter_at(room);
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         painter.image(texture.id(), place, whole, egui::Color32::WHITE);
-        // The picture cannot be turned: a drag draws a box if nothing else.
+        // The picture cannot be turned, so a drag draws a box by default.
         let shape = enrol.shape.unwrap_or(DrawnShape::Box);
         let mode = enrol.outline_mode;
         let mut mended = None;
@@ -101,7 +101,7 @@ impl PicturePane {
             let on_screen = Rect::from_min_max(at(keyed.min), at(keyed.max));
             corners = drawing::box_corners(on_screen).to_vec();
         }
-        // On the picture, whose colours are the same in any window.
+        // The picture has the same colours in every theme, so the outline on it does, too.
         drawing::outline(&painter, &corners, &mode.title(), &ViewColours::dark());
         focus_ring(ui, place, &response, theme);
         if let Some(edit) = mended {
@@ -109,7 +109,7 @@ impl PicturePane {
         }
     }
 
-    /// Uploads the picture of a new selection, once.
+    /// Uploads the picture of a new selection.
     fn make(&mut self, ctx: &egui::Context, selection: &Arc<Selection>) {
         if self
             .made
@@ -129,7 +129,7 @@ impl PicturePane {
         self.made = Some((Arc::clone(selection), texture));
     }
 
-    /// Arrow keys move a box, with Shift its lower right corner; Enter applies it.
+    /// Arrow keys move a box, or with Shift its lower right corner; Enter applies it.
     fn by_keys(&mut self, ui: &Ui, response: &Response) -> Option<Vec<Vec2>> {
         if !response.has_focus() {
             self.keyed = None;
@@ -170,7 +170,7 @@ impl PicturePane {
     }
 }
 
-/// A click takes or drops a segment.
+/// Toggles the segment that was clicked.
 fn clicked(response: &Response, draft: &Draft) -> Option<Edit> {
     let at = response.interact_pointer_pos();
     let at = at.filter(|_| response.clicked())?;
@@ -184,7 +184,7 @@ fn clicked(response: &Response, draft: &Draft) -> Option<Edit> {
     )
 }
 
-/// What a person does to draw it.
+/// Describes how the shape is drawn.
 pub(super) fn drag_to_draw(shape: DrawnShape) -> String {
     match shape {
         DrawnShape::Box => text!("enrol-drag-box"),
@@ -192,7 +192,7 @@ pub(super) fn drag_to_draw(shape: DrawnShape) -> String {
     }
 }
 
-/// Takes the segment if all of it is dropped, else drops it.
+/// Keeps the segment if all of it is dropped, else drops it.
 pub(super) fn toggled(draft: &Draft, segment: u16) -> Option<Edit> {
     let place = usize::from(segment);
     let num_kept = *draft.selection.kept_of.get(place)?;

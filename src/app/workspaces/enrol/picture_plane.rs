@@ -1,17 +1,17 @@
-//! Where the points of what is enrolled lie in its picture.
+//! Mapping of the input's points to the pixels of its picture.
 
 use nalgebra::Point3;
 
 use crate::geometry::cloud::{Grid, PointCloud};
 
-/// Where points lie in a picture of so many pixels.
+/// Mapping of points to the pixels of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PicturePlane {
-    /// As the camera read them, a pixel each.
+    /// As read by the camera, one pixel per point.
     Camera(Grid),
-    /// Seen from the front, the z axis away from the viewer, without perspective.
+    /// Seen from the front, the z axis pointing away from the viewer, without perspective.
     Front {
-        /// Pixels.
+        /// Width and height, pixels.
         size: [usize; 2],
         /// Smallest x and y, metres.
         low: [f32; 2],
@@ -21,10 +21,10 @@ pub enum PicturePlane {
 }
 
 impl PicturePlane {
-    /// The longer side of a picture from the front, pixels: points of a reference cloud then lie about side by side.
+    /// Longer side of a front picture, pixels; points of a reference cloud then lie about side by side.
     const LONGER: f32 = 320.0;
 
-    /// Empty pixels around what is seen from the front.
+    /// Empty margin of a front picture, pixels.
     const MARGIN: f32 = 8.0;
 
     pub(super) fn of(cloud: &PointCloud) -> Self {
@@ -53,7 +53,7 @@ impl PicturePlane {
         }
     }
 
-    /// How far a point spreads, pixels: what no camera read side by side has gaps otherwise.
+    /// Radius of a drawn point, pixels; without it, a picture not read by a camera would have gaps.
     pub fn spread(&self) -> usize {
         match self {
             Self::Camera(_) => 0,
@@ -61,7 +61,7 @@ impl PicturePlane {
         }
     }
 
-    /// Column and row of a point, by its place and its coordinates.
+    /// Returns column and row of a point, given its index and coordinates.
     pub fn pixel(&self, place: usize, point: &Point3<f32>) -> [usize; 2] {
         match self {
             Self::Camera(grid) => [place % grid.width, place / grid.width],

@@ -1,4 +1,4 @@
-//! A scan as what a part is enrolled from: the part that the shots voted for, and what lies about it.
+//! A scan as the input of enrolling: the part by the vote of the shots, and its surroundings.
 
 use std::{borrow::Cow, sync::Arc};
 
@@ -10,18 +10,18 @@ use crate::{
     scan::{FusedCloud, Scan},
 };
 
-/// A scan, and those of its points that can be kept.
+/// A scan, and the points of it that can be kept.
 #[derive(Debug)]
 pub struct ScannedMatter {
-    /// The shots, put together.
+    /// The fused shots.
     pub fused: Arc<FusedShots>,
-    /// The part and what lies near it, in the camera's space of the first shot used.
+    /// The part and its surroundings, in the camera frame of the first shot used.
     pub cloud: PointCloud,
-    /// The place of each of these points in the scan's cloud.
+    /// Index of each of these points in the scan's cloud.
     places: Vec<u32>,
 }
 
-/// What lies further from the part than this is not shown, metres.
+/// Points further than this from the part's bounding box are left out, metres.
 const NEAR: f32 = 0.25;
 
 impl ScannedMatter {
@@ -32,7 +32,7 @@ impl ScannedMatter {
         let of_part = points().zip(is_part).filter(|(_, is)| **is);
         let part = PointCloud::from_points(of_part.map(|(point, _)| point));
         let bounds = part.bounds();
-        // Without a part everything is shown: there may be something to be taken by hand.
+        // Without a part, keep everything, so that a person can select by hand.
         let is_near = |point: &Point3<f32>| match &bounds {
             Some((low, high)) => {
                 (0..3).all(|axis| (low[axis] - NEAR..=high[axis] + NEAR).contains(&point[axis]))
@@ -52,7 +52,7 @@ impl ScannedMatter {
         }
     }
 
-    /// Places of the points that are the part by the shots' vote, or of the others.
+    /// Indices of the points that the shots voted to be the part, or of the others.
     pub(super) fn voted(&self, is_part: bool) -> Vec<u32> {
         let all = &self.fused.scan.cloud.is_part;
         let of = self.places.iter().enumerate();
@@ -61,7 +61,7 @@ impl ScannedMatter {
             .collect()
     }
 
-    /// The scan with these points as its part.
+    /// Returns the scan with the kept points as its part.
     pub(super) fn with_part(&self, kept: &[u32]) -> Cow<'_, Scan> {
         let scan = &self.fused.scan;
         let mut is_part = vec![false; scan.cloud.is_part.len()];

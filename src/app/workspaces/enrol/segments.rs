@@ -1,4 +1,4 @@
-//! The points of what is enrolled, cut into segments that are taken or dropped whole.
+//! The input's points cut into segments that are kept or dropped as a whole.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,56 +11,56 @@ use crate::{
     },
 };
 
-/// How the points are cut into segments.
+/// The segmentation of the points.
 #[derive(Debug)]
 pub struct Segments {
-    /// The segments; what is likely to be wanted first.
+    /// The segments, the likeliest part first.
     pub list: Vec<Segment>,
-    /// For each point the place of its segment in the list, or [`Segments::NONE`].
+    /// For each point the index of its segment in the list, or [`Segments::NONE`].
     pub of_point: Vec<u16>,
 }
 
-/// Points that are taken or dropped together.
+/// Points that are kept or dropped together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Segment {
-    /// What they are.
+    /// What kind of segment it is.
     pub kind: SegmentKind,
-    /// What a person calls it.
+    /// Name for a person.
     pub title: String,
-    /// Its points.
+    /// Number of points.
     pub num_points: usize,
-    /// What becomes of it unless a person says otherwise.
+    /// Default action.
     pub usual: PointAction,
 }
 
-/// What a segment is.
+/// Kind of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SegmentKind {
     /// A connected surface.
     Surface,
-    /// A background plane, by its number.
+    /// A background plane, with its number.
     Plane(u8),
-    /// Points too few to be a surface.
+    /// Points of pieces too small for a surface, and of surfaces beyond the limit.
     Specks,
 }
 
-/// What becomes of points.
+/// What is done with points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PointAction {
-    /// They are of the part.
+    /// They belong to the part.
     Kept,
-    /// They are not.
+    /// They do not belong to the part.
     Dropped,
 }
 
 impl Segments {
-    /// Of a point of no segment: the camera had no reading there.
+    /// Marks a point without a segment, where the camera had no reading.
     pub const NONE: u16 = u16::MAX;
-    /// More surfaces than this are counted among the specks.
+    /// Limit of surfaces; further ones count as specks.
     const MAX_SURFACES: usize = 24;
 
-    /// Of what stands before the background, the part first.
+    /// Segments a scene with background removal, the part first.
     pub(super) fn before_background(scene: &SceneCloud, params: &SegmentParams) -> Self {
         let found = segment(scene, params);
         let mut all = Self::of_num(found.labels.len());
@@ -93,7 +93,7 @@ impl Segments {
         all
     }
 
-    /// Of everything, the largest piece first.
+    /// Segments everything, the largest piece first.
     pub(super) fn all_of(scene: &SceneCloud, params: &SegmentParams) -> Self {
         let mut all = Self::of_num(scene.cloud.points.len());
         let found = pieces(scene, params);
@@ -134,7 +134,7 @@ impl Segments {
         });
     }
 
-    /// The readings that are in no segment yet.
+    /// Adds the readings that are in no segment yet.
     fn add_specks(&mut self, scene: &SceneCloud, usual: PointAction) {
         let points = scene.cloud.points.iter().zip(&self.of_point);
         let indices = places(points.map(|(p, of)| *of == Self::NONE && is_finite(p)));
@@ -147,7 +147,7 @@ impl Segments {
     }
 }
 
-/// The places at which it is true.
+/// Indices of the `true` items.
 fn places(all: impl Iterator<Item = bool>) -> Vec<u32> {
     let there = all.enumerate().filter(|(_, is_there)| *is_there);
     there.map(|(place, _)| place as u32).collect()

@@ -1,4 +1,4 @@
-//! What a person corrected, and which points are left of it.
+//! The corrections of a person, and the points that they leave.
 
 use image::{Rgb, RgbImage};
 use serde::{Deserialize, Serialize};
@@ -18,17 +18,17 @@ use crate::{
     stages::segment::PointLabel,
 };
 
-/// All corrections, in their order.
+/// All corrections, in order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Corrections {
-    /// What they start from.
+    /// The selection that they start from.
     pub taking: InitialSelection,
-    /// One after the other.
+    /// The corrections, the first one first.
     pub edits: Vec<Edit>,
 }
 
 impl Corrections {
-    /// None yet.
+    /// No corrections to this selection.
     pub fn none(taking: InitialSelection) -> Self {
         Self {
             taking,
@@ -41,30 +41,30 @@ impl Corrections {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Edit {
-    /// Keep or drop a segment, by its place in the list.
+    /// Keep or drop a segment, given its index.
     Segment(usize, PointAction),
-    /// Keep or drop by a box or a lasso.
+    /// Keep or drop points by a box or lasso.
     Outline(OutlineMode, DrawnOutline),
 }
 
-/// What a box or a lasso does.
+/// What a drawn box or lasso does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OutlineMode {
-    /// Drops what lies outside.
+    /// Drops everything outside.
     #[default]
     Keep,
-    /// Drops what lies inside.
+    /// Drops everything inside.
     Drop,
-    /// Takes everything inside, whatever it was taken for.
+    /// Keeps everything inside, background included.
     Add,
 }
 
 impl OutlineMode {
-    /// Every mode.
+    /// Every mode, in the order of the buttons.
     pub const ALL: [Self; 3] = [Self::Keep, Self::Drop, Self::Add];
 
-    /// What a person calls it.
+    /// Name for a person.
     pub fn title(self) -> String {
         match self {
             Self::Keep => text!("enrol-keep"),
@@ -73,7 +73,7 @@ impl OutlineMode {
         }
     }
 
-    /// What it does, in words.
+    /// Describes what it does.
     pub fn explanation(self) -> String {
         match self {
             Self::Keep => text!("enrol-keep-hint"),
@@ -83,23 +83,23 @@ impl OutlineMode {
     }
 }
 
-/// What is left of a subject, and how it looks.
+/// The points of an input that are kept, and how they are drawn.
 #[derive(Debug)]
 pub struct Selection {
-    /// The places of the points kept, ascending.
+    /// Indices of the kept points, ascending.
     pub indices: Vec<u32>,
-    /// For each segment how many of its points are kept.
+    /// Number of kept points of each segment.
     pub kept_of: Vec<usize>,
-    /// The points as a view shows them: kept as part, the rest by what it is.
+    /// The points for a 3-D view: kept points as part, the rest by their kind.
     pub points: PointSet,
-    /// The subject as the camera sees it, kept points bright.
+    /// The input as the camera sees it, kept points bright.
     pub picture: RgbImage,
-    /// For each pixel of the picture the place of the segment seen there, or [`Segments::NONE`].
+    /// For each pixel of the picture the index of the segment seen there, or [`Segments::NONE`].
     pub segment_at: Vec<u16>,
 }
 
 impl Selection {
-    /// Goes through the corrections and prepares what is drawn.
+    /// Applies the corrections and prepares what is drawn.
     pub(super) fn of(subject: &EnrolInput, corrections: &Corrections) -> Self {
         let segments = subject.segments(corrections.taking);
         let kept = kept(subject, corrections);
@@ -120,13 +120,13 @@ impl Selection {
         }
     }
 
-    /// The checksum of which points are kept.
+    /// Checksum of the indices of the kept points.
     pub(super) fn checksum(&self) -> u32 {
         crc32(bytemuck::cast_slice(&self.indices))
     }
 }
 
-/// For each point whether it is kept.
+/// Returns for each point whether it is kept.
 fn kept(subject: &EnrolInput, corrections: &Corrections) -> Vec<bool> {
     let segments = subject.segments(corrections.taking);
     let of_point = &segments.of_point;
@@ -174,8 +174,8 @@ fn labels(segments: &Segments, kept: &[bool]) -> Vec<PointLabel> {
     segments.of_point.iter().zip(kept).map(label).collect()
 }
 
-/// Kept points stand out by brightness as well as by hue; nearer is brighter. A picture has its colours in any window,
-/// as a photograph has.
+/// Renders the input, and the segment seen at each pixel. Kept points differ in brightness and hue; nearer is brighter.
+/// The colours are the same in every theme.
 fn picture(
     subject: &EnrolInput,
     segments: &Segments,
@@ -206,7 +206,7 @@ fn picture(
         let role = Role::of(*labels.get(place)?);
         let colour = colours.role(role).colour;
         let nearness = 1.0 - (cloud.points[place].z - nearest) / range;
-        // The view's colours are shaded by its light; these are not.
+        // The 3-D view shades these colours by its light; here nearness does.
         let brightness = match role {
             Role::Part => 0.75 + 0.25 * nearness,
             Role::Rest => 0.35 + 0.2 * nearness,

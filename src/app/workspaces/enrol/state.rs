@@ -1,4 +1,4 @@
-//! What the workspace knows, and what changes it.
+//! State of the workspace, and the actions that change it.
 
 use std::sync::Arc;
 
@@ -30,65 +30,65 @@ use crate::{
     library::PartName,
 };
 
-/// What the workspace knows.
+/// State of the workspace.
 #[derive(Debug)]
 pub struct EnrolState {
     /// The part that is about to be enrolled.
     pub draft: Option<Draft>,
-    /// The draft of an earlier start of the window, until it is back.
+    /// The draft of an earlier start of the window, until it has been brought back.
     pub(super) coming: Option<KeptDraft>,
-    /// The checksum that its selection had, until it is known again.
+    /// Checksum that the selection of that draft had, until its selection is known again.
     pub(super) expected: Option<u32>,
-    /// How many drafts there were.
+    /// Number of drafts so far.
     pub num_drafts: u64,
-    /// The enrolled part that the draft, or the next one, replaces.
+    /// The enrolled part to be replaced by the draft or the next one.
     pub replacing: Option<PartName>,
-    /// The part that the last change of the library left there.
+    /// The part changed last, if it is in the library.
     pub latest: Option<LastChangedPart>,
-    /// How many changes of the library there were.
+    /// Number of library changes so far.
     pub num_changes: u64,
-    /// The enrolled part that is looked at.
+    /// The enrolled part whose card is open.
     pub open: Option<OpenedPart>,
-    /// What dragging in the 3-D view draws; `None` while it turns the view.
+    /// Shape drawn by dragging in the 3-D view; `None` if dragging turns the view.
     pub shape: Option<DrawnShape>,
-    /// What a box or a lasso does.
+    /// What a drawn box or lasso does.
     pub outline_mode: OutlineMode,
-    /// What is shown of the draft.
+    /// The panes shown.
     panes: DraftPanes,
-    /// What is shown of a draft that is a scan, which has no picture of its own.
+    /// The panes shown for a scan, which has no picture of its own.
     scan_panes: DraftPanes,
-    /// Of the scan that the draft is, if it is one.
+    /// State of the list of shots, for a draft that is a scan.
     pub shots: ShotsState,
-    /// What can be taken back and done again.
+    /// Steps that can be undone and redone.
     pub steps: UndoStack,
     /// Prepares the draft; a newer correction replaces an older one.
     pub(super) draft_task: Task<DraftEvent>,
-    /// What the draft's task does, or did last.
+    /// The current job of the draft's task, or its last.
     pub(super) job: DraftJob,
-    /// Changes the library: what it began it finishes.
+    /// Changes the library; never cancelled.
     pub(super) change_task: Task<Box<Changed>>,
-    /// The change of the library that is being made.
+    /// The library change in progress.
     pub(super) pending: Option<(UndoDirection, LibraryStep)>,
-    /// An outline was drawn, and what it changes is not known yet.
+    /// An outline was drawn and its effect is not known yet.
     is_outline_new: bool,
-    /// What waits for the engineer's view.
+    /// The action to carry out once the engineer is in.
     held: Option<EnrolAction>,
     files: FileDialog<EnrolFile>,
 }
 
-/// What the draft's task does.
+/// A job of the draft's task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum DraftJob {
-    /// It gets another draft.
+    /// Gets a new draft.
     Take,
-    /// It gets the draft of an earlier start of the window again.
+    /// Gets the draft of an earlier start of the window again.
     TakeAgain,
-    /// It looks at the draft that is there.
+    /// Examines the present draft.
     Look,
 }
 
 impl EnrolState {
-    /// Without a draft.
+    /// Creates the state without a draft.
     pub fn new(runner: &TaskRunner) -> Self {
         Self {
             draft: None,
@@ -115,7 +115,7 @@ impl EnrolState {
         }
     }
 
-    /// What is shown of the draft.
+    /// The panes that show the draft.
     pub fn panes(&self) -> DraftPanes {
         if self.has_scan() {
             self.scan_panes
@@ -129,17 +129,17 @@ impl EnrolState {
         draft.is_some_and(|draft| draft.subject.scan().is_some())
     }
 
-    /// The run that prepares a draft, if any.
+    /// The job preparing a draft, if any.
     pub fn running(&self) -> Option<&Running> {
         self.draft_task.running()
     }
 
-    /// Stops that run.
+    /// Cancels that job.
     pub fn cancel(&mut self) {
         self.draft_task.cancel();
     }
 
-    /// The name for people of the enrolled part that the draft, or the next one, replaces.
+    /// Title of the enrolled part that the draft, or the next one, would replace.
     pub fn replaced_title<'a>(&self, session: &'a Session) -> Option<&'a str> {
         let library = session.library.as_ref()?;
         let name = match &self.draft {
@@ -149,7 +149,7 @@ impl EnrolState {
         library.place_of(name).map(|place| library.title(place))
     }
 
-    /// True while the draft is not the one that was asked for last.
+    /// True while another draft is being prepared.
     pub fn is_taking_another(&self) -> bool {
         self.running().is_some() && self.job != DraftJob::Look
     }
@@ -163,7 +163,7 @@ impl EnrolState {
         is_worked_on.then_some(draft)
     }
 
-    /// The same in words.
+    /// Describes unsaved work on the draft, if any.
     pub fn unsaved(&self) -> Option<String> {
         Some(match self.worked_on()?.form.title.trim() {
             "" => text!("enrol-unsaved"),
@@ -176,7 +176,7 @@ impl EnrolState {
         self.change_task.running().is_some()
     }
 
-    /// Of a draft that is a scan, which shots shall be used: what was asked for last, while that is on its way.
+    /// The shots used by a draft that is a scan, or those requested while they are being prepared.
     pub fn shot_choice(&self) -> Option<&ShotChoice> {
         let fused = self.draft.as_ref()?.subject.scan()?;
         let asked = self.shots.asked_choice();
@@ -184,7 +184,7 @@ impl EnrolState {
         Some(asked.unwrap_or(&fused.choice))
     }
 
-    /// Carries out an action, once the engineer is in.
+    /// Carries out an action; an operator is first asked for the engineer.
     pub fn apply(&mut self, action: EnrolAction, cx: &mut ShellContext<'_>) {
         if cx.session.role == UserRole::Operator {
             self.held = Some(action);
@@ -276,7 +276,7 @@ impl EnrolState {
         }
     }
 
-    /// Takes in what the tasks and the dialog report.
+    /// Takes in the results of the tasks and of the file dialog.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.draft_task.poll() {
             match event {
@@ -306,7 +306,7 @@ impl EnrolState {
         }
     }
 
-    /// Takes in what the shell tells.
+    /// Handles an event of the shell.
     pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
         match event {
             Event::Undo => self.apply(EnrolAction::Undo, cx),
@@ -360,7 +360,7 @@ impl EnrolState {
         self.files.open(file, &file.request(), lock, cx.egui);
     }
 
-    /// Has the draft's task do something else.
+    /// Starts another job of the draft's task.
     pub(super) fn start(
         &mut self,
         title: impl Into<String>,
@@ -373,7 +373,7 @@ impl EnrolState {
         self.draft_task.start(title, work);
     }
 
-    /// Changes the corrections, if that changes anything, and has them gone through.
+    /// Changes the corrections; if they differ, applies them and examines the draft.
     fn correct(&mut self, cx: &mut ShellContext<'_>, change: impl FnOnce(&mut Corrections)) {
         let draft = self.draft.as_mut();
         let Some(draft) = draft.filter(|draft| draft.subject.can_be_corrected()) else {
@@ -389,7 +389,7 @@ impl EnrolState {
         }
     }
 
-    /// Has the corrections gone through.
+    /// Applies the corrections and examines the draft.
     pub(super) fn look(&mut self, cx: &ShellContext<'_>) {
         let Some(draft) = &mut self.draft else {
             return;
@@ -440,7 +440,7 @@ impl EnrolState {
     }
 
     pub(super) fn look_at(&mut self, name: PartName, library: Option<&LibraryView>) {
-        // A damaged one cannot be described; it can be removed.
+        // A damaged part has no form, but it can be removed.
         let form = form_of(&name, library).unwrap_or_default();
         self.open = Some(OpenedPart { name, form });
     }

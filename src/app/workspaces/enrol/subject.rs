@@ -1,5 +1,4 @@
-//! What a part is enrolled from: a captured scene, a whole cloud or a mesh, cut into segments that a person takes or
-//! drops.
+//! The input of enrolling: a captured scene, a cloud, a mesh or a scan, cut into segments that are kept or dropped.
 
 use std::sync::Arc;
 
@@ -25,21 +24,21 @@ use crate::{
     stages::scene::{SceneCloud, scene_from_cloud, scene_from_frame},
 };
 
-/// Which of the points are the part before anything is corrected.
+/// The points selected before any correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum InitialSelection {
-    /// The part that stands before the background.
+    /// The part segmented from the background.
     Segmented,
     /// Everything.
     Whole,
 }
 
 impl InitialSelection {
-    /// Both.
+    /// Both, in the order of the buttons.
     pub const ALL: [Self; 2] = [Self::Segmented, Self::Whole];
 
-    /// What a person calls it.
+    /// Name for a person.
     pub fn title(self) -> String {
         match self {
             Self::Segmented => text!("enrol-in-front"),
@@ -48,40 +47,40 @@ impl InitialSelection {
     }
 }
 
-/// What a part is enrolled from. Its points have the same places in every list.
+/// The input that a part is enrolled from. All lists of points have the same order.
 #[derive(Debug)]
 pub struct EnrolInput {
     /// Where it came from.
     pub origin: Origin,
-    /// What was odd about the file.
+    /// Warnings about the file.
     pub warnings: Vec<FileWarning>,
-    /// What it is.
+    /// The input itself.
     pub matter: EnrolInputKind,
-    /// How it is taken at first.
+    /// The default selection.
     pub usual: InitialSelection,
-    /// The part and what lies about it; a mesh has none.
+    /// Segments with background removal; `None` for a mesh.
     pub segmented: Option<Segments>,
-    /// The pieces of all of it.
+    /// Segments of everything.
     pub whole: Segments,
-    /// Where its points lie in its picture.
+    /// Mapping of the points to the picture.
     pub picture: PicturePlane,
-    /// The points as a view takes them.
+    /// The points as a 3-D view takes them.
     pub positions: Arc<[[f32; 3]]>,
 }
 
-/// What a subject is.
+/// Kind of an input.
 #[derive(Debug)]
 pub enum EnrolInputKind {
-    /// Points.
+    /// A scene or cloud.
     Scene(Arc<SceneCloud>),
-    /// A surface, with points sampled on it to be looked at.
+    /// A surface, and points sampled on it for display.
     Mesh(Arc<TriangleMesh>, Arc<PointCloud>),
-    /// Several shots, put together.
+    /// Several shots, fused.
     Scan(Box<ScannedMatter>),
 }
 
 impl EnrolInput {
-    /// Gets it and cuts it into segments.
+    /// Reads the input and segments it.
     pub(super) fn read(
         source: &SceneSource,
         params: &EnrolParams,
@@ -112,10 +111,10 @@ impl EnrolInput {
                 ))
             }
             FileContent::Cloud(cloud) => {
-                // As on the command line: only what the camera read as a picture is taken for a scene.
+                // As on the command line, only an organised cloud is taken as a scene.
                 let (usual, scene) = match cloud.grid {
                     Some(_) => (InitialSelection::Segmented, scene_from_cloud(cloud)),
-                    // Every point of it: putting it back onto a picture would drop some.
+                    // Keep every point; projecting the cloud into a picture would drop some.
                     None => (InitialSelection::Whole, SceneCloud::new(cloud, None)),
                 };
                 Ok(Self::of_scene(Arc::new(scene), origin, usual, params))
@@ -171,7 +170,7 @@ impl EnrolInput {
         })
     }
 
-    /// Of shots that were put together.
+    /// Makes the input of fused shots.
     pub(super) fn of_scan(fused: Arc<FusedShots>) -> Self {
         let matter = ScannedMatter::of(fused);
         let num_points = matter.cloud.points.len();
@@ -198,7 +197,7 @@ impl EnrolInput {
         }
     }
 
-    /// True if it can be taken so.
+    /// True if the selection is possible for this input.
     pub fn allows(&self, taking: InitialSelection) -> bool {
         match taking {
             InitialSelection::Whole => self.scan().is_none(),
@@ -206,7 +205,7 @@ impl EnrolInput {
         }
     }
 
-    /// Its segments when it is taken so.
+    /// The segments to which the selection refers.
     pub fn segments(&self, taking: InitialSelection) -> &Segments {
         match (taking, &self.segmented) {
             (InitialSelection::Segmented, Some(segmented)) => segmented,
@@ -214,7 +213,7 @@ impl EnrolInput {
         }
     }
 
-    /// Its points.
+    /// The input's points.
     pub fn cloud(&self) -> &PointCloud {
         match &self.matter {
             EnrolInputKind::Scene(scene) => &scene.cloud,
@@ -223,7 +222,7 @@ impl EnrolInput {
         }
     }
 
-    /// The scene, if it is one.
+    /// The scene, if the input is one.
     pub fn scene(&self) -> Option<&Arc<SceneCloud>> {
         match &self.matter {
             EnrolInputKind::Scene(scene) => Some(scene),
@@ -231,7 +230,7 @@ impl EnrolInput {
         }
     }
 
-    /// The shots, if it is a scan.
+    /// The fused shots, if the input is a scan.
     pub fn scan(&self) -> Option<&Arc<FusedShots>> {
         match &self.matter {
             EnrolInputKind::Scan(scan) => Some(&scan.fused),
@@ -239,7 +238,7 @@ impl EnrolInput {
         }
     }
 
-    /// True if parts of it can be dropped: a mesh is enrolled by its surface, whole.
+    /// False for a mesh, which is enrolled as a whole.
     pub fn can_be_corrected(&self) -> bool {
         !matches!(self.matter, EnrolInputKind::Mesh(..))
     }

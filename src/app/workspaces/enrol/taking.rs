@@ -1,4 +1,4 @@
-//! Another draft: from a scene, from a file, or from the shots of a scan.
+//! Gets another draft: from a scene, a file, or the shots of a scan.
 
 use std::{path::Path, sync::Arc};
 
@@ -25,7 +25,7 @@ use crate::app::{
 };
 
 impl EnrolState {
-    /// Gets something to enrol.
+    /// Makes a scene or a scan the draft.
     pub fn take(&mut self, scene: SceneOrScan, title: String, cx: &ShellContext<'_>) {
         match scene {
             SceneOrScan::Scene(source) => self.take_scene(source, title, cx),
@@ -44,7 +44,7 @@ impl EnrolState {
         });
     }
 
-    /// Puts the shots of a scan together to enrol what they show.
+    /// Fuses the shots of a scan and makes them the draft.
     fn take_scan(
         &mut self,
         order: ScanOrder,
@@ -60,7 +60,7 @@ impl EnrolState {
         });
     }
 
-    /// Takes what Inspect shows.
+    /// Makes what Inspect shows the draft.
     pub(super) fn take_shown(&mut self, cx: &ShellContext<'_>) {
         let Some(shown) = &cx.session.shown else {
             return;
@@ -76,7 +76,7 @@ impl EnrolState {
         }
     }
 
-    /// Takes a file that was dropped, if one like it is waited for.
+    /// Takes a dropped file if the list of shots is waiting for one like it; returns whether it did.
     pub fn take_file(&mut self, path: &Path, cx: &mut ShellContext<'_>) -> bool {
         let is_wanted = self.shots.wants(path);
         if is_wanted {
@@ -86,7 +86,7 @@ impl EnrolState {
         is_wanted
     }
 
-    /// Has the draft made of other shots.
+    /// Makes the draft of other shots.
     pub(super) fn choose_shots(&mut self, action: ShotsAction, cx: &mut ShellContext<'_>) {
         let used = self.shot_choice().cloned();
         match self.shots.apply(action, used) {
@@ -102,7 +102,7 @@ impl EnrolState {
         }
     }
 
-    /// The former draft can be brought back; what was written about it is kept, for it may be the same part again.
+    /// Installs a new draft. The former one can be brought back; its form is kept, as it may describe the same part.
     pub(super) fn taken(
         &mut self,
         subject: Arc<EnrolInput>,
@@ -131,7 +131,7 @@ impl EnrolState {
             self.did(UndoStep::Draft(Some(Box::new(former))), cx);
         }
         let files = subject.scan().map(|fused| fused.choice.files());
-        // The next start opens the same shots.
+        // Let the next start of the window open the same shots.
         if let Some(files) = &files
             && let Some(source) = source_of(files, &cx.session.source)
         {
@@ -153,7 +153,7 @@ impl EnrolState {
         }
     }
 
-    /// Brings back the draft of an earlier start of the window, as far as its scene can be had again.
+    /// Brings back the draft of an earlier start of the window, as far as its scene can be obtained again.
     pub(super) fn bring_back(&mut self, kept: KeptDraft, cx: &mut ShellContext<'_>) {
         let (recipe, library_cache) = (
             Arc::clone(&cx.session.recipe),
@@ -179,7 +179,7 @@ impl EnrolState {
         }
     }
 
-    /// The scene of that draft is gone: what was written about the part waits for the next draft.
+    /// Handles a kept draft without its scene: its form waits for the next draft.
     pub(super) fn words_alone(&mut self, cx: &mut ShellContext<'_>) {
         self.job = DraftJob::Look;
         cx.notify(Notice::look(
@@ -188,7 +188,7 @@ impl EnrolState {
         ));
     }
 
-    /// Corrects the draft as it was corrected before.
+    /// Applies the corrections of the kept draft.
     fn correct_again(&mut self, kept: KeptDraft, cx: &mut ShellContext<'_>) {
         let Some(draft) = &mut self.draft else {
             return;

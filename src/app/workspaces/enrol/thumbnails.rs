@@ -1,4 +1,4 @@
-//! The small pictures, as textures: made once for a library and once for a draft.
+//! Textures of the small pictures, made once per library and once per draft.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use image::RgbaImage;
 use super::work::Checked;
 use crate::app::inspection::library_cache::LibraryView;
 
-/// The textures, and what they were made of.
+/// The textures, and their sources.
 #[derive(Default)]
 pub(super) struct Thumbnails {
     library: Option<(Arc<LibraryView>, Vec<Option<TextureHandle>>)>,
@@ -16,7 +16,7 @@ pub(super) struct Thumbnails {
 }
 
 impl Thumbnails {
-    /// Uploads what is new.
+    /// Uploads new pictures.
     pub(super) fn make(
         &mut self,
         ctx: &Context,
@@ -46,12 +46,12 @@ impl Thumbnails {
         }
     }
 
-    /// Of the enrolled part at this place.
+    /// Texture of the enrolled part at this index.
     pub(super) fn of_part(&self, place: usize) -> Option<&TextureHandle> {
         self.library.as_ref()?.1.get(place)?.as_ref()
     }
 
-    /// Of what would be stored.
+    /// Texture of the part that would be stored.
     pub(super) fn of_draft(&self) -> Option<&TextureHandle> {
         Some(&self.draft.as_ref()?.1)
     }

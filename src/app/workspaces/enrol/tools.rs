@@ -1,4 +1,4 @@
-//! What corrects the draft: how it is taken, boxes and lassos, segments, undo.
+//! The tools that correct the draft: initial selection, boxes and lassos, segments, undo.
 
 use egui::{RichText, ScrollArea, Ui};
 
@@ -46,7 +46,7 @@ pub(super) fn ui(
     }
 }
 
-/// How the draft is taken. The shots have voted what of a scan is the part.
+/// Choices of the initial selection; none for a scan, as the shots vote on what is the part.
 fn initial(draft: &Draft) -> Vec<Tool<EnrolAction>> {
     let is_scan = draft.subject.scan().is_some();
     let all = InitialSelection::ALL.into_iter().filter(|_| !is_scan);
@@ -61,7 +61,7 @@ fn initial(draft: &Draft) -> Vec<Tool<EnrolAction>> {
     .collect()
 }
 
-/// What a drag does.
+/// Choices of what a drag does.
 fn drawing(enrol: &EnrolState, can_correct: bool) -> Vec<Tool<EnrolAction>> {
     [
         (text!("enrol-rotate"), text!("enrol-rotate-hint"), None),
@@ -88,7 +88,7 @@ fn drawing(enrol: &EnrolState, can_correct: bool) -> Vec<Tool<EnrolAction>> {
     .collect()
 }
 
-/// What becomes of what is drawn around.
+/// Choices of what a drawn outline does.
 fn modes(enrol: &EnrolState, can_correct: bool) -> Vec<Tool<EnrolAction>> {
     let all = OutlineMode::ALL.into_iter();
     all.map(|mode| Tool {
@@ -102,7 +102,7 @@ fn modes(enrol: &EnrolState, can_correct: bool) -> Vec<Tool<EnrolAction>> {
     .collect()
 }
 
-/// Back and forth.
+/// Undo, Redo and Reset.
 fn steps(draft: &Draft, enrol: &EnrolState) -> Vec<Tool<EnrolAction>> {
     let steps = &enrol.steps;
     [
@@ -137,7 +137,7 @@ fn steps(draft: &Draft, enrol: &EnrolState) -> Vec<Tool<EnrolAction>> {
     .collect()
 }
 
-/// What is shown.
+/// Choices of the panes.
 fn panes(enrol: &EnrolState) -> Vec<Tool<EnrolAction>> {
     let all = DraftPanes::ALL.into_iter();
     all.map(|panes| Tool {
@@ -151,15 +151,15 @@ fn panes(enrol: &EnrolState) -> Vec<Tool<EnrolAction>> {
     .collect()
 }
 
-/// The segments, each with its size and what becomes of it; a press takes or drops it.
+/// Draws the segments, each with its size and state; a click keeps or drops it.
 pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<EnrolAction>) {
     if !draft.subject.can_be_corrected() {
         return;
     }
     let segments = draft.subject.segments(draft.corrections.taking);
-    // A wheel turns it as well.
+    // The vertical wheel scrolls it as well.
     ui.style_mut().always_scroll_the_only_direction = true;
-    // While another choice is being gone through, the selection is of the former one.
+    // Until another choice has been applied, the selection is that of the former one.
     let kept_of = |place: usize| draft.selection.kept_of.get(place).copied().unwrap_or(0);
     ScrollArea::horizontal()
         .auto_shrink([false, true])

@@ -1,4 +1,4 @@
-//! What was done, to be taken back and done again, in its order; and the changes of the library among it.
+//! Undo and redo of the draft's steps and the library's changes, in one order.
 
 use std::{mem, sync::Arc};
 
@@ -20,23 +20,23 @@ use crate::{
     library::PartName,
 };
 
-/// What can be taken back, and what was taken back and can be done again; the latest last.
+/// The steps that can be undone and redone; the latest last.
 #[derive(Debug, Default)]
 pub struct UndoStack {
-    /// What was done.
+    /// Steps to undo.
     pub done: Vec<UndoStep>,
-    /// What was taken back.
+    /// Steps to redo.
     pub undone: Vec<UndoStep>,
 }
 
-/// How to get from here to what was before, or back again.
+/// How to return to an earlier state, or forward again.
 #[derive(Clone, Debug)]
 pub enum UndoStep {
-    /// The corrections of the draft of this number as they were.
+    /// Set the corrections of the draft with this number.
     Corrections(u64, Corrections),
-    /// The draft as it was.
+    /// Set the draft.
     Draft(Option<Box<Draft>>),
-    /// A change of the library.
+    /// Change the library.
     Library(LibraryStep),
 }
 
@@ -49,53 +49,53 @@ impl UndoStep {
     }
 }
 
-/// A change of the library.
+/// A change of the library as a step.
 #[derive(Clone, Debug)]
 pub struct LibraryStep {
-    /// The change to be made.
+    /// The change to make.
     pub change: LibraryChange,
-    /// What was done first, in words.
+    /// Description of the original change.
     pub what: ChangeText,
-    /// What becomes of the draft by it.
+    /// Effect on the draft.
     pub draft: DraftEffect,
 }
 
-/// What becomes of the draft when a step is made.
+/// Effect of a library step on the draft.
 #[derive(Clone, Debug)]
 pub enum DraftEffect {
-    /// It stays.
+    /// The draft stays.
     Stays,
-    /// It makes way for this one: a saved draft goes, and comes back when the saving is taken back.
+    /// The draft is exchanged for this one: a saved draft goes, and comes back when saving is undone.
     MakesWay(Option<Box<Draft>>),
 }
 
-/// The part that the last change of the library left there.
+/// The part changed last, if it is in the library.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LastChangedPart {
-    /// The part.
+    /// Name of the part.
     pub name: PartName,
-    /// What became of it, in words.
+    /// Description of the change.
     pub what: String,
 }
 
-/// Which way a step is made.
+/// Direction in which a step is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UndoDirection {
-    /// For the first time.
+    /// Made for the first time.
     First,
-    /// Taken back.
+    /// Undone.
     Back,
-    /// Done again.
+    /// Redone.
     Again,
 }
 
-/// More steps than this are forgotten, the oldest first.
+/// Limit of steps; the oldest are dropped.
 const MAX_STEPS: usize = 100;
-/// The same of drafts that are scans: each holds about a hundred megabytes.
+/// Limit of drafts that are scans: each holds about 100 MB.
 const MAX_SCANS: usize = 4;
 
 impl UndoStack {
-    /// Something was done for the first time: what was taken back before can no longer be done again.
+    /// Adds the step that undoes a new one; steps undone before can no longer be redone.
     pub fn push(&mut self, back: UndoStep) {
         self.undone.clear();
         self.done.push(back);
@@ -109,7 +109,7 @@ impl UndoStack {
         }
     }
 
-    /// The list that the next step that way is taken from.
+    /// The list from which the next step in this direction is taken.
     pub fn from(&mut self, way: UndoDirection) -> &mut Vec<UndoStep> {
         match way {
             UndoDirection::First | UndoDirection::Back => &mut self.done,
@@ -117,7 +117,7 @@ impl UndoStack {
         }
     }
 
-    /// The list that the way back is put into.
+    /// The list that receives the inverse step.
     pub fn to(&mut self, way: UndoDirection) -> &mut Vec<UndoStep> {
         match way {
             UndoDirection::Back => &mut self.undone,
@@ -127,7 +127,7 @@ impl UndoStack {
 }
 
 impl EnrolState {
-    /// Has the library changed for the first time; one change at a time.
+    /// Starts a new change of the library, unless one is in progress.
     pub(super) fn change(
         &mut self,
         change: LibraryChange,
@@ -154,7 +154,7 @@ impl EnrolState {
             });
     }
 
-    /// The library is another one now: what was made by it shows it.
+    /// Takes in a completed change of the library.
     pub(super) fn changed(&mut self, changed: Changed, cx: &mut ShellContext<'_>) {
         let Changed {
             what,
@@ -211,7 +211,7 @@ impl EnrolState {
         self.look(cx);
     }
 
-    /// The library could not be changed: the step still can be taken back or done again.
+    /// Puts the step of a failed change back, so that it can be undone or redone later.
     pub(super) fn not_changed(&mut self) {
         if let Some((way, step)) = self.pending.take()
             && way != UndoDirection::First
@@ -220,7 +220,7 @@ impl EnrolState {
         }
     }
 
-    /// The part to be replaced may be called otherwise now, or be gone.
+    /// Follows the part to be replaced if it was renamed; forgets it if it is gone.
     fn track_replaced_part(&mut self, made: &LibraryChange, library: &LibraryView) {
         let Some(replaced) = &self.replacing else {
             return;
@@ -238,7 +238,7 @@ impl EnrolState {
         }
     }
 
-    /// Takes the last step back, or does it again.
+    /// Undoes or redoes one step.
     pub(super) fn apply_step(&mut self, way: UndoDirection, cx: &mut ShellContext<'_>) {
         if self.is_changing_library() {
             return;
@@ -255,7 +255,7 @@ impl EnrolState {
                 }
                 UndoStep::Corrections(number, before) => {
                     let draft = self.draft.as_mut();
-                    // Of a draft that is no longer there: the step before it counts.
+                    // Skip steps of a draft that is gone.
                     if let Some(draft) = draft.filter(|draft| draft.number == number) {
                         let now = mem::replace(&mut draft.corrections, before);
                         let back = UndoStep::Corrections(number, now);
@@ -267,14 +267,14 @@ impl EnrolState {
         }
     }
 
-    /// Something else was done: it is what Undo takes back now, and no notice offers to take back something else.
+    /// Records a new step, and withdraws the offers to undo in earlier notices.
     pub(super) fn did(&mut self, back: UndoStep, cx: &mut ShellContext<'_>) {
         self.steps.push(back);
         cx.send(Message::WithdrawUndo);
     }
 }
 
-/// What of a draft can be inspected: a mesh cannot.
+/// Returns the part of a draft that can be inspected; `None` for a mesh.
 fn inspectable(draft: &Draft) -> Option<SceneOrScan> {
     if let Some(fused) = draft.subject.scan() {
         return Some(SceneOrScan::Scan(ScanOrder::Known(fused.choice.clone())));

@@ -1,4 +1,4 @@
-//! The draft in three dimensions: kept bright, the rest dull.
+//! The draft in three dimensions: kept points bright, the rest dull.
 
 use std::sync::Arc;
 
@@ -26,13 +26,13 @@ use crate::{
     geometry::rigid::RigidTransform,
 };
 
-/// What the view was made of.
+/// What the view shows.
 struct Shown {
     number: u64,
     selection: Arc<Selection>,
-    /// Of a scan: the shot whose own surface is marked.
+    /// For a scan: the shot whose own surface is marked.
     looked_at: Option<usize>,
-    /// Of a scan: the camera's pose in whose space it is shown.
+    /// For a scan: the camera pose that defines the frame shown.
     space: Option<RigidTransform>,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct DraftView {
     scene: ViewScene,
     style: ViewStyle,
     styled: ThemeChoice,
-    /// The size of points but for those of a scan.
+    /// Point size, except for scans.
     usual_size: PointSize,
     shown: Option<Shown>,
     has_focus: bool,
@@ -63,12 +63,12 @@ impl DraftView {
         }
     }
 
-    /// True while keys go to the view.
+    /// True while the view has the key focus.
     pub(super) fn has_focus(&self) -> bool {
         self.has_focus
     }
 
-    /// The view is not shown.
+    /// Drops the key focus while the view is hidden.
     pub(super) fn rest(&mut self) {
         self.has_focus = false;
     }
@@ -142,7 +142,7 @@ impl DraftView {
             let corners = self.viewport.drawing.corners(shape);
             let (mode, colours) = (enrol.outline_mode, &self.style.colours);
             drawing::outline(&painter, &corners, &mode.title(), colours);
-            // It would cover what is drawn around.
+            // The hint would cover the part while a person draws.
             if corners.is_empty() {
                 let below = rect.with_min_y(bar.bottom()).shrink(space::SMALL);
                 hint(ui, below, shape, mode, colours);
@@ -150,7 +150,7 @@ impl DraftView {
         }
     }
 
-    /// Takes in another selection; its points were prepared by the worker. Only another draft moves the camera.
+    /// Shows another selection, prepared by the worker. Only another draft moves the camera.
     fn show(&mut self, draft: &Draft, looked_at: Option<usize>) {
         let shown = self.shown.as_ref();
         let is_same = |shown: &Shown| {
@@ -202,7 +202,7 @@ impl DraftView {
     }
 }
 
-/// What to do, and what comes of it.
+/// Draws a hint on how to draw and what it does.
 fn hint(ui: &mut Ui, place: Rect, shape: DrawnShape, mode: OutlineMode, colours: &ViewColours) {
     let text = text!(
         "enrol-view-hint",
@@ -220,7 +220,7 @@ fn hint(ui: &mut Ui, place: Rect, shape: DrawnShape, mode: OutlineMode, colours:
     });
 }
 
-/// What the view shows of a scan over its points.
+/// The overlay of a scan's points.
 fn overlay(draft: &Draft, looked_at: Option<usize>) -> Option<Overlay<'_>> {
     Some(Overlay {
         fused: draft.subject.scan()?,

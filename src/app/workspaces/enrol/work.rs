@@ -1,4 +1,4 @@
-//! What the draft's task does: it gets what is to be enrolled, and prepares the part.
+//! Jobs of the draft's task: get the input, and prepare the part.
 
 use std::sync::Arc;
 
@@ -27,31 +27,31 @@ use crate::{
     stages::segment::SegmentedPart,
 };
 
-/// What the task hands over, part after part.
+/// A result, partial or final, of the task.
 #[derive(Clone, Debug)]
 pub enum DraftEvent {
-    /// Something to enrol, and what of it is kept. What would be stored follows.
+    /// A new input and its initial selection; [`Checked`](Self::Checked) follows.
     Taken(Arc<EnrolInput>, Arc<Selection>),
-    /// What is kept after the corrections. What would be stored follows.
+    /// The selection after the corrections; [`Checked`](Self::Checked) follows.
     Selected(Arc<Selection>),
-    /// What would be stored, or why nothing can be.
+    /// The part that would be stored, or why none can be.
     Checked(Result<Arc<Checked>, UserError>),
-    /// The poses of these shots were not found: a person has to name their file.
+    /// The poses of these shots were not found; a person has to name their file.
     PosesWanted(Box<ScanOrder>, UserError),
 }
 
-/// What would be stored.
+/// A part that would be stored.
 #[derive(Debug)]
 pub struct Checked {
-    /// The part, but for its name.
+    /// The part, without its name.
     pub enrolled: Arc<Enrolled>,
-    /// What is odd about it.
+    /// Warnings about it.
     pub warnings: Vec<UserError>,
-    /// How like every enrolled part it is, the one that it is hardest to tell from first.
+    /// Similarity to every enrolled part, the hardest to distinguish first.
     pub likenesses: Vec<Similarity>,
 }
 
-/// Gets something to enrol, and sees what of it is the part.
+/// Gets a scene to enrol, and prepares the part.
 pub(super) fn take_scene(
     source: &SceneSource,
     recipe: &Recipe,
@@ -65,7 +65,7 @@ pub(super) fn take_scene(
     take(subject, &params, library_cache, context)
 }
 
-/// The same of a scene that was taken before, read as it was then.
+/// Gets a scene that was taken before, read in the same way.
 pub(super) fn take_again(
     source: SceneSource,
     usual: InitialSelection,
@@ -74,7 +74,7 @@ pub(super) fn take_again(
     context: &TaskContext<DraftEvent>,
 ) -> Result<DraftEvent, TaskError> {
     let source = match (source, usual) {
-        // Inspect reads a file as a scene, Enrol one without rows and columns as a part.
+        // Read the file as Inspect does; Enrol would take one without rows and columns as a part.
         (file @ SceneSource::File(_), InitialSelection::Segmented) => {
             let captured = file.take(library_cache.camera(), &|| context.is_cancelled());
             let captured = captured.map_err(|error| UserError::of(&error))?;
@@ -85,7 +85,7 @@ pub(super) fn take_again(
     take_scene(&source, recipe, library_cache, context)
 }
 
-/// Puts the shots of a scan together, and sees what of it is the part.
+/// Fuses the shots of a scan, and prepares the part.
 pub(super) fn take_scan(
     request: &ScanRequest,
     library_cache: &LibraryCache,
@@ -106,7 +106,7 @@ pub(super) fn take_scan(
     }
 }
 
-/// Goes through the corrections, and sees what would be stored.
+/// Applies the corrections, and prepares the part.
 pub(super) fn look(
     subject: &EnrolInput,
     corrections: &Corrections,
@@ -128,7 +128,7 @@ pub(super) fn look(
     )
 }
 
-/// Hands over what there is to enrol, then looks at what would be stored.
+/// Hands over the input, then prepares the part.
 fn take(
     subject: EnrolInput,
     params: &EnrolParams,
@@ -151,7 +151,7 @@ fn take(
     )
 }
 
-/// Segments as scenes are inspected; all else as usual.
+/// Segmentation parameters from the recipe, the rest at their defaults.
 fn params_of(recipe: &Recipe) -> EnrolParams {
     EnrolParams {
         segment: recipe.segment.clone(),
@@ -159,7 +159,7 @@ fn params_of(recipe: &Recipe) -> EnrolParams {
     }
 }
 
-/// Makes the part and holds it against every enrolled one.
+/// Makes the part and compares it with every enrolled one.
 fn check(
     subject: &EnrolInput,
     corrections: &Corrections,
@@ -173,7 +173,7 @@ fn check(
         Err(error) => return Ok(DraftEvent::Checked(Err(UserError::of(&error)))),
     };
     context.check()?;
-    // It has no name yet: none of the enrolled ones is left out for bearing the same.
+    // Clear the placeholder name, so that no enrolled part is left out of the comparison for having the same.
     enrolled.reference.name.clear();
     let shelved = library_cache.get();
     let coverage = enrolled.part.meta.coverage;
@@ -200,7 +200,7 @@ fn enrol(
             Some(fused) => fused.choice.set.files.title(),
             None => subject.origin.title(),
         },
-        // Whole seconds are enough for people.
+        // Whole seconds suffice for people.
         at: Timestamp::from_second(now.as_second()).unwrap_or(now),
         simulated: subject.origin.is_simulated(),
     };

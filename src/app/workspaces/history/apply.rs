@@ -1,4 +1,4 @@
-//! Everything that can happen in the workspace, and the one function that makes it so.
+//! Actions of the workspace, and how they are carried out.
 
 use std::{ops::Range, path::PathBuf, sync::Arc};
 
@@ -29,47 +29,47 @@ use crate::{
     library::Truth,
 };
 
-/// Something that happened in the workspace.
+/// An action in the workspace.
 #[derive(Debug)]
 pub enum HistoryAction {
-    /// List only these.
+    /// Set the filter of the list.
     Filter(ListFilter),
-    /// These rows of the list are in sight.
+    /// Report the rows of the list that are visible.
     Visible(Range<usize>),
-    /// Look at this inspection.
+    /// Select this inspection.
     Select(i64),
-    /// Look at the row above (the newer one) or below.
+    /// Select the row above (newer) or below.
     Step(Direction),
     /// Show the inspection with all its stages.
     Open(i64),
-    /// Show the inspection that is looked at.
+    /// Show the selected inspection with all its stages.
     OpenSelected,
-    /// Inspect its scene again with the recipe and the library now in use, and say what changed.
+    /// Inspect its scene again with the recipe and library in use, and show what changed.
     InspectAgain(i64),
-    /// The same with the inspection that is looked at.
+    /// Do the same with the selected inspection.
     AgainSelected,
-    /// A person remarks this.
+    /// Set the remark on an inspection.
     Remark(i64, String),
-    /// A person says what it truly is, or that nobody knows.
+    /// Set the true label of an inspection; `None` if unknown.
     Label(i64, Option<Truth>),
-    /// Show statistics in place of the list, or the list again.
+    /// Show the statistics (`true`) or the list.
     Statistics(bool),
-    /// Open the window of the rule by which frames are kept, change the rule in it, or close it.
+    /// Open the window of the retention rule or change the rule in it; `None` closes it.
     Rule(Option<Retention>),
-    /// Keep frames by this rule.
+    /// Apply this retention rule.
     Keep(Retention),
-    /// Have a person choose where the listed inspections go.
+    /// Ask where to write the listed inspections.
     Ask(HistoryFile),
-    /// Write the listed inspections there.
+    /// Write the listed inspections to this path.
     Export(HistoryFile, PathBuf),
 }
 
-/// What a person is asked to choose.
+/// A destination that a person is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HistoryFile {
-    /// The table that the listed history goes to.
+    /// A table of the listed inspections.
     Csv,
-    /// The folder that cases of the listed history go to.
+    /// A folder for cases made of the listed inspections.
     Cases,
 }
 
@@ -91,36 +91,36 @@ impl HistoryFile {
 }
 
 impl HistoryAction {
-    /// True where frames may be lost by it: those that another rule does not keep are gone.
+    /// True if frames may be lost: those that a new rule does not keep are deleted.
     fn needs_engineer(&self) -> bool {
         matches!(self, Self::Rule(Some(_)) | Self::Keep(_))
     }
 }
 
-/// Which way to go in the list.
+/// Direction of a step in the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// To newer ones.
+    /// To a newer inspection.
     Up,
-    /// To older ones.
+    /// To an older inspection.
     Down,
 }
 
-/// What the thread that writes is asked for.
+/// A job for the writer thread.
 #[derive(Clone, Debug)]
 pub enum HistoryJob {
-    /// Write an inspection; the ticket comes back with its number.
+    /// Write an inspection; the ticket is returned with its number.
     Add(u64, Box<NewEntry>),
-    /// Write down a remark.
+    /// Write a remark.
     Remark(i64, String),
-    /// Write down what it truly is.
+    /// Write a true label.
     Label(i64, Option<Truth>),
-    /// Keep frames by this rule.
+    /// Apply a retention rule.
     Keep(Retention),
 }
 
 impl HistoryState {
-    /// Makes it so, once the engineer is in where that is needed.
+    /// Carries out an action; where the engineer is needed, an operator is first asked for the engineer.
     pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
         if action.needs_engineer() && cx.session.role == UserRole::Operator {
             self.held = Some(action);
@@ -188,7 +188,7 @@ impl HistoryState {
         }
     }
 
-    /// A person remarks this.
+    /// Sets the remark on an inspection.
     pub(super) fn remark(&mut self, number: i64, remark: String) {
         self.asked();
         self.jobs.push(HistoryJob::Remark(number, remark));
@@ -201,12 +201,12 @@ impl HistoryState {
         }
     }
 
-    /// Takes in what the shell tells.
+    /// Handles an event of the shell.
     pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
         match event {
             Event::Inspected { inspected, purpose } => match purpose {
                 ReinspectionPurpose::New => {
-                    // Whoever comes here from the view of a part looks for that one.
+                    // Select the newest: a person coming here from another workspace looks for it.
                     if cx.session.workspace != WorkspaceKind::History {
                         self.select_newest();
                     }
@@ -226,13 +226,13 @@ impl HistoryState {
         }
     }
 
-    /// Hands an inspection over to be written, and holds all of it for a while.
+    /// Queues an inspection for writing, and keeps it whole in memory for a while.
     pub(super) fn keep(&mut self, entry: NewEntry, whole: Option<&Arc<Inspected>>) {
         let ticket = self.ticket(&entry.record.summary.hung, whole);
         self.jobs.push(HistoryJob::Add(ticket, Box::new(entry)));
     }
 
-    /// Takes in what the tasks and the dialog report.
+    /// Takes in the results of the tasks and of the file dialog.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.looking.poll() {
             match event {
@@ -263,10 +263,10 @@ impl HistoryState {
         }
     }
 
-    /// The disk is too slow: the oldest of those handed over were too many, and are lost.
+    /// Handles inspections lost because the disk is too slow; the oldest are lost first.
     pub(super) fn crowded(&mut self, num_lost: usize, cx: &mut ShellContext<'_>) {
         self.lost(num_lost);
-        // Once is enough: it will not become quicker by being said again.
+        // Notify only once.
         if !std::mem::replace(&mut self.is_crowded, true) {
             cx.notify(Notice::look(
                 text!("history-crowded"),
@@ -276,7 +276,7 @@ impl HistoryState {
         self.refresh_if_stale(cx);
     }
 
-    /// Takes in what the thread that writes reports.
+    /// Handles an event of the writer thread.
     pub fn take_news(&mut self, news: HistoryEvent, cx: &mut ShellContext<'_>) {
         match news {
             HistoryEvent::Added { ticket, number } => self.added(ticket, number),
@@ -323,7 +323,7 @@ impl HistoryState {
         self.refresh_if_stale(cx);
     }
 
-    /// Takes in what was looked up.
+    /// Takes in the result of a query.
     pub fn receive(&mut self, looked: HistoryResult, cx: &mut ShellContext<'_>) {
         let before = self.selected;
         self.take(looked);
@@ -331,12 +331,12 @@ impl HistoryState {
         if before == self.selected {
             self.go_on(cx);
         } else {
-            // The first look finds what there is to be looked at.
+            // The selection has changed: fetch the newly selected inspection.
             self.look(cx);
         }
     }
 
-    /// Writes what is listed to where a person chose.
+    /// Writes the listed inspections to the chosen path.
     fn export(&mut self, file: HistoryFile, path: PathBuf, cx: &ShellContext<'_>) {
         let title = text!("history-writing", file = file_name(&path));
         let filter = self.filter.at(&Zoned::now());

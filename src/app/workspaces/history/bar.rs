@@ -1,4 +1,4 @@
-//! Above the list: what it shows, and what can be done with it.
+//! Above the list: its filter, and what can be done with the listed inspections.
 
 use egui::{Align, Button, Layout, RichText, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
 
@@ -107,7 +107,7 @@ fn find(ui: &mut Ui, filter: &mut ListFilter) {
         .widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));
 }
 
-/// A menu in which one of some is chosen; `label` tells it from other menus with the same choices.
+/// Draws a menu for one choice; `label` tells it from other menus with the same choices.
 fn menu<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
@@ -160,7 +160,7 @@ fn parts(ui: &mut Ui, session: &Session, filter: &mut ListFilter) {
     menu(ui, &label, &mut filter.part, all.chain(enrolled));
 }
 
-/// The first and the last day, as a person types them.
+/// Draws the fields for the first and the last day.
 fn typed(ui: &mut Ui, filter: &mut ListFilter, theme: &Theme) {
     let fields = [
         (text!("history-from"), text!("history-first-day")),

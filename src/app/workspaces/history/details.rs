@@ -1,4 +1,4 @@
-//! The inspection that is looked at: its verdict, its picture, and what can be done with it.
+//! The selected inspection: its verdict, its picture, and what can be done with it.
 
 use std::sync::Arc;
 
@@ -26,14 +26,14 @@ use crate::{
     history::{Differences, InspectionDetail, Record, StoredVerdict, Summary, Traceability},
 };
 
-/// What the details keep between frames.
+/// State of the details kept between frames.
 #[derive(Default)]
 pub(super) struct Details {
     picture: Option<(i64, PictureOrigin, TextureHandle)>,
     pub(super) remark: label::Remark,
 }
 
-/// What the picture was made of.
+/// Source of the picture.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum PictureOrigin {
     Whole,
@@ -58,7 +58,7 @@ impl Details {
         let record = &past.record;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             verdict(ui, record, session, theme);
-            // What is said of a part stands with the inspection that stands for it.
+            // Remark and label belong to the inspection that stands for the part.
             let of_part = past.part.first().unwrap_or(record);
             self.remark
                 .ui(ui, &of_part.summary, session, theme, actions);
@@ -74,7 +74,7 @@ impl Details {
             let title = text!("history-inspection", number = number.abs());
             heading(ui, theme, &title);
             ui.scope(|ui| {
-                // Text lies closer than controls do.
+                // Lines of text need less height than controls.
                 ui.spacing_mut().interact_size.y = 22.0;
                 figures(ui, record, theme);
                 pose(ui, record, session.units, theme);
@@ -83,7 +83,7 @@ impl Details {
         });
     }
 
-    /// Uploads the picture, once.
+    /// Uploads a new picture.
     fn make(&mut self, ui: &Ui, history: &HistoryState, past: &Arc<OpenedInspection>) {
         let number = past.record.summary.number;
         let whole = history.whole(number);
@@ -158,8 +158,8 @@ fn verdict(ui: &mut Ui, record: &Record, session: &Session, theme: &Theme) {
     }
 }
 
-/// The inspections of the part, where there is more than one, and what differs between two of them: the one that stands
-/// for the part and the one that is looked at, else the last.
+/// Draws the inspections of the part if there are several, and the differences between the one that stands for the part
+/// and the selected one (the last, if the selected one stands for the part).
 fn part(
     ui: &mut Ui,
     past: &OpenedInspection,
@@ -291,7 +291,7 @@ fn times(ui: &mut Ui, record: &Record, theme: &Theme) {
     }
 }
 
-/// What a stage of the report is called.
+/// Title of a stage of the report.
 fn stage_title(stage: String) -> String {
     match stage.as_str() {
         "segment" => text!("history-stage-segment"),
@@ -305,7 +305,7 @@ fn stage_title(stage: String) -> String {
     }
 }
 
-/// The recipe's name, where it is known, and its identity.
+/// Name of the recipe, if known, and its identity.
 fn recipe_text(detail: &InspectionDetail) -> String {
     match &detail.recipe_label {
         Some(label) if label.is_changed => {

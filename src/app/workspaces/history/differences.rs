@@ -1,4 +1,4 @@
-//! What differs between two inspections of one part.
+//! Differences between two inspections of one part.
 
 use egui::{Grid, RichText, Ui, vec2};
 
@@ -15,10 +15,10 @@ use crate::{
     pipeline::{Recipe, parameters::Parameter},
 };
 
-/// What a row tells of a finding.
+/// Text of a finding in a row of the table.
 type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
 
-/// Draws what another inspection of the same scene finds today.
+/// Draws the differences from another inspection of the same scene made today.
 pub(super) fn today(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: &Theme) {
     heading(ui, theme, &text!("history-differences"));
     let sentence = if found.is_same() {
@@ -31,7 +31,7 @@ pub(super) fn today(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: 
     table(ui, found, &sentence, names, units, theme);
 }
 
-/// Draws the table: a sentence above it, and the names of its columns.
+/// Draws the table, with a sentence above it and the names of its columns.
 pub(super) fn table(
     ui: &mut Ui,
     found: &Differences,
@@ -65,7 +65,7 @@ pub(super) fn table(
     Grid::new(("differences", names))
         .num_columns(3)
         .spacing(vec2(10.0, 2.0))
-        // Text lies closer than controls do.
+        // Lines of text need less height than controls.
         .min_row_height(22.0)
         .show(ui, |ui| {
             for title in ["", names[0], names[1]] {
@@ -81,7 +81,7 @@ pub(super) fn table(
                 (shortened(&name, 14), change.before, change.now)
             });
             for (what, then, today) in rows.into_iter().map(both).chain(parameters) {
-                // Not by colour alone: what changed is set in bold.
+                // Bold as well as colour marks a change.
                 let text = RichText::new(&today).color(theme.text);
                 let is_same = then == today;
                 ui.label(RichText::new(what).color(theme.weak_text));

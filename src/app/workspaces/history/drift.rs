@@ -1,4 +1,4 @@
-//! How score, fit and place of one part drift: a point for each accepted one, in the order of time.
+//! Drift of score, fit and position of one part over time, a point for each accepted inspection.
 
 use egui::Ui;
 use jiff::{Zoned, tz::TimeZone};
@@ -13,32 +13,32 @@ use crate::{
     history::PoseRecord,
 };
 
-/// Above this number, parts are drawn in groups, by their medians.
+/// Above this number, parts are drawn in groups by their medians.
 const MOST_DRAWN: usize = 240;
-/// Parts needed to show a drift.
+/// Smallest number of parts for which a drift is shown.
 const LEAST: usize = 3;
-/// The first and the last of this many equal shares are compared.
+/// Drift compares the first and the last of this many equal shares.
 const END: usize = 5;
 
-/// The accepted parts of one kind, or groups of them, the oldest first.
+/// The accepted parts of one kind, or groups of them, oldest first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drift {
     /// The part's title.
     pub title: String,
-    /// Parts.
+    /// Number of parts.
     pub num_parts: usize,
-    /// When the first part of each group was inspected.
+    /// Time of the first inspection of each group.
     at: Vec<Zoned>,
     score: Vec<f32>,
     /// Root mean square distance from the reference, metres.
     rms_m: Vec<f32>,
-    /// Where the part's middle was, beside its median over all, along x, y and z of the camera, metres. NaN for groups
-    /// whose references are no longer enrolled.
+    /// Position of the part's middle relative to its median over all, along x, y and z of the camera, metres. NaN for
+    /// groups whose references are no longer enrolled.
     offset_m: [Vec<f32>; 3],
 }
 
 impl Drift {
-    /// Of parts that come in the order of time; `None` of too few.
+    /// Computes the drift of parts given in order of time; `None` if there are too few.
     pub(super) fn new(
         title: String,
         poses: &[PoseRecord],
@@ -77,7 +77,7 @@ impl Drift {
         Some(drift)
     }
 
-    /// What a series was at the beginning and at the end: the medians of the first fifth and of the last.
+    /// Medians of the first and the last fifth of a series.
     fn ends(values: &[f32]) -> Option<[f64; 2]> {
         let known: Vec<f64> = values
             .iter()
@@ -91,14 +91,14 @@ impl Drift {
     }
 }
 
-/// The middle value, the lower of two; `None` of nothing.
+/// The median, or the lower of two middle values; `None` without values.
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     values.get(values.len().checked_sub(1)? / 2).copied()
 }
 
-/// Draws score, fit and place one below the other.
+/// Draws score, fit and position one below the other.
 pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem, theme: &Theme) {
     heading(
         ui,
@@ -162,7 +162,7 @@ mod tests {
     use super::*;
     use crate::geometry::rigid::from_euler_zyx;
 
-    /// Parts that move away by a tenth of a millimetre each, as seen by a camera that becomes noisier.
+    /// Parts that move away by 0.1 mm each, seen by a camera that becomes noisier.
     fn poses(num: usize) -> Vec<PoseRecord> {
         let pose = |i: usize| PoseRecord {
             at: Timestamp::UNIX_EPOCH + SignedDuration::from_mins(i as i64),
@@ -189,7 +189,7 @@ mod tests {
         assert_eq!(Drift::ends(&found.offset_m[0]), Some([0.0, 0.0]));
         let [first, last] = Drift::ends(&found.rms_m).expect("known");
         assert!((last - first - 0.0008).abs() < 1e-6, "{first} {last}");
-        // The middle of a reference that is no longer enrolled is not known.
+        // The middle of a reference no longer enrolled is unknown.
         assert!(found.offset_m[2][3].is_nan() && found.offset_m[2][4].is_finite());
     }
 

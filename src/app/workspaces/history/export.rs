@@ -1,4 +1,4 @@
-//! Inspections of the history written to where a person chose.
+//! Writes inspections of the history to where a person chose.
 
 use std::path::{Path, PathBuf};
 
@@ -8,16 +8,16 @@ use crate::{
     history::{Filter, HistoryBuffer, write_table},
 };
 
-/// Where inspections of the history are written to.
+/// Destination of the inspections.
 #[derive(Clone, Debug)]
 pub(super) enum PastExport {
     /// A table.
     Csv(PathBuf),
-    /// A folder of cases: those with a kept frame and a true label.
+    /// A folder of cases, made of the inspections with a kept frame and a true label.
     Cases(PathBuf),
 }
 
-/// Writes what the filter lets through; answers what was written, in words.
+/// Writes the inspections that match the filter; describes what was written.
 pub(super) fn write(
     filter: &Filter,
     to: &PastExport,
@@ -59,7 +59,7 @@ fn write_cases(
     ))
 }
 
-/// What was kept and what was not.
+/// Describes what was kept and what was not.
 fn in_words(kept: &PastCases<'_>) -> String {
     let num = kept.num_without_truth;
     let without_truth = (num > 0).then(|| text!("history-cases-without-truth", count = num));

@@ -1,4 +1,4 @@
-//! What the list is asked to show, as a person says it.
+//! The filter of the list as entered by a person.
 
 use jiff::{Span, Timestamp, Zoned, civil};
 
@@ -7,26 +7,25 @@ use crate::{
     history::{Filter, StoredVerdict},
 };
 
-/// What the list shows.
+/// The filter of the list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ListFilter {
-    /// Of which days.
+    /// The days shown.
     pub days: DateRange,
-    /// The first and the last day, as they are typed; for [`DateRange::Typed`].
+    /// First and last day as entered, for [`DateRange::Typed`].
     pub typed: [String; 2],
-    /// Recognised as this part.
+    /// Only inspections recognised as this part.
     pub part: Option<String>,
-    /// Only this verdict.
+    /// Only inspections with this verdict.
     pub verdict: Option<StoredVerdict>,
-    /// Words of the names of part, scene and source, as they are kept or as the window shows them, of the remark and of
-    /// the true label.
+    /// Words to find in the names of part, scene and source (as stored or as displayed), the remark and the true label.
     pub text: String,
 }
 
-/// Of which days.
+/// The days of the inspections shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DateRange {
-    /// All.
+    /// Every day.
     #[default]
     All,
     /// Today.
@@ -35,15 +34,15 @@ pub enum DateRange {
     Week,
     /// Today and the 29 days before.
     Month,
-    /// From one day to another.
+    /// The days entered in [`ListFilter::typed`].
     Typed,
 }
 
 impl DateRange {
-    /// Every choice.
+    /// Every choice, in the order of the menu.
     pub const ALL: [Self; 5] = [Self::All, Self::Today, Self::Week, Self::Month, Self::Typed];
 
-    /// What a person calls it.
+    /// Name for a person.
     pub fn title(self) -> String {
         match self {
             Self::All => text!("history-days-all"),
@@ -55,7 +54,7 @@ impl DateRange {
     }
 }
 
-/// A day as it is typed; `None` if nothing is, an error if it is none.
+/// Reads a day as entered; `None` if empty.
 pub(super) fn day_of(text: &str) -> Result<Option<civil::Date>, jiff::Error> {
     match text.trim() {
         "" => Ok(None),
@@ -64,7 +63,7 @@ pub(super) fn day_of(text: &str) -> Result<Option<civil::Date>, jiff::Error> {
 }
 
 impl ListFilter {
-    /// The filter for the file, at this moment and in its time zone. A day that is none limits nothing.
+    /// Returns the filter for the database, at this moment and in its time zone. An invalid day is ignored.
     pub(super) fn at(&self, now: &Zoned) -> Filter {
         let begin = |day: civil::Date| {
             let day = day.to_zoned(now.time_zone().clone());
@@ -82,7 +81,7 @@ impl ListFilter {
                 typed(1).and_then(|day| begin(day.tomorrow().ok()?)),
             ),
         };
-        // Without words it stays the filter that lets everything through.
+        // Without words, keep the filter that matches everything.
         let shown = if self.text.trim().is_empty() {
             Vec::new()
         } else {
@@ -147,7 +146,7 @@ mod tests {
             };
             filter.at(&Zoned::now())
         };
-        // Of nothing, it lets everything through as quickly as before.
+        // Without words, it matches everything as quickly as before.
         assert_eq!(filter("  ").shown, Vec::<[String; 2]>::new());
         Language::German.make_current();
         let shown = filter("bild").shown;

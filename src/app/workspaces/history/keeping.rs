@@ -1,4 +1,4 @@
-//! The window in which a person says which frames are kept, and how long.
+//! The window of the retention rule: which frames are kept, and how long.
 
 use egui::{Button, Context, DragValue, Grid, RichText, Ui, WidgetInfo, vec2};
 
@@ -14,7 +14,7 @@ use crate::{
     history::{KeepFrames, Retention, Usage},
 };
 
-/// Draws it while it is open.
+/// Draws the window while it is open.
 pub(super) fn ui(
     ctx: &Context,
     history: &HistoryState,

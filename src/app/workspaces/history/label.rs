@@ -1,4 +1,4 @@
-//! What a person says of an inspection: a remark, and what it truly is.
+//! Remark on and true label of an inspection.
 
 use egui::{TextEdit, Ui, WidgetInfo, vec2};
 
@@ -20,10 +20,10 @@ use crate::{
     library::Truth,
 };
 
-/// The remark that is being written.
+/// The remark being edited.
 #[derive(Default)]
 pub(super) struct Remark {
-    /// Of which inspection, what stood there, and what is written.
+    /// The inspection, its stored remark, and the text being edited.
     draft: Option<(i64, String, String)>,
 }
 
@@ -39,7 +39,7 @@ impl Remark {
         heading(ui, theme, &text!("history-actual-part"));
         truth_menu(ui, row, session, actions);
         heading(ui, theme, &text!("history-remark"));
-        // Another inspection, or somebody else has written another remark.
+        // Start anew for another inspection, or if the stored remark was changed elsewhere.
         let is_of_it = self
             .draft
             .as_ref()
@@ -60,14 +60,14 @@ impl Remark {
         let label = text!("history-your-remark");
         response.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));
         if response.lost_focus() && text.trim() != known {
-            // Until it is written and comes back.
+            // Until the stored remark comes back.
             known.clone_from(text);
             let remark = text.trim().to_owned();
             actions.push(HistoryAction::Remark(row.number, remark));
         }
     }
 
-    /// What was written of an inspection before another came to the front, or the window closes, is not lost.
+    /// Saves a remark that was edited before another inspection came to the front or the window closes.
     pub(super) fn keep(&mut self, actions: &mut Vec<HistoryAction>, front: Option<i64>) {
         if let Some((number, known, text)) = self.draft.take()
             && Some(number) != front

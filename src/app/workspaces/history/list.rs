@@ -1,4 +1,4 @@
-//! The list of past inspections: however many there are, only the rows in sight are fetched and drawn.
+//! The list of past inspections; only the visible rows are fetched and drawn.
 
 use egui::{
     Align2, Color32, FontId, Painter, Rect, RichText, ScrollArea, Sense, Ui, pos2,
@@ -24,19 +24,19 @@ use crate::{
     history::{StoredVerdict, Summary},
 };
 
-/// Height of a row: a target for a gloved finger.
+/// Height of a row, logical pixels: a target for a gloved finger.
 const ROW: f32 = 40.0;
-/// Between two rows.
+/// Gap between two rows, logical pixels.
 const GAP: f32 = 2.0;
-/// In less width than this moments are shortened.
+/// Below this width, logical pixels, dates are shortened.
 const NARROW: f32 = 700.0;
 
-/// What the list keeps between frames.
+/// State of the list kept between frames.
 #[derive(Default)]
 pub(super) struct List {
-    /// The inspection that was looked at in the last frame.
+    /// The inspection selected in the last frame.
     selected: Option<i64>,
-    /// Places of the rows that were in sight.
+    /// The rows that were visible.
     seen: std::ops::Range<usize>,
 }
 
@@ -67,7 +67,7 @@ impl List {
             ui.add_space(space::LARGE);
             let text = text!("history-none-listed");
             ui.label(RichText::new(text).color(theme.weak_text));
-            // What comes next is fetched with its neighbours.
+            // Fetches the next inspection together with its neighbours.
             see(history, 0..1, actions);
             return;
         }
@@ -93,12 +93,12 @@ impl List {
         see(history, seen, actions);
     }
 
-    /// Where to scroll when the keys have led out of sight.
+    /// Scroll offset that shows the selected row if the keys have moved it out of sight.
     fn offset_to(&mut self, history: &HistoryState, height: f32) -> Option<f32> {
         let listed = history.listed();
         let before = std::mem::replace(&mut self.selected, listed);
         let place = listed.and_then(|number| history.place_of(number))?;
-        // The last row in sight is often cut off.
+        // The last visible row is often cut off.
         let is_in_sight = self.seen.start < place && place + 2 < self.seen.end;
         if before == listed || before.is_none() || is_in_sight {
             return None;
@@ -113,14 +113,14 @@ impl List {
     }
 }
 
-/// Says which rows are in sight where that is not known.
+/// Reports the visible rows if they have changed.
 fn see(history: &HistoryState, rows: std::ops::Range<usize>, actions: &mut Vec<HistoryAction>) {
     if history.is_news(&rows) {
         actions.push(HistoryAction::Visible(rows));
     }
 }
 
-/// How much room the list has across.
+/// Width available to the list.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Room {
     Wide,
@@ -135,15 +135,15 @@ struct Column {
     look: fn(&Theme) -> (FontId, Color32),
 }
 
-/// How wide a column is.
+/// Width of a column.
 enum Width {
-    /// A share of what the others leave; the text begins on the left and is cut off on the right.
+    /// A share of the width left by the others; text is aligned left and elided on the right.
     Share(f32),
-    /// Logical pixels, with much room and with little; the text ends on the right.
+    /// Logical pixels in a wide and in a narrow list; text is aligned right.
     Pixels([f32; 2]),
 }
 
-/// Beside the columns: for the mark on the left, and on the right.
+/// Margin on the left, for the mark, and on the right, logical pixels.
 const MARGINS: [f32; 2] = [40.0, 14.0];
 
 /// The columns from left to right.
@@ -160,7 +160,7 @@ const COLUMNS: [Column; 5] = [
     Column {
         name: || text!("history-column-scene"),
         width: Width::Share(0.42),
-        // What a person said of it is what others look for first, then its serial number.
+        // A remark is what others look for first, then the serial number.
         text: |past, _| {
             let scene = stored_scene(&past.scene, past.is_simulated);
             let texts = [&past.remark, &past.trace.serial, &scene];
@@ -196,7 +196,7 @@ const COLUMNS: [Column; 5] = [
     },
 ];
 
-/// Where the columns begin and end, from the left edge of the list.
+/// Positions of the columns, from the left edge of the list.
 struct Layout {
     room: Room,
     spans: [[f32; 2]; COLUMNS.len()],
@@ -232,7 +232,7 @@ impl Layout {
 }
 
 impl Column {
-    /// Writes a text where the column lies in a row.
+    /// Writes a text in a column of a row.
     fn write(
         &self,
         painter: &Painter,
@@ -317,19 +317,19 @@ fn paint(painter: &Painter, rect: Rect, past: &Summary, layout: &Layout, theme: 
     }
 }
 
-/// A moment without year and seconds.
+/// Formats a time without year and seconds.
 fn shortly(at: Timestamp) -> String {
     let here = at.to_zoned(TimeZone::system());
     here.strftime("%m-%d %H:%M").to_string()
 }
 
-/// The time of day alone.
+/// Formats the time of day.
 pub(super) fn time_of_day(at: Timestamp) -> String {
     let here = at.to_zoned(TimeZone::system());
     here.strftime("%H:%M:%S").to_string()
 }
 
-/// Day and time of day, as the clocks here go.
+/// Formats day and time of day, in the local time zone.
 pub(super) fn when(at: Timestamp) -> String {
     let here = at.to_zoned(TimeZone::system());
     here.strftime("%Y-%m-%d %H:%M:%S").to_string()

@@ -1,4 +1,4 @@
-//! History: every inspection, to be found, looked at again and labelled.
+//! History: find, reopen and label past inspections.
 
 mod apply;
 mod bar;
@@ -45,10 +45,10 @@ use crate::{
     history::{HistoryBuffer, Writer},
 };
 
-/// Width of the details, logical pixels, and in a narrow window.
+/// Width of the details in a wide and in a narrow window, logical pixels.
 const DETAILS: [f32; 2] = [340.0, 300.0];
 
-/// Keys of this workspace.
+/// The shortcuts of this workspace.
 const SHORTCUTS: [Shortcut<HistoryAction>; 4] = [
     Shortcut {
         modifiers: Modifiers::NONE,
@@ -87,14 +87,14 @@ pub struct HistoryWorkspace {
     list: List,
     writer: Writer,
     keeper: Arc<HistoryBuffer>,
-    /// For what commands write.
+    /// Watches for what commands write.
     watch: FolderWatch,
-    /// What was written before the start has been looked for.
+    /// True once inspections written before the start have been looked for.
     has_looked: bool,
 }
 
 impl HistoryWorkspace {
-    /// `writer` writes what `keeper` keeps.
+    /// Creates the workspace; `writer` writes what `keeper` buffers.
     pub fn new(writer: Writer, keeper: Arc<HistoryBuffer>, runner: &TaskRunner) -> Self {
         Self {
             state: HistoryState::new(runner),
@@ -107,18 +107,18 @@ impl HistoryWorkspace {
         }
     }
 
-    /// What it knows.
+    /// The state of the workspace.
     pub fn state(&self) -> &HistoryState {
         &self.state
     }
 
-    /// Does it.
+    /// Carries out an action and hands its jobs to the writer.
     pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
         self.state.apply(action, cx);
         self.write();
     }
 
-    /// Hands over what is to be written.
+    /// Hands queued jobs to the writer.
     fn write(&mut self) {
         for job in self.state.jobs.drain(..) {
             match job {
@@ -236,7 +236,7 @@ impl Workspace for HistoryWorkspace {
     }
 }
 
-/// Before the first inspection.
+/// Draws the area before the first inspection.
 fn empty(ui: &mut Ui, theme: &Theme) {
     ui.vertical_centered(|ui| {
         ui.add_space(ui.available_height() * 0.4);

@@ -1,4 +1,4 @@
-//! Past inspections made again: opened with every stage, or held against what is found today.
+//! Repeats past inspections: to open them with every stage, or to compare them with today's result.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ use crate::{
 };
 
 impl HistoryState {
-    /// Shows an inspection with every stage: as it is in memory, else made again with its own recipe.
+    /// Shows an inspection with every stage: from memory, or repeated with its own recipe.
     pub(super) fn open(&mut self, number: i64, cx: &mut ShellContext<'_>) {
         match self.whole(number) {
             Some(inspected) => cx.send(Message::ShowPast(Arc::clone(inspected))),
@@ -33,12 +33,12 @@ impl HistoryState {
         }
     }
 
-    /// Inspects its scene again with the recipe and the library now in use.
+    /// Inspects its scene again with the recipe and library in use.
     pub(super) fn inspect_again(&mut self, number: i64, cx: &mut ShellContext<'_>) {
         self.reinspect(number, RemakeFor::Compare, cx);
     }
 
-    /// Makes again what was waited for.
+    /// Repeats the inspection that was waiting to be fetched.
     pub(super) fn go_on(&mut self, cx: &mut ShellContext<'_>) {
         if let Some((number, purpose)) = self.then.take()
             && self.looked_at_as(number).is_some()
@@ -49,7 +49,7 @@ impl HistoryState {
 
     fn reinspect(&mut self, number: i64, purpose: RemakeFor, cx: &mut ShellContext<'_>) {
         let Some(past) = self.looked_at_as(number).cloned() else {
-            // Once it is there.
+            // Not fetched yet: fetch it first.
             self.selected = Some(number);
             self.then = Some((number, purpose));
             return self.look(cx);
@@ -95,7 +95,7 @@ impl HistoryState {
         self.remaking = Some(ReinspectionJob { past, purpose });
     }
 
-    /// Why an inspection cannot be made again, and what to do, if its scene cannot be had.
+    /// If the scene cannot be obtained, returns why the inspection cannot be repeated, and what to do.
     pub(super) fn why_no_scene(&self, record: &Record) -> Option<[String; 2]> {
         let is_there = self.source_of(record).is_some();
         (!is_there).then(|| {
@@ -106,7 +106,7 @@ impl HistoryState {
         })
     }
 
-    /// Where its scene can be had: in memory, among the kept frames, or where it came from.
+    /// Where its scene can be obtained: in memory, among the kept frames, or at its origin.
     fn source_of(&self, record: &Record) -> Option<SceneOrScan> {
         if let Some(whole) = self.whole(record.summary.number) {
             return Some(whole.again());
@@ -127,7 +127,7 @@ impl HistoryState {
         origin.source()
     }
 
-    /// Takes in a past inspection that was made again.
+    /// Takes in a past inspection that was repeated.
     pub(super) fn remade(&mut self, inspected: &Arc<Inspected>, cx: &mut ShellContext<'_>) {
         let Some(ReinspectionJob { past, purpose }) = self.remaking.take() else {
             return;
@@ -144,12 +144,12 @@ impl HistoryState {
     }
 }
 
-/// The title of its scene, in the language of the window.
+/// Title of its scene, in the language of the window.
 fn scene_of(record: &Record) -> String {
     stored_scene(&record.summary.scene, record.summary.is_simulated)
 }
 
-/// As the window wrote it; a command writes none.
+/// The origin that the window stored; a command stores none.
 fn origin_of(record: &Record) -> Origin {
     let written = record.detail.origin.as_deref();
     let written = written.and_then(|origin| serde_json::from_str(origin).ok());

@@ -1,4 +1,4 @@
-//! What the workspace knows: the rows in sight, the inspection that is looked at, the last few in memory.
+//! State of the workspace: the fetched rows, the selected inspection, the last few inspections in memory.
 
 use std::{
     collections::{BTreeMap, VecDeque},
@@ -27,60 +27,60 @@ use crate::{
     history::{Differences, HungId, Page, Retention, Summary, Usage},
 };
 
-/// Inspections kept whole, with their points and pictures: about 15 MB each. Older ones are inspected again.
+/// Number of inspections kept whole in memory, about 15 MB each with points and pictures. Older ones are repeated.
 const MAX_WHOLE: usize = 4;
-/// Rows asked for beyond those in sight, on either side.
+/// Rows fetched beyond the visible ones, on either side.
 const MARGIN: usize = 100;
 
-/// What the workspace knows.
+/// State of the workspace.
 #[derive(Debug)]
 pub struct HistoryState {
-    /// What is listed.
+    /// The filter of the list.
     pub filter: ListFilter,
-    /// The rows that were fetched, and how many there are.
+    /// The fetched rows, and the number of all.
     pub page: Page,
-    /// The place of the first fetched row in the list.
+    /// Index of the first fetched row in the list.
     pub first: usize,
-    /// Statistics in place of the list.
+    /// The statistics shown in place of the list, if any.
     pub statistics: StatisticsView,
-    /// The rows in sight.
+    /// The visible rows.
     visible: Range<usize>,
-    /// The inspection that is looked at.
+    /// Number of the selected inspection.
     pub selected: Option<i64>,
-    /// The same in full, once fetched.
+    /// The selected inspection in full, once fetched.
     pub record: Option<Arc<OpenedInspection>>,
-    /// The rule by which frames are kept, and how much is.
+    /// The retention rule, and the space that kept frames take.
     pub kept: (Retention, Usage),
     /// The folder of the kept frames.
     pub(super) frames: Option<PathBuf>,
-    /// Why it is not written, as long as it is not.
+    /// Why the history cannot be written, while it cannot.
     pub trouble: Option<UserError>,
-    /// It was said that the disk is too slow.
+    /// True once a person was told that the disk is too slow.
     pub(super) is_crowded: bool,
-    /// The rule as it is being changed, while its window is open.
+    /// The retention rule as edited, while its window is open.
     pub rule: Option<Retention>,
-    /// What changed since an inspection, once it was inspected again: its number, and what.
+    /// Number of an inspection that was repeated, and its differences.
     pub differences: Option<(i64, Differences)>,
-    /// Inspections handed over to be written, by their ticket.
+    /// Inspections queued for writing, by ticket.
     unwritten: BTreeMap<u64, Unwritten>,
-    /// The part that was handed over last.
+    /// The part of the last inspection queued.
     last_hung: Option<HungId>,
-    /// The inspection that is looked at is to be the one that stands for its part.
+    /// True if the selection is to move to the inspection that stands for the part.
     wants_part: bool,
     num_tickets: u64,
-    /// Changes handed over to be written.
+    /// Number of changes queued for writing.
     num_asked: usize,
-    /// The newest, whole.
+    /// The newest inspections, whole.
     whole: VecDeque<(i64, Arc<Inspected>)>,
-    /// Fetched rows may not be those that are there now.
+    /// True if the fetched rows may be out of date.
     is_stale: bool,
-    /// What is to be made again as soon as it was fetched.
+    /// The inspection to repeat as soon as it is fetched.
     pub(super) then: Option<(i64, RemakeFor)>,
-    /// An inspection that is being made again.
+    /// The inspection being repeated.
     pub(super) remaking: Option<ReinspectionJob>,
-    /// What the thread that writes is asked for next.
+    /// Jobs to hand to the writer thread.
     pub(super) jobs: Vec<HistoryJob>,
-    /// What is done once the engineer is in.
+    /// The action to carry out once the engineer is in.
     pub(super) held: Option<HistoryAction>,
     pub(super) looking: Task<Box<HistoryResult>>,
     pub(super) counting: Task<Box<Statistics>>,
@@ -88,34 +88,34 @@ pub struct HistoryState {
     pub(super) dialog: FileDialog<HistoryFile>,
 }
 
-/// An inspection that is handed over to be written.
+/// An inspection queued for writing.
 #[derive(Debug)]
 struct Unwritten {
     whole: Option<Arc<Inspected>>,
-    /// False of one more of a part that is counted already.
+    /// False for another inspection of a part that is counted already.
     is_part: bool,
 }
 
-/// A past inspection that is being made again.
+/// A past inspection being repeated.
 #[derive(Clone, Debug)]
 pub(super) struct ReinspectionJob {
-    /// As it was.
+    /// The past inspection.
     pub(super) past: Arc<OpenedInspection>,
-    /// What for.
+    /// The purpose.
     pub(super) purpose: RemakeFor,
 }
 
-/// What a past inspection is made again for.
+/// Purpose of repeating a past inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RemakeFor {
-    /// To be opened, with its own recipe.
+    /// Open it; uses its own recipe.
     Open,
-    /// To see what changed, with today's recipe.
+    /// Compare it; uses the recipe in use.
     Compare,
 }
 
 impl HistoryState {
-    /// Before the first look.
+    /// Creates the state before the first query.
     pub fn new(runner: &TaskRunner) -> Self {
         Self {
             filter: ListFilter::default(),
@@ -149,45 +149,45 @@ impl HistoryState {
         }
     }
 
-    /// True before the first inspection.
+    /// True if there is no inspection.
     pub fn is_empty(&self) -> bool {
         self.num_rows() == 0
     }
 
-    /// How many there are, as far as it is known.
+    /// Number of all rows, as far as known.
     pub fn num_rows(&self) -> usize {
         self.page.num_all
     }
 
-    /// How many the filter lets through.
+    /// Number of rows that match the filter.
     pub fn num_matching(&self) -> usize {
         self.page.num_matching
     }
 
-    /// The row at this place of the list, if it was fetched.
+    /// Returns the row at this index of the list, if fetched.
     pub fn row(&self, place: usize) -> Option<&Summary> {
         self.page.rows.get(place.checked_sub(self.first)?)
     }
 
-    /// The place of an inspection in the list, if its row was fetched.
+    /// Index of an inspection in the list, if its row is fetched.
     pub fn place_of(&self, number: i64) -> Option<usize> {
         let mut rows = self.page.rows.iter();
         Some(self.first + rows.position(|row| row.number == number)?)
     }
 
-    /// This inspection in full, if it is the one that was fetched last.
+    /// The inspection in full, if it is the one fetched last.
     pub(super) fn looked_at_as(&self, number: i64) -> Option<&Arc<OpenedInspection>> {
         let looked_at = self.record.as_ref()?;
         (looked_at.record.summary.number == number).then_some(looked_at)
     }
 
-    /// All of an inspection, if it is kept in memory.
+    /// The whole inspection, if kept in memory.
     pub fn whole(&self, number: i64) -> Option<&Arc<Inspected>> {
         let mut whole = self.whole.iter();
         whole.find(|(of, _)| *of == number).map(|(_, whole)| whole)
     }
 
-    /// True once everything is written that was handed over, and the list shows it.
+    /// True once everything queued is written and the list shows it.
     pub fn is_settled(&self) -> bool {
         let is_written = self.unwritten.is_empty() && self.num_asked == 0;
         let is_at_work = self.looking.running().is_some()
@@ -196,7 +196,7 @@ impl HistoryState {
         is_written && !self.is_stale && !is_at_work
     }
 
-    /// Takes a ticket for an inspection of this part that is handed over to be written.
+    /// Issues a ticket for an inspection of this part that is queued for writing.
     pub(super) fn ticket(&mut self, hung: &HungId, whole: Option<&Arc<Inspected>>) -> u64 {
         self.num_tickets += 1;
         let ticket = self.num_tickets;
@@ -204,7 +204,7 @@ impl HistoryState {
         let is_part = last.as_ref() != Some(hung);
         let whole = whole.map(Arc::clone);
         self.unwritten.insert(ticket, Unwritten { whole, is_part });
-        // However slow the disk: only the newest are held whole.
+        // Hold only the newest whole, however slow the disk.
         let old = ticket.checked_sub(MAX_WHOLE as u64);
         if let Some(old) = old.and_then(|old| self.unwritten.get_mut(&old)) {
             old.whole = None;
@@ -214,13 +214,13 @@ impl HistoryState {
         ticket
     }
 
-    /// An inspection is in the list.
+    /// Takes in that an inspection was written.
     pub(super) fn added(&mut self, ticket: u64, number: i64) {
         if let Some(whole) = self.unwritten.remove(&ticket).and_then(|known| known.whole) {
             self.whole.push_front((number, whole));
             self.whole.truncate(MAX_WHOLE);
         }
-        // Who looks at the newest goes on looking at the newest: the part, if this is one more of it.
+        // If the newest was selected, select the new one, or its part if this is a re-inspection.
         let newest = self.row(0).map(|row| row.number);
         if self.selected.is_none() || self.selected == newest {
             self.selected = Some(number);
@@ -229,7 +229,7 @@ impl HistoryState {
         self.is_stale = true;
     }
 
-    /// The oldest of those that were handed over were too many, and are lost.
+    /// Removes the oldest queued inspections, which were lost.
     pub(super) fn lost(&mut self, num: usize) {
         for _ in 0..num {
             self.unwritten.pop_first();
@@ -237,7 +237,7 @@ impl HistoryState {
         self.is_stale = true;
     }
 
-    /// Those that waited have other numbers now.
+    /// Applies new numbers to inspections that waited to be written.
     pub(super) fn renumber(&mut self, numbers: &[(i64, i64)]) {
         let now = |number: &mut i64| {
             if let Some((_, now)) = numbers.iter().find(|(before, _)| before == number) {
@@ -249,12 +249,12 @@ impl HistoryState {
         self.is_stale = true;
     }
 
-    /// A change is handed over to be written.
+    /// Counts a change queued for writing.
     pub(super) fn asked(&mut self) {
         self.num_asked += 1;
     }
 
-    /// A change was written, or could not be.
+    /// Counts a change as written or failed.
     pub(super) fn answered(&mut self) {
         self.num_asked = self.num_asked.saturating_sub(1);
         self.is_stale = true;
@@ -264,12 +264,12 @@ impl HistoryState {
         self.is_stale = true;
     }
 
-    /// True if it is not known that these rows are in sight.
+    /// True if these rows are not known to be visible.
     pub(super) fn is_news(&self, visible: &Range<usize>) -> bool {
         self.visible != *visible
     }
 
-    /// Takes note of the rows in sight; true if some were not fetched.
+    /// Records the visible rows; returns true if some are not fetched.
     pub(super) fn sees(&mut self, visible: Range<usize>) -> bool {
         let fetched = self.first..self.first + self.page.rows.len();
         let end = visible.end.min(self.page.num_matching);
@@ -295,7 +295,7 @@ impl HistoryState {
             kept,
             frames,
         } = looked;
-        // Those that are on their way are counted already.
+        // Count those still being written.
         let unwritten = self.unwritten.values();
         let num_unwritten = unwritten.filter(|known| known.is_part).count();
         self.page = Page {
@@ -311,19 +311,19 @@ impl HistoryState {
         }
     }
 
-    /// A person looks at this inspection.
+    /// Selects this inspection.
     pub(super) fn selects(&mut self, number: i64) {
         self.selected = Some(number);
         self.wants_part = false;
     }
 
-    /// A person will look for the newest inspection: its row is fetched, wherever the list was scrolled to.
+    /// Selects the newest inspection and has its row fetched, wherever the list is scrolled to.
     pub(super) fn select_newest(&mut self) {
         self.selected = None;
         self.visible = 0..self.visible.len();
     }
 
-    /// Goes on to the inspection that stands for the part, where that is wanted.
+    /// Moves the selection to the inspection that stands for the part, where that is wanted.
     pub(super) fn look_at_part(&mut self) {
         let Some(past) = self.selected.and_then(|number| self.looked_at_as(number)) else {
             return;
@@ -334,7 +334,7 @@ impl HistoryState {
         }
     }
 
-    /// The row of the list that is looked at: of a part that was inspected more than once the one that stands for it.
+    /// The selected row: for a part with several inspections, the one that stands for it.
     pub fn listed(&self) -> Option<i64> {
         let number = self.selected?;
         let past = self.looked_at_as(number);
@@ -344,7 +344,7 @@ impl HistoryState {
         )
     }
 
-    /// Has everything fetched that is shown.
+    /// Fetches everything shown.
     pub(super) fn look(&mut self, cx: &ShellContext<'_>) {
         self.is_stale = false;
         let request = self.wanted();
@@ -355,7 +355,7 @@ impl HistoryState {
         self.count(cx);
     }
 
-    /// Counts the parts that the filter lets through, while that is shown.
+    /// Counts the parts that match the filter, while statistics are shown.
     fn count(&mut self, cx: &ShellContext<'_>) {
         if !self.statistics.is_open() {
             return;
@@ -391,7 +391,7 @@ impl HistoryState {
             });
     }
 
-    /// The same, if it is not up to date.
+    /// Fetches everything shown, if it is out of date.
     pub(super) fn refresh_if_stale(&mut self, cx: &ShellContext<'_>) {
         if self.is_stale {
             self.look(cx);

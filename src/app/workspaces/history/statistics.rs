@@ -1,6 +1,6 @@
-//! How many parts were accepted, by shift, by part and by reason, of those that the filter lets through.
+//! Numbers of accepted parts by shift, by part and by reason, among those that match the filter.
 //!
-//! An empty cell is no part. A part that was inspected more than once counts once, as in the list.
+//! An empty cell is not a part. A part with several inspections counts once, as in the list.
 
 use std::{cmp::Reverse, collections::BTreeMap};
 
@@ -24,17 +24,17 @@ use crate::{
     pipeline::RefusalKind,
 };
 
-/// Shifts that the plot has room for; the last ones are shown.
+/// Number of shifts that fit the plot; the last ones are shown.
 const MAX_SHIFTS: usize = 21;
 /// Height of the plot, logical pixels.
 const HEIGHT: f32 = 220.0;
 
-/// How many parts were accepted, and how many were not.
+/// Numbers of accepted and not accepted parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// Accepted.
+    /// Accepted parts.
     pub num_ok: usize,
-    /// Not accepted.
+    /// Not accepted parts.
     pub num_not_ok: usize,
 }
 
@@ -50,7 +50,7 @@ impl Tally {
         self.num_ok + self.num_not_ok
     }
 
-    /// Accepted, in per cent.
+    /// Percentage accepted.
     fn share(self) -> String {
         format!(
             "{:.1} %",
@@ -59,12 +59,12 @@ impl Tally {
     }
 }
 
-/// What refusals are counted by.
+/// Groups of refusals.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ReasonGroup {
-    /// Their kind.
+    /// By kind.
     Kind(RefusalKind),
-    /// An English sentence without names and figures, where the kind is not known.
+    /// By an English sentence without names and figures, where the kind is unknown.
     Sentence(String),
 }
 
@@ -87,28 +87,28 @@ impl ReasonGroup {
     }
 }
 
-/// What was counted.
+/// The counts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Statistics {
-    /// By shift, the oldest first, each with its start.
+    /// By shift, oldest first, each with its start.
     pub shifts: Vec<(Zoned, Tally)>,
-    /// By part, the one with the most refusals first; `None` is what was unknown.
+    /// By part, the one with the most refusals first; `None` for unknown parts.
     pub parts: Vec<(Option<String>, Tally)>,
-    /// By reason of a refusal, the most frequent first.
+    /// By reason, the most frequent first.
     pub reasons: Vec<(ReasonGroup, usize)>,
-    /// How the part drifts that the filter names, or the one that was accepted most often.
+    /// Drift of the part that the filter names, or of the one accepted most often.
     pub drift: Option<Drift>,
 }
 
-/// Whether statistics take the place of the list.
+/// State of the statistics.
 #[derive(Debug, Default)]
 pub enum StatisticsView {
     /// The list is shown.
     #[default]
     Closed,
-    /// They are counted for the first time.
+    /// The statistics are being computed for the first time.
     Counting,
-    /// They were counted; while the list changes these stay.
+    /// The last statistics; they stay while newer ones are computed.
     Counted(Box<Statistics>),
 }
 
@@ -119,7 +119,7 @@ impl StatisticsView {
     }
 }
 
-/// Counts parts that come in the order of time.
+/// Counts outcomes given in order of time.
 pub(super) fn count(
     outcomes: &[PartOutcome],
     starts: &ShiftStarts,
@@ -164,7 +164,7 @@ pub(super) fn count(
     found
 }
 
-/// The part that was accepted most often.
+/// The part accepted most often.
 pub(super) fn most_accepted(outcomes: &[PartOutcome]) -> Option<String> {
     let accepted = outcomes
         .iter()
@@ -179,7 +179,7 @@ pub(super) fn most_accepted(outcomes: &[PartOutcome]) -> Option<String> {
     most.map(|(part, _)| part.to_owned())
 }
 
-/// A reason without what differs from part to part: names, figures and what stands in brackets.
+/// Removes what differs from part to part: names, figures and what is in brackets.
 fn without_figures(reason: &str, names: &[&str]) -> String {
     let mut text = String::new();
     let mut depth = 0_usize;
@@ -202,7 +202,7 @@ fn without_figures(reason: &str, names: &[&str]) -> String {
     sentence(&text.join(" ").replace(" ,", ",").replace(" ;", ";"))
 }
 
-/// Draws them.
+/// Draws the statistics.
 pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem, theme: &Theme) {
     let StatisticsView::Counted(found) = view else {
         ui.label(RichText::new(text!("history-counting")).color(theme.weak_text));
@@ -214,7 +214,7 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem, theme: &
         return;
     }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        // Text lies closer than controls do.
+        // Lines of text need less height than controls.
         ui.spacing_mut().interact_size.y = 22.0;
         shifts(ui, &found.shifts, theme);
         heading(ui, theme, &text!("history-by-part"));
@@ -236,7 +236,7 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem, theme: &
                 }
                 ui.end_row();
                 for (title, tally) in &found.parts {
-                    // Named when drawn: the language may have changed since they were counted.
+                    // Translate when drawing: the language may have changed since counting.
                     let unknown = || stored_verdict(StoredVerdict::Unknown);
                     let cells = [
                         title.clone().unwrap_or_else(unknown),
@@ -277,7 +277,7 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, words.join("; ")));
     ui.painter().rect_filled(rect, ROUNDING, theme.panel);
     let most = last.iter().map(|(_, tally)| tally.num()).max().unwrap_or(0);
-    // As many marks as there is room for.
+    // As many marks as fit.
     let room = (size.x / 90.0).max(1.0) as usize;
     let step = last.len().div_ceil(room).max(1);
     let marks = last.iter().enumerate().step_by(step);
@@ -301,7 +301,7 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
         title: vec![(text!("history-by-shift"), theme.text)],
         across: Axis::new([-0.6, last.len() as f64 - 0.4], marks.collect()),
         up: Axis::new(
-            // The names above the bars have room.
+            // Leave room for the names above the bars.
             [0.0, 1.25 * most as f64],
             [0, most].map(|num| (num as f64, num.to_string())).to_vec(),
         ),
@@ -317,7 +317,7 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
             plot.bar_chart(BarChart::new("", bars).color(colour).allow_hover(false));
         }
     });
-    // The refused ones lie on top: colour is not the only sign.
+    // The order, refused on top, tells them apart without colour.
     let names = [text!("history-not-ok-on-top"), text!("history-ok")];
     let names = names.iter().map(String::as_str);
     let curves = names.zip([theme.rejected, theme.accepted]);

@@ -1,4 +1,4 @@
-//! Looks into the history for what the window shows.
+//! Queries of the history for what the window shows.
 
 use std::{ops::Range, path::PathBuf, sync::Arc};
 
@@ -11,27 +11,27 @@ use crate::{
     history::{HistoryBuffer, HistoryError, Page, Record, Retention, Usage},
 };
 
-/// What the window wants to see.
+/// A query.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HistoryQuery {
-    /// Which inspections.
+    /// The filter of the inspections.
     pub filter: ListFilter,
-    /// Which of their rows, counted from the newest.
+    /// The rows wanted, counted from the newest.
     pub rows: Range<usize>,
-    /// The inspection that is looked at.
+    /// Number of the selected inspection.
     pub selected: Option<i64>,
 }
 
-/// What is there.
+/// Result of a query.
 #[derive(Clone, Debug)]
 pub struct HistoryResult {
-    /// What was asked.
+    /// The query.
     pub asked: HistoryQuery,
-    /// The rows.
+    /// The rows found.
     pub page: Page,
-    /// The inspection that is looked at, if it is there.
+    /// The selected inspection, if it exists.
     pub record: Option<Arc<OpenedInspection>>,
-    /// The rule by which frames are kept, and how much is.
+    /// The retention rule, and the space that kept frames take.
     pub kept: (Retention, Usage),
     /// The folder of the kept frames.
     pub frames: Option<PathBuf>,
@@ -40,16 +40,16 @@ pub struct HistoryResult {
 /// An inspection with its picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenedInspection {
-    /// All of it.
+    /// The full record.
     pub record: Record,
     /// Its small picture.
     pub picture: Option<RgbImage>,
     /// All inspections of the same part, the one that stands for it first, then the others from the oldest on; empty if
-    /// there is no other.
+    /// there is only one.
     pub part: Vec<Record>,
 }
 
-/// Looks.
+/// Runs a query.
 pub(super) fn look(
     request: &HistoryQuery,
     history: &HistoryBuffer,

@@ -1,4 +1,4 @@
-//! Everything that can happen in the workspace.
+//! Actions of the workspace, and the files that it asks for.
 
 use std::path::PathBuf;
 
@@ -17,45 +17,45 @@ use crate::{
     robot::Convention,
 };
 
-/// Something that happened in the workspace.
+/// An action in the workspace.
 #[derive(Clone, Debug)]
 pub enum InspectAction {
-    /// Show this in the view, or no longer.
+    /// Show or hide this in the view.
     Toggle(ViewPart),
-    /// Colour the points by this.
+    /// Choose what colours the points.
     Colour(Colouring),
-    /// Fill the middle with a stage.
+    /// Enlarge a stage to fill the middle.
     Enlarge(StagePanel),
-    /// Show the view there again.
+    /// Close the enlarged stage and show the view again.
     CloseEnlarged,
-    /// Compare contour and signature with the part at this place of the ranking.
+    /// Compare contour and signature with the part at this index of the ranking.
     Candidate(usize),
-    /// Tell the robot poses in these numbers.
+    /// Show robot poses in this convention.
     UseConvention(Convention),
-    /// The next of the conventions.
+    /// Switch to the next convention.
     NextConvention,
-    /// Put the pose on the clipboard, in the convention that was chosen.
+    /// Copy the pose to the clipboard, in the chosen convention.
     CopyPose,
-    /// See in Compare why it was recognised as this part.
+    /// Go to Compare, to see why it was recognised as this part.
     Compare,
-    /// Record the source that is followed, or no longer.
+    /// Start or stop recording the followed source.
     ToggleRecording,
-    /// Of the shots of the scan that is shown.
+    /// An action on the shots of the scan shown.
     Shots(ShotsAction),
-    /// Have a person choose a file.
+    /// Ask for a file.
     Ask(InspectFile),
-    /// A person chose it.
+    /// A file was chosen.
     Chosen(InspectFile, PathBuf),
 }
 
-/// What a person is asked to choose.
+/// A file or folder that a person is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InspectFile {
-    /// The folder that the report of the inspection goes to.
+    /// The folder that the report of the inspection is written to.
     Report,
-    /// Where a picture of the view goes.
+    /// The file that a picture of the view is written to.
     Picture,
-    /// Where the spray path goes.
+    /// The file that the spray path is written to.
     SprayPath,
     /// A file of the scan.
     Shots(ShotsFile),

@@ -1,4 +1,4 @@
-//! The verdict card: which part, accepted or not, where, how sure, and what to do next.
+//! The verdict card: which part, accepted or not, where, how certain, and what to do next.
 
 use egui::{
     Align, Button, Frame, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2,
@@ -58,7 +58,7 @@ pub(super) fn ui(
     }
     let inspection = &inspected.inspection;
     let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-    // What is pressed stays in sight, however low the window.
+    // Keep the buttons visible, however low the window.
     let pose_to_copy = pose.filter(|_| inspection.verdict.is_accepted());
     Panel::bottom("ways on")
         .exact_size(space::TARGET + space::MEDIUM)
@@ -66,11 +66,11 @@ pub(super) fn ui(
         .show_separator_line(false)
         .frame(Frame::new())
         .show(ui, |ui| action_buttons(ui, pose_to_copy, theme, actions));
-    // Text lies closer than controls do.
+    // Lines of text need less height than controls.
     ui.spacing_mut().interact_size.y = 20.0;
     ui.spacing_mut().item_spacing.y = 3.0;
     ui.spacing_mut().scroll = ScrollStyle::thin();
-    // However far the rest is scrolled, the verdict stays in sight.
+    // Keep the verdict visible when the rest is scrolled.
     let headline = Headline::of(inspected, session);
     headline::ui(ui, &headline, theme);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -96,7 +96,7 @@ pub(super) fn ui(
     });
 }
 
-/// What can be done with the result.
+/// Draws the buttons for what can be done with the result.
 fn action_buttons(
     ui: &mut Ui,
     pose: Option<&PoseEstimate>,
@@ -137,7 +137,7 @@ fn action_buttons(
             };
             let mut widths: Vec<f32> = ways.iter().take(num).map(needed).collect();
             let even = room / num as f32;
-            // Of one width, unless a text needs more.
+            // Equal widths, unless a text needs more.
             if widths.iter().all(|width| *width <= even) {
                 widths.fill(even);
             }
@@ -155,7 +155,7 @@ fn action_buttons(
     });
 }
 
-/// The score as a bar against the threshold, and the lead over the next part.
+/// Draws the score as a bar against the threshold, and the margin.
 fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme) {
     let Verdict::Part { score, margin, .. } = inspected.inspection.verdict else {
         return;
@@ -213,7 +213,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
     }
 }
 
-/// How far the part is off its standard position, at its middle, and how it is turned.
+/// Draws how far the part's middle is from its standard position, and how the part is rotated.
 fn offset(
     ui: &mut Ui,
     inspected: &Inspected,
@@ -261,7 +261,7 @@ fn offset(
     );
 }
 
-/// nalgebra's angles are those of Rz·Ry·Rx.
+/// Rotation angles, radians; nalgebra's Euler angles are those of Rz·Ry·Rx.
 fn turns(pose: &RigidTransform) -> [(&'static str, f64); 3] {
     let (rx, ry, rz) = pose.rotation.euler_angles();
     [("rx", rx), ("ry", ry), ("rz", rz)]

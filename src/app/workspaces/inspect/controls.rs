@@ -1,4 +1,4 @@
-//! The row of controls over the 3-D view: from where, coloured by what, what else is shown.
+//! The row of controls over the 3-D view: view direction, colouring, and what else is shown.
 
 use egui::{Button, Response, RichText, Ui, Vec2};
 
@@ -17,7 +17,7 @@ use crate::app::{
     },
 };
 
-/// A view narrower than this has the sides to look from in a menu.
+/// Below this width of the view, logical pixels, the view directions are in a menu.
 const NARROW: f32 = 800.0;
 
 /// Draws the row.
@@ -91,7 +91,7 @@ pub(super) fn ui(
     }
 }
 
-/// A name with the sign of what opens.
+/// Label of a button that opens a menu.
 fn opened(name: &str) -> String {
     format!("{name} ▼")
 }
@@ -115,7 +115,7 @@ fn sides(ui: &mut Ui, view: &mut SceneView) {
     }
 }
 
-/// True where the result, or the cell, has this to show.
+/// True if the result, or the cell, has this to show.
 fn is_there(session: &Session, inspected: &Inspected, part: ViewPart) -> bool {
     let figure = &inspected.view;
     match part {

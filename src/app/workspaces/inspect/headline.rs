@@ -1,4 +1,4 @@
-//! What the verdict card says first: which part, accepted or not, and why.
+//! The headline of the verdict card: which part, accepted or not, and why.
 
 use egui::{FontId, RichText, Sense, Ui, Vec2};
 
@@ -21,15 +21,15 @@ use crate::{
     pipeline::{Rejection, Verdict, live::MotionState},
 };
 
-/// What the card says first.
+/// Texts of the headline.
 pub(super) struct Headline {
     pub(super) title: String,
-    /// The part that comes nearest, where none is accepted.
+    /// The nearest part, where none is accepted.
     nearest: Option<String>,
     pub(super) is_accepted: bool,
-    /// True if it is too early to say.
+    /// True if it is too early for a verdict.
     pub(super) is_open: bool,
-    /// Why not, and what to do.
+    /// Why it is not accepted, and what to do.
     pub(super) complaint: Option<(String, String)>,
 }
 
@@ -54,7 +54,7 @@ impl Headline {
                         is_open: false,
                         complaint: None,
                     },
-                    // Of its type beyond doubt.
+                    // The type is certain; model or make differs.
                     Some(
                         reason @ (Rejection::AnotherModel { .. } | Rejection::AnotherMake { .. }),
                     ) => Self {
@@ -69,7 +69,7 @@ impl Headline {
                         is_open: false,
                         complaint: Some((rejection(reason), rejection_advice(reason))),
                     },
-                    // No name in large letters that is not certain.
+                    // Do not show an uncertain name in large letters.
                     Some(reason) => Self {
                         title: if inspected.inspection.verdict.is_unknown() {
                             text!("inspect-unknown-part")
@@ -94,7 +94,7 @@ impl Headline {
         }
     }
 
-    /// Of a frame whose verdict does not count.
+    /// Headline of a frame whose verdict does not count.
     fn not_yet(inspected: &Inspected, followed: &LiveFrameContext, is_live: bool) -> Self {
         let is_part = matches!(inspected.inspection.verdict, Verdict::Part { .. });
         let nearest = inspected.figures.candidates.first();
@@ -132,7 +132,7 @@ impl Headline {
     }
 }
 
-/// Draws it, to be read from three metres.
+/// Draws the headline, legible from three metres.
 pub(super) fn ui(ui: &mut Ui, headline: &Headline, theme: &Theme) {
     ui.label(
         RichText::new(&headline.title)
@@ -170,7 +170,7 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline, theme: &Theme) {
     ui.add_space(space::SMALL);
 }
 
-/// The first font in which the name fits into `max_lines` without breaking a word; the last one if none does.
+/// Returns the first font in which the name fits into `max_lines` without breaking a word, or the last font.
 pub(super) fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usize) -> FontId {
     let (width, colour) = (ui.available_width(), ui.visuals().text_color());
     let fits = |font: &FontId| {

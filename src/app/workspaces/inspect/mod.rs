@@ -43,12 +43,12 @@ use crate::app::{
     },
 };
 
-/// Width of the verdict card, logical pixels, and in a narrow window.
+/// Width of the verdict card in a wide and in a narrow window, logical pixels.
 const CARD: [f32; 2] = [340.0, 300.0];
-/// Height of the stage strip, logical pixels, and in a low window.
+/// Height of the stage strip in a high and in a low window, logical pixels.
 const STRIP: [f32; 2] = [196.0, 164.0];
 
-/// The workspace's own shortcuts.
+/// The shortcuts of this workspace.
 const SHORTCUTS: [Shortcut<InspectAction>; 7] = [
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
@@ -101,7 +101,7 @@ const SHORTCUTS: [Shortcut<InspectAction>; 7] = [
     },
 ];
 
-/// The workspace. Between frames it keeps its state, and what was made of the last result.
+/// The workspace. Between frames it keeps its state and what it prepared of the last result.
 pub struct InspectWorkspace {
     state: InspectState,
     view: SceneView,
@@ -113,14 +113,14 @@ pub struct InspectWorkspace {
 /// Textures of one result.
 struct TextureSet {
     generation: u64,
-    /// The language of the words in the view.
+    /// Language of the texts in the view.
     language: Language,
     segmentation: Option<TextureHandle>,
     binary: Option<TextureHandle>,
 }
 
 impl InspectWorkspace {
-    /// The view draws with `gpu`.
+    /// Creates the workspace; the view draws with `gpu`.
     pub fn new(gpu: &Result<ViewportGpu, ViewError>, runner: &TaskRunner) -> Self {
         Self {
             state: InspectState::new(runner),
@@ -131,29 +131,29 @@ impl InspectWorkspace {
         }
     }
 
-    /// What it knows.
+    /// The state of the workspace.
     pub fn state(&self) -> &InspectState {
         &self.state
     }
 
-    /// Does it.
+    /// Carries out an action.
     pub fn apply(&mut self, action: InspectAction, cx: &mut ShellContext<'_>) {
         self.state.apply(action, cx);
     }
 
-    /// What its frames have done so far.
+    /// Work done by its frames so far.
     pub fn counts(&self) -> WorkCounts {
         let mut counts = self.view.counts();
         counts.made += self.num_made;
         counts
     }
 
-    /// Share of the points that the view drew last, 0..1.
+    /// Share of the points drawn in the last frame, 0..1.
     pub fn detail(&self) -> f32 {
         self.view.viewport.detail()
     }
 
-    /// Hands over the picture of the current view, if one was requested.
+    /// Hands over a picture of the current view, if one was requested.
     fn hand_over_picture(&mut self, ui: &Ui, cx: &mut ShellContext<'_>) {
         if self.state.wants_picture() {
             let shot = self.view.shot(ui.pixels_per_point());
@@ -161,7 +161,7 @@ impl InspectWorkspace {
         }
     }
 
-    /// The strip: the stages, or the list of shots of a scan.
+    /// Draws the strip: the stages, or the list of shots of a scan.
     fn strip(
         &mut self,
         ui: &mut Ui,
@@ -178,7 +178,8 @@ impl InspectWorkspace {
         strip::ui(ui, &self.pictures(inspected, session, theme), actions);
     }
 
-    /// The strip of a scan: the row above it, and the list unless the stages are to be shown.
+    /// Draws the strip of a scan: a row of tabs, and the list unless the stages are chosen; returns whether it drew the
+    /// list.
     fn shots_ui(
         &mut self,
         ui: &mut Ui,
@@ -227,7 +228,7 @@ impl InspectWorkspace {
         }
     }
 
-    /// Uploads what a new result shows, once; the words in the view change with the language.
+    /// Uploads what a new result shows; the texts in the view also change with the language.
     fn make(&mut self, ctx: &egui::Context, shown: &Shown) {
         let language = Language::current();
         if self
@@ -335,7 +336,7 @@ impl Workspace for InspectWorkspace {
         }
     }
 
-    /// The space bar still captures then.
+    /// The space bar captures even while the view has the key focus.
     fn has_key_focus(&self) -> bool {
         self.view.has_focus()
     }
@@ -358,7 +359,7 @@ fn strip_height(state: &InspectState, inspected: &Inspected, height: f32) -> f32
     }
 }
 
-/// Before the first result.
+/// Draws the area before the first result.
 fn empty(ui: &Ui, session: &Session, theme: &Theme) {
     let text = match &session.inspecting {
         Some(run) => format!("{}…", run.title),

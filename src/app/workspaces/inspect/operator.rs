@@ -1,4 +1,4 @@
-//! The operator's view: which part, OK or not, and what to do next, to be read across the shop.
+//! The operator's view: which part, OK or not, and what to do next, legible across the shop.
 
 use egui::{
     Align, CentralPanel, Color32, FontId, Frame, Label, Layout, Margin, Panel, RichText,
@@ -24,25 +24,25 @@ use crate::{
     stages::pose::PoseEstimate,
 };
 
-/// Height of the banner, logical pixels, and in a low window.
+/// Height of the banner in a high and in a low window, logical pixels.
 const BANNER: [f32; 2] = [190.0, 156.0];
-/// Width of the column on the right, logical pixels, and in a narrow window.
+/// Width of the column on the right in a wide and in a narrow window, logical pixels.
 const COLUMN: [f32; 2] = [400.0, 320.0];
-/// Height of a line of the list of parts.
+/// Height of a line of the list of parts, logical pixels.
 const LINE: f32 = 40.0;
-/// Letters of a reason or an advice that fit in the large type.
+/// Longest reason or advice that fits in the large type, characters.
 const LONG: usize = 60;
 
-/// What the banner is about.
+/// State that the banner shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tone {
     /// An accepted part.
     Ok,
     /// A part that is not accepted.
     NotOk,
-    /// Nothing is known of a part, or not yet.
+    /// There is no verdict, or not yet.
     Open,
-    /// There is no result, and somebody has to see to it.
+    /// There is no result, and somebody has to fix it.
     Trouble,
 }
 
@@ -64,7 +64,7 @@ impl Tone {
         }
     }
 
-    /// The colour of the word, and of what lies behind it.
+    /// Colours of the word and of its background.
     fn colours(self, theme: &Theme) -> [Color32; 2] {
         match self {
             Self::Ok => [theme.accepted, theme.accepted_back],
@@ -146,7 +146,7 @@ impl Banner {
                 return Self::new(Tone::Trouble, text!("operator-no-parts"), why, ask);
             }
         }
-        // Until its first frame is inspected, what is followed has nothing to show.
+        // A followed source has nothing to show until its first frame is inspected.
         let shown = session.shown.as_ref();
         let shown = shown.filter(|shown| shown.session.is_some() || !session.is_live());
         let Some(shown) = shown else {
@@ -218,7 +218,7 @@ impl Banner {
                 sentence(&reason),
                 text!("operator-ask-to-enrol"),
             ),
-            // An empty cell is no bad part.
+            // An empty cell is not a bad part.
             Verdict::NoPart(why) => {
                 let next = next_without_part(why);
                 Self::new(Tone::Open, title, sentence(&reason), next)
@@ -237,7 +237,7 @@ impl Banner {
     }
 }
 
-/// Draws it; `picture` draws the part, once anything was inspected.
+/// Draws the operator's view; `picture` draws the part once there is an inspection.
 pub(super) fn ui(ui: &mut Ui, session: &Session, theme: &Theme, picture: impl FnOnce(&mut Ui)) {
     let banner = Banner::of(session);
     let size = ui.available_size();
@@ -298,7 +298,7 @@ fn banner_ui(ui: &mut Ui, banner: &Banner, theme: &Theme) {
                 ui.spacing_mut().item_spacing.y = 0.0;
                 ui.spacing_mut().interact_size.y = 0.0;
                 let row_height = |font: &FontId| ui.ctx().fonts_mut(|fonts| fonts.row_height(font));
-                // A long reason takes two lines of the height, and the name makes way.
+                // A long reason takes two lines, so the name gets a smaller font.
                 let is_long = banner.tone.word().is_empty() && banner.reason.chars().count() > LONG;
                 let (names, reason_font) = if is_long {
                     (&font::banner_names()[2..], font::far_list())
@@ -334,7 +334,7 @@ fn banner_ui(ui: &mut Ui, banner: &Banner, theme: &Theme) {
     );
 }
 
-/// What to do next, and the last parts.
+/// Draws what to do next, and the last parts.
 fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
     let shift = &session.shift;
     ui.spacing_mut().interact_size.y = 0.0;
@@ -367,7 +367,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
         return;
     }
     ui.spacing_mut().item_spacing.y = 0.0;
-    // Beside the times, not over them.
+    // The scroll bar is beside the times, not over them.
     ui.spacing_mut().scroll = ScrollStyle::solid();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for row in &shift.last {
@@ -377,7 +377,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
             } else {
                 (Mark::Bad, theme.rejected)
             };
-            // What was nearest belongs to the engineer.
+            // The nearest part is only of interest to the engineer.
             let name = match row.verdict {
                 StoredVerdict::Accepted => row.title.clone(),
                 StoredVerdict::NotAccepted => text!("inspect-not-recognised"),
@@ -422,7 +422,7 @@ mod tests {
         include_str!("../../../../assets/language/zh/results.ftl"),
     ];
 
-    /// The texts of these messages, every variable replaced by this.
+    /// The texts in these message files, with every variable replaced by `variable`.
     fn texts(files: &[&str], variable: &str) -> Vec<String> {
         let lines = files.iter().flat_map(|file| file.lines());
         let texts = lines.filter_map(|line| line.split_once(" = "));
@@ -438,7 +438,7 @@ mod tests {
         filled.collect()
     }
 
-    /// Rows that end with an opening mark, or begin with a closing one.
+    /// Counts rows that end with an opening mark or begin with a closing one.
     fn num_bad_rows(galley: &Galley) -> usize {
         let rows: Vec<String> = galley.rows.iter().map(|row| row.text()).collect();
         let pairs = rows.windows(2);
@@ -484,7 +484,7 @@ mod tests {
         let ctx = egui::Context::default();
         Theme::install_fonts(&ctx);
         let output = ctx.run_ui(RawInput::default(), |ui| {
-            // In German “ closes.
+            // In German, “ is a closing mark.
             let german = include_str!("../../../../assets/language/de/operator.ftl");
             for text in texts(&[german], "Front door, left") {
                 let (font, width) = (font::next_step(), COLUMN[1] - 2.0 * 24.0);

@@ -6,7 +6,7 @@ use crate::{
     stages::segment::NoPart,
 };
 
-/// Why a part is not accepted, without the figures that belong to the engineer.
+/// States why a part is not accepted, without figures, which are for the engineer.
 pub(super) fn in_short(why: &Rejection, nearest: &str) -> String {
     match why {
         Rejection::LowScore { .. } => text!("operator-low-score", nearest = nearest),
@@ -33,7 +33,7 @@ pub(super) fn in_short(why: &Rejection, nearest: &str) -> String {
     }
 }
 
-/// What an operator can do about it. What only the engineer can do is asked of the engineer.
+/// States what an operator can do about it, if only to call the engineer.
 pub(super) fn next_step(why: &Rejection, nearest: &str) -> String {
     match why {
         Rejection::LowScore { .. } => text!("operator-uncover-next"),
@@ -61,7 +61,7 @@ pub(super) fn next_step(why: &Rejection, nearest: &str) -> String {
     }
 }
 
-/// The same where there is no part.
+/// States what an operator can do where there is no part.
 pub(super) fn next_without_part(why: &Unrecognisable) -> String {
     match why {
         Unrecognisable::NoPart(NoPart::OnlyBackground { knows_cell, .. }) => {

@@ -1,4 +1,4 @@
-//! The stage pictures: textures made once, curves and outlines drawn from prepared numbers.
+//! The pictures of the stages: textures uploaded once; curves and outlines drawn from prepared figures.
 
 use egui::{
     Align, Align2, Color32, Painter, Pos2, Rect, RichText, Shape, Stroke, TextureHandle, Ui, pos2,
@@ -23,7 +23,7 @@ use crate::app::{
     workspaces::inspect::InspectState,
 };
 
-/// What the pictures are drawn from.
+/// What the pictures are drawn from, and their theme.
 pub(super) struct Pictures<'a> {
     pub(super) inspected: &'a Inspected,
     pub(super) state: &'a InspectState,
@@ -33,18 +33,18 @@ pub(super) struct Pictures<'a> {
     pub(super) binary: Option<&'a TextureHandle>,
 }
 
-/// How much a picture tells.
+/// Amount of detail of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PlotDetail {
-    /// In the strip: the shape alone.
+    /// In the strip: only the shape.
     Small,
-    /// Enlarged: with scales and names.
+    /// Enlarged: with scales and labels.
     Large,
 }
 
 impl PlotDetail {
-    /// Of so many corners drawn over so many logical pixels, every how-manieth is worth drawing: a stroke costs the
-    /// same however short, and a small picture shows none shorter than two pixels.
+    /// Returns n such that drawing every n-th corner suffices: a stroke costs the same at any length, and those of a
+    /// small picture need not be shorter than two pixels.
     fn step(self, num_corners: usize, pixels: f32) -> usize {
         match self {
             Self::Large => 1,
@@ -91,7 +91,7 @@ impl Pictures<'_> {
         }
     }
 
-    /// Words in place of a picture.
+    /// Draws a text in place of a picture.
     fn says(&self, painter: &Painter, rect: Rect, text: &str) {
         let mut job = LayoutJob::simple(
             text.to_owned(),
@@ -109,7 +109,7 @@ impl Pictures<'_> {
         self.inspected.figures.candidates.get(self.state.candidate)
     }
 
-    /// Why the chosen candidate was not aligned, where it was not.
+    /// Returns why the chosen candidate was not aligned, if it was not.
     pub(super) fn not_aligned(&self) -> Option<String> {
         match self.candidate()?.alignment {
             Alignment::Done { .. } => None,
@@ -126,7 +126,7 @@ impl Pictures<'_> {
         let texture = texture?;
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         let place = fitted(rect, texture.aspect_ratio());
-        // What is old is dimmed by the painter, pictures too.
+        // Dim textures of an old result as the painter dims the rest.
         let tint = Color32::WHITE.gamma_multiply(painter.opacity());
         let _ = self;
         painter.image(texture.id(), place, whole, tint);

@@ -1,4 +1,4 @@
-//! The ranking as a picture: a bar for every enrolled part, best first, against the threshold.
+//! The ranking as a picture: a bar for every enrolled part, best first, with the threshold.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::{
     pipeline::Verdict,
 };
 
-/// A ranking narrower than this has its names over the bars, logical pixels.
+/// Below this width of the ranking, logical pixels, names are above the bars.
 const STACKED: f32 = 125.0;
 
 impl Pictures<'_> {
@@ -59,7 +59,7 @@ impl Pictures<'_> {
                 } else {
                     font::scale()
                 };
-                // A long name still leaves the bars their share.
+                // Leave the bars their share beside a long name.
                 elided(painter, name, font, colour, rect.width() * 0.56)
             })
             .collect();
@@ -101,7 +101,7 @@ impl Pictures<'_> {
         painter.vline(threshold, rect.top()..=bottom, Stroke::new(1.0, theme.text));
     }
 
-    /// As [`Self::ranking`], in little room: each name over its bar, the first few alone.
+    /// Draws the first few of the ranking in little room, each name above its bar.
     fn stacked_ranking(&self, candidates: &[RankedPartFigure], painter: &Painter, rect: Rect) {
         const ROW: f32 = 22.0;
         const BAR: f32 = 6.0;
@@ -130,7 +130,7 @@ impl Pictures<'_> {
         }
     }
 
-    /// Of the bar at this place of the ranking: only an accepted part's is that of acceptance.
+    /// Colour of the bar at this index of the ranking; only an accepted part's bar has the colour of acceptance.
     fn bar_fill(&self, place: usize) -> Color32 {
         let verdict = &self.inspected.inspection.verdict;
         let is_accepted = matches!(verdict, Verdict::Part { rejected: None, .. });
@@ -142,7 +142,7 @@ impl Pictures<'_> {
     }
 }
 
-/// One line of text, its end left out where it is too long.
+/// Lays out one line of text, elided if too long.
 fn elided(painter: &Painter, text: &str, font: FontId, colour: Color32, width: f32) -> Arc<Galley> {
     let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
     job.wrap = TextWrapping::truncate_at_width(width);

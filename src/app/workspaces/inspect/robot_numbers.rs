@@ -1,4 +1,4 @@
-//! The card's section on the pose as a robot is told it: in one convention, and always with the frame it is in.
+//! The card's section on the pose for a robot: in one convention, and always with its frame.
 
 use egui::{Align, ComboBox, Layout, RichText, Ui};
 
@@ -17,18 +17,18 @@ use crate::{
     robot::{Convention, RobotPose, RobotValue, Unit},
 };
 
-/// A pose that may be moved by, in the numbers that were chosen.
+/// An accepted pose in the chosen convention.
 #[derive(Clone, Debug)]
 pub(super) struct NumberedPose {
     /// `camera_from_part` or `robot_from_part`.
     pub(super) name: &'static str,
-    /// The frame that it is in, in words.
+    /// The frame of the pose, in words.
     pub(super) frame: String,
-    /// The numbers.
+    /// The pose as numbers.
     pub(super) pose: RobotPose,
 }
 
-/// The pose in the robot's frame where the cell is calibrated, else in the camera's. `None` unless it was accepted.
+/// Returns the pose in the robot's frame if the cell is calibrated, else in the camera's; `None` unless accepted.
 pub(super) fn numbered(session: &Session, inspected: &Inspected) -> Option<NumberedPose> {
     let camera_from_part = accepted_pose(inspected)?;
     let (name, frame, transform) = match session.robot_of(inspected) {
@@ -59,7 +59,7 @@ fn accepted_pose(inspected: &Inspected) -> Option<RigidTransform> {
         .then(|| pose.camera_from_part())
 }
 
-/// As it goes onto the clipboard: a line that says what it is, one with names and units, then the bare numbers.
+/// Formats the pose for the clipboard: a title, a line with names and units, then the bare numbers.
 pub(super) fn clipboard_text(numbered: &NumberedPose) -> String {
     let NumberedPose { name, frame, pose } = numbered;
     let title = pose.convention.title();
@@ -74,7 +74,7 @@ pub(super) fn clipboard_text(numbered: &NumberedPose) -> String {
     format!("{name} · {title} · {frame} · {}\n{numbers}", pose.meaning)
 }
 
-/// Draws the section; nothing unless the part was accepted.
+/// Draws the section; nothing unless the part is accepted.
 pub(super) fn ui(
     ui: &mut Ui,
     inspected: &Inspected,
@@ -87,7 +87,7 @@ pub(super) fn ui(
     };
     heading(ui, theme, &text!("inspect-pose"));
     ui.scope(|ui| {
-        // Text lies closer on the card; this is pressed.
+        // Text on the card is lower, but this is a control.
         ui.spacing_mut().interact_size.y = space::TARGET;
         choice(ui, session.convention, actions);
     });
@@ -102,7 +102,7 @@ pub(super) fn ui(
             .font(font::body_strong())
             .color(theme.text),
     );
-    // Numbers in the wrong frame move a robot to the wrong place.
+    // Warn: numbers in the wrong frame move a robot to the wrong place.
     let colour = if session.robot_of(inspected).is_some() {
         theme.weak_text
     } else {
@@ -114,7 +114,7 @@ pub(super) fn ui(
             for (place, column) in columns.iter_mut().enumerate() {
                 column.with_layout(Layout::top_down(Align::Max), |ui| {
                     for value in pose.values.iter().skip(place).step_by(4) {
-                        // As many digits as there is room for; the clipboard has them all.
+                        // As many digits as fit; the clipboard has more.
                         ui.label(RichText::new(format!("{:.4}", value.value)).color(theme.text));
                     }
                 });
@@ -219,7 +219,7 @@ mod tests {
                 "{text}"
             );
         }
-        // A part that is not accepted has none.
+        // A part that is not accepted has no pose for a robot.
         if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
             *rejected = Some(crate::pipeline::Rejection::NotSteady { part: part.clone() });
         }

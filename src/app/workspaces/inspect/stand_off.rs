@@ -1,4 +1,4 @@
-//! The card's section on the nozzle's stand-off: where the taught path would be, against its band.
+//! The card's section on the stand-off: that of the taught path, against its band.
 
 use egui::{Align2, Rect, RichText, Sense, Ui, pos2, vec2};
 
@@ -14,7 +14,7 @@ use crate::{
     stages::stand_off::{StandOff, StandOffParams},
 };
 
-/// Draws the section; nothing without a pose.
+/// Draws the section; nothing without a stand-off.
 pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem, theme: &Theme) {
     let Some(found) = &inspected.stand_off else {
         return;
@@ -55,7 +55,7 @@ fn figures(
         worst = units.angle(found.worst_angle.0)
     );
     row(ui, theme, &text!("inspect-angle"), &pair);
-    // Parts rarely hang as they were taught: a path that follows the pose is the usual case, and no fault of the part.
+    // Parts rarely hang as taught: that the path has to follow the pose is usual, and no fault of the part.
     let text = if found.keeps_the_band() {
         text!("inspect-path-fits")
     } else {
@@ -68,7 +68,7 @@ fn figures(
     );
 }
 
-/// A stretch of distances with the band in its middle third; the mean a full tick, the worst a short one.
+/// Draws a range of distances with the band in its middle third: a full tick for the mean, a short one for the worst.
 fn bar(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem, theme: &Theme) {
     const BAR: f32 = 14.0;
     const NUMBERS: f32 = 15.0;
@@ -89,7 +89,7 @@ fn bar(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem
     painter.rect_filled(bar, ROUNDING, theme.track);
     let band = Rect::from_x_y_ranges(across.at(near)..=across.at(far), bar.y_range());
     painter.rect_filled(band, 0.0, theme.accepted.gamma_multiply(0.45));
-    // What is further off than the bar reaches stands at its end.
+    // Clamp distances beyond the bar to its end.
     let tick = |distance: f64, width: f32, over: f32, colour| {
         let x = across.at(distance as f32);
         let x = x.clamp(bar.left() + width, bar.right() - width);

@@ -1,4 +1,4 @@
-//! What the workspace knows besides the result, and what changes it.
+//! State of the workspace besides the result, and the actions that change it.
 
 use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 
@@ -31,31 +31,31 @@ use crate::{
     robot::Convention,
 };
 
-/// What the view can show besides the points.
+/// An addition to the points of the view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ViewPart {
-    /// The axes of the part's middle.
+    /// The axes at the part's middle.
     Axes,
-    /// The depth camera and what it sees.
+    /// The depth camera and its field of view.
     Camera,
     /// The enrolled part's outline at the found pose.
     Outline,
     /// The taught nozzle over the middle of the part.
     NozzleMiddle,
-    /// The taught nozzle that is furthest off its distance.
+    /// The taught nozzle with the largest error of stand-off.
     NozzleWorst,
-    /// The part's stored spray path, carried to where it hangs now.
+    /// The part's stored spray path, moved to the part's pose.
     SprayPath,
-    /// The axes of the robot's base.
+    /// The axes of the robot base.
     RobotBase,
     /// The cameras of a scan's shots.
     ShotCameras,
-    /// What no shot of a scan shows.
+    /// Surfaces that no shot of a scan shows.
     Unseen,
 }
 
 impl ViewPart {
-    /// All of them, in the order of the menu.
+    /// All additions, in the order of the menu.
     pub const ALL: [Self; 9] = [
         Self::Outline,
         Self::NozzleMiddle,
@@ -68,7 +68,7 @@ impl ViewPart {
         Self::Unseen,
     ];
 
-    /// What a person calls it.
+    /// Name for a person.
     pub fn title(self) -> String {
         match self {
             Self::Axes => text!("inspect-part-axes"),
@@ -84,33 +84,33 @@ impl ViewPart {
     }
 }
 
-/// What the workspace knows.
+/// State of the workspace.
 #[derive(Debug)]
 pub struct InspectState {
-    /// What the view shows besides the points.
+    /// The additions shown in the view.
     pub parts: BTreeSet<ViewPart>,
-    /// What a person chose to colour by; until then the deviation where there is one, else the segments.
+    /// The chosen colouring; `None` means deviations where there are any, else segments.
     pub colouring: Option<Colouring>,
-    /// The stage that fills the middle, if one is enlarged.
+    /// The stage enlarged to fill the middle, if any.
     pub enlarged: Option<StagePanel>,
-    /// Place in the ranking of the part that contour and signature are compared with; 0 is the best.
+    /// Index in the ranking of the part that contour and signature are compared with; 0 is the best.
     pub candidate: usize,
-    /// Of the scan that is shown, if it is one.
+    /// State of the list of shots, if a scan is shown.
     pub shots: ShotsState,
-    /// Where a picture of the view is to go, until it is taken.
+    /// File for a picture of the view, until the picture is taken.
     picture_to: Option<PathBuf>,
-    /// The folder that a report is to go to, until a picture of the view is taken for it.
+    /// Folder for a report, until a picture of the view is taken for it.
     report_to: Option<PathBuf>,
-    /// Number of the result that was shown last.
+    /// Number of the last result shown.
     seen: Option<u64>,
-    /// The scan that it rests on.
+    /// The scan of that result.
     seen_scan: Option<Arc<FusedShots>>,
     writing: Task<String>,
     dialog: FileDialog<InspectFile>,
 }
 
 impl InspectState {
-    /// Before the first result.
+    /// Creates the state before the first result.
     pub fn new(runner: &TaskRunner) -> Self {
         Self {
             parts: [
@@ -136,7 +136,7 @@ impl InspectState {
         }
     }
 
-    /// Which shots of the scan shall be used: what was asked for last, while that is on its way.
+    /// The shots used by the scan shown, or those requested while they are being prepared.
     pub fn shot_choice<'a>(&'a self, session: &'a Session) -> Option<&'a ShotChoice> {
         let scan = session.shown.as_ref()?.inspected.scan.as_ref()?;
         let run = session.inspecting.as_ref();
@@ -150,7 +150,7 @@ impl InspectState {
         self.writing.running()
     }
 
-    /// True if a picture of the view is waited for.
+    /// True if a picture of the view is requested.
     pub fn wants_picture(&self) -> bool {
         self.picture_to.is_some() || self.report_to.is_some()
     }
@@ -194,7 +194,7 @@ impl InspectState {
             cx.session.workspace == WorkspaceKind::Inspect && cx.session.shown.is_some();
         match file {
             InspectFile::Picture => self.picture_to = Some(path),
-            // The view hands its picture over with the next frame.
+            // The view provides its picture in the next frame.
             InspectFile::Report if is_in_sight => self.report_to = Some(path),
             InspectFile::Report => self.write_report(path, None, cx),
             InspectFile::SprayPath => self.write_spray_path(path, cx),
@@ -202,7 +202,7 @@ impl InspectState {
         }
     }
 
-    /// Has the shots put together anew and inspected, if the action changes them.
+    /// Fuses the shots again and inspects them, if the action changes them.
     fn change_shots(&mut self, action: ShotsAction, cx: &mut ShellContext<'_>) {
         if let ShotsAction::Ask(file) = action {
             return self.apply(InspectAction::Ask(InspectFile::Shots(file)), cx);
@@ -230,7 +230,7 @@ impl InspectState {
         }
     }
 
-    /// Takes in what the shell tells.
+    /// Handles an event of the shell.
     pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
         match event {
             Event::Inspected { inspected, purpose } => {
@@ -247,7 +247,7 @@ impl InspectState {
         }
     }
 
-    /// A result has come: what was asked for about its shots can be taken back.
+    /// Takes in a new result: its choice of shots becomes undoable.
     fn settle_shots(
         &mut self,
         inspected: &Inspected,
@@ -258,12 +258,12 @@ impl InspectState {
         let now = inspected.scan.as_ref().map(|scan| &scan.fused.choice);
         if purpose != ReinspectionPurpose::Shots {
             let both = former.as_ref().zip(now);
-            // Those at hand once more, by another recipe or library.
+            // The same shots again, by another recipe or library.
             let is_same = both.is_some_and(|(former, now)| Arc::ptr_eq(&former.set, &now.set));
             self.shots.started((!is_same).then(Asked::first));
         }
         let files = now.map(ShotChoice::files);
-        // The next start opens the same shots.
+        // Let the next start of the window open the same shots.
         if let Some(files) = &files
             && let Some(source) = source_of(files, &cx.session.source)
         {
@@ -272,7 +272,7 @@ impl InspectState {
         self.shots.settle(files.as_ref(), former);
     }
 
-    /// Takes in what the task and the dialog report, and which result is shown.
+    /// Takes in the results of the task and of the file dialog, and follows the result shown.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         match self.writing.poll() {
             Some(TaskEvent::Done(what) | TaskEvent::Partial(what)) => {
@@ -290,7 +290,7 @@ impl InspectState {
         let number = shown.map(|shown| shown.generation);
         if let Some(shown) = shown.filter(|_| number != self.seen) {
             let num_candidates = shown.inspected.figures.candidates.len();
-            // From frame to frame of a source that is followed the same part is compared with.
+            // While following a source, keep the chosen candidate from frame to frame.
             self.candidate = match shown.session {
                 Some(_) => self.candidate.min(num_candidates.saturating_sub(1)),
                 None => 0,
@@ -301,10 +301,10 @@ impl InspectState {
         }
     }
 
-    /// Takes in the view that was waited for, or why there is none.
+    /// Takes in the requested picture, or why there is none.
     pub fn take_picture(&mut self, shot: Result<ViewShot, UserError>, cx: &mut ShellContext<'_>) {
         if let Some(folder) = self.report_to.take() {
-            // A report without the view is one all the same.
+            // A missing picture does not prevent the report.
             return self.write_report(folder, shot.ok(), cx);
         }
         let Some(mut path) = self.picture_to.take() else {
@@ -324,7 +324,7 @@ impl InspectState {
         }
     }
 
-    /// Writes the report of the inspection in front.
+    /// Writes a report of the inspection shown.
     fn write_report(&mut self, folder: PathBuf, shot: Option<ViewShot>, cx: &ShellContext<'_>) {
         let Some(shown) = &cx.session.shown else {
             return;
@@ -344,7 +344,7 @@ impl InspectState {
             });
     }
 
-    /// Writes the spray path of the inspection in front for the robot; nothing without a path or a calibrated cell.
+    /// Writes the spray path of the inspection shown for the robot; nothing without a path or a calibrated cell.
     fn write_spray_path(&mut self, path: PathBuf, cx: &ShellContext<'_>) {
         let Some(shown) = &cx.session.shown else {
             return;
@@ -366,7 +366,7 @@ impl InspectState {
     }
 }
 
-/// Puts the pose on the clipboard, if there is one.
+/// Copies the pose to the clipboard, if there is one.
 fn copy_pose(cx: &mut ShellContext<'_>) {
     let Some(shown) = &cx.session.shown else {
         return;
@@ -423,7 +423,7 @@ mod tests {
                 advice: "mend it".into(),
             })
         };
-        // Nobody asked.
+        // No picture was requested.
         state.take_picture(none(), &mut shell.context());
         assert!(shell.notices().is_empty());
         let chosen = InspectAction::Chosen(InspectFile::Picture, "view".into());

@@ -1,4 +1,4 @@
-//! The stage strip: a live picture per stage, any of which can fill the middle.
+//! The stage strip: a picture per stage, each of which can be enlarged.
 
 use egui::{
     Align, Button, Frame, Label, Layout, Margin, Rect, RichText, Sense, Ui, Vec2, pos2, vec2,
@@ -20,10 +20,10 @@ use crate::{
     pipeline::Timings,
 };
 
-/// Pictures narrower than this have their time below instead of beside the title.
+/// Below this width, logical pixels, a picture's time is below its title instead of beside it.
 const NARROW: f32 = 150.0;
 
-/// The time of the stage that a picture shows.
+/// Time of the stage that a picture shows.
 fn time_of(panel: StagePanel, timings: &Timings) -> String {
     let time = match panel {
         StagePanel::Segmentation => timings.segment,
@@ -150,7 +150,7 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
     });
 }
 
-/// The enrolled parts to compare with, best first.
+/// Draws the enrolled parts to compare with, best first.
 fn candidates(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<InspectAction>) {
     ui.horizontal_wrapped(|ui| {
         for (place, candidate) in pictures.inspected.figures.candidates.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The scene in three dimensions, the part coloured by its deviation from the enrolled one.
+//! The scene in three dimensions, the part coloured by its deviation from the reference.
 
 use std::collections::BTreeSet;
 
@@ -29,25 +29,25 @@ use crate::{
     units::Metres,
 };
 
-/// Counts since the window was opened: what stands still in a frame cost nothing in it.
+/// Work done since the window was opened. A frame in which nothing changes adds none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WorkCounts {
     /// Point and line sets copied to the device.
     pub uploads: u64,
-    /// Times that the 3-D view was drawn anew.
+    /// Renderings of the 3-D view.
     pub pictures: u64,
-    /// Times that something was made of a result: textures, or a choice of lines.
+    /// Preparations of textures, or of lines and texts.
     pub made: u64,
 }
 
-/// Ends of the scale of deviations: a few times a depth camera's noise, so that a dent shows and noise does not.
+/// Ends of the deviation scale: a few times a depth camera's noise, so that a dent shows and noise does not.
 const DEVIATION_RANGE: Metres = Metres(0.01);
-/// Length of the axes of the robot's base: they stand farther away than the part.
+/// Length of the axes of the robot base, longer than others because it is farther away than the part.
 const BASE_AXES: Metres = Metres(0.3);
-/// What the colour scale takes of the width, logical pixels: it lies below the controls where they leave less.
+/// Width of the colour scale, logical pixels; it is below the controls where they leave less.
 const LEGEND: f32 = 212.0;
 
-/// What the lines and words of a scene are chosen by.
+/// What determines the lines and texts of a scene.
 #[derive(PartialEq)]
 struct SceneAnnotation {
     parts: BTreeSet<ViewPart>,
@@ -64,22 +64,22 @@ pub(super) struct SceneView {
     scene: ViewScene,
     pub(super) style: ViewStyle,
     styled: ThemeChoice,
-    /// The size of points but for those of a scan.
+    /// Point size, except for scans.
     usual_size: PointSize,
-    /// What the lines and words of the scene were chosen by.
+    /// What the present lines and texts were made for.
     placed: Option<SceneAnnotation>,
     num_placed: u64,
     has_deviations: bool,
     has_focus: bool,
     caption: String,
     origin: Option<String>,
-    /// Of the source followed, whose frame it shows.
+    /// The followed source whose frame is shown.
     session: Option<u64>,
-    /// Of a scan: the camera's pose in whose space it is shown.
+    /// For a scan: the camera pose that defines the frame shown.
     space: Option<RigidTransform>,
-    /// Of the view in the last frame, logical pixels.
+    /// Size of the view in the last frame, logical pixels.
     size: Vec2,
-    /// Of the controls in the last frame, with the margin on their left, logical pixels.
+    /// Width of the controls in the last frame with their left margin, logical pixels.
     controls_width: f32,
 }
 
@@ -107,16 +107,16 @@ impl SceneView {
         }
     }
 
-    /// Takes in a new result: what the task made of it, and no point of it is gone through.
+    /// Shows a new result, as prepared by the task; does not touch its points.
     pub(super) fn show(&mut self, shown: &Shown) {
         let inspected = &shown.inspected;
         let figures = &inspected.figures;
         self.has_deviations = inspected.view.has_deviations;
         self.scene.points = vec![inspected.view.points.clone()];
         self.placed = None;
-        // While a source is followed, a person looks from where they please.
+        // While a source is followed, keep the view that a person has chosen.
         let wants_more = shown.session.is_some() && self.session == shown.session;
-        // The same scan with other shots dropped lies where it did.
+        // The same scan with other shots is still at the same place.
         let space = inspected.scan.as_ref().and_then(|scan| scan.fused.space());
         if !(wants_more || space.is_some() && space == self.space) {
             self.camera.request_fit(FitRequest::Focus);
@@ -181,7 +181,7 @@ impl SceneView {
         }
     }
 
-    /// The part alone, as the operator sees it: an accepted one with its outline.
+    /// Draws the part alone for the operator; with its outline if accepted.
     pub(super) fn plain_ui(&mut self, ui: &mut Ui, session: &Session, inspected: &Inspected) {
         let is_accepted = inspected.inspection.verdict.is_accepted();
         let parts = is_accepted.then_some(ViewPart::Outline);
@@ -218,12 +218,12 @@ impl SceneView {
         self.has_focus = seen.response.has_focus();
     }
 
-    /// True while keys go to the view; the space bar then still captures.
+    /// True while the view has the key focus; the space bar still captures.
     pub(super) fn has_focus(&self) -> bool {
         self.has_focus
     }
 
-    /// What its frames have done so far.
+    /// Work done by its frames so far.
     pub(super) fn counts(&self) -> WorkCounts {
         WorkCounts {
             uploads: self.viewport.num_uploads(),
@@ -232,7 +232,7 @@ impl SceneView {
         }
     }
 
-    /// The view as it is now, or why there is none.
+    /// Renders the present view, or returns why it cannot.
     pub(super) fn shot(&self, pixels_per_point: f32) -> Result<ViewShot, UserError> {
         self.viewport
             .shot(
@@ -245,7 +245,7 @@ impl SceneView {
             .map_err(|error| UserError::of(&error))
     }
 
-    /// Chooses the lines and words, if what they are chosen by is not what it was.
+    /// Makes lines and texts again if what determines them has changed.
     fn place(
         &mut self,
         parts: &BTreeSet<ViewPart>,
@@ -287,7 +287,7 @@ impl SceneView {
                         });
                     }
                 }
-                // The overlay of the scan has them.
+                // The scan's overlay draws these.
                 ViewPart::ShotCameras | ViewPart::Unseen => {}
                 ViewPart::SprayPath => {
                     if let Some(spray) = &figure.spray {
@@ -332,8 +332,8 @@ impl SceneView {
         }
     }
 
-    /// What is shown, and that no camera was read, at the bottom; one above the other where both do not fit. Says where
-    /// they end at the top.
+    /// Draws at the bottom what is shown, and whether it is simulated, one above the other where both do not fit;
+    /// returns the upper end of the captions.
     fn captions(&self, painter: &Painter, rect: Rect, theme: &Theme) -> f32 {
         let mut corner = pos2(rect.left() + space::MEDIUM, rect.bottom() - space::MEDIUM);
         let first = plate(
@@ -361,7 +361,7 @@ impl SceneView {
     }
 }
 
-/// What the view shows of a scan over its points.
+/// The overlay of a scan's points.
 fn overlay<'a>(state: &'a InspectState, inspected: &'a Inspected) -> Option<Overlay<'a>> {
     let scan = inspected.scan.as_ref()?;
     let unseen = scan.unseen.as_ref();
@@ -385,7 +385,7 @@ fn style(theme: ThemeChoice) -> ViewStyle {
     }
 }
 
-/// Words on a backing, so that they can be read on any points.
+/// Draws text on a backing, so that it is legible over any points.
 fn plate(
     painter: &Painter,
     corner: egui::Pos2,

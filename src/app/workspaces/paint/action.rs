@@ -1,4 +1,4 @@
-//! What can happen in the workspace, and what a person is asked to choose.
+//! Actions of the workspace, and the files that it asks for.
 
 use std::path::PathBuf;
 
@@ -17,84 +17,84 @@ use crate::{
     robot::Convention,
 };
 
-/// Something that happened in the workspace.
+/// An action in the workspace.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PaintAction {
     /// Paint this enrolled part.
     ChoosePart(PartName),
     /// Use the coat of this name.
     ChooseCoat(String),
-    /// Change the parameter of this key.
+    /// Change the parameter with this key.
     Change(&'static str, ParameterChange),
-    /// Every parameter as the coat has it.
+    /// Reset every parameter to the saved coat.
     ResetCoat,
-    /// Write a name for the coat, or stop.
+    /// Set the name being entered for the coat; `None` closes the field.
     Name(Option<String>),
-    /// Keep the coat under the name that was written.
+    /// Save the coat under the entered name.
     SaveCoat,
-    /// Show this path.
+    /// Choose the path to show.
     Show(ShownPath),
-    /// What a left drag in the view does.
+    /// Choose what a left drag in the view does.
     Use(PaintTool),
-    /// Add these regions; areas to be painted replace none.
+    /// Add these regions; new areas to be painted join the earlier ones.
     Add(Vec<KeepOut>),
     /// Correct the path by hand.
     Edit(PathEdit),
-    /// Forget all regions, and what was corrected by hand.
+    /// Remove all regions and corrections by hand.
     Clear,
-    /// Take the last step back.
+    /// Undo the last step.
     Undo,
-    /// Do it again.
+    /// Redo the step undone last.
     Redo,
-    /// Find spacing and speed.
+    /// Propose row spacing and speed.
     Propose,
     /// Store the path with the part.
     Store,
-    /// Colour the part by the film, or by its shape alone.
+    /// Switch between colours by film and plain shape.
     ToggleFilm,
-    /// Write robot programs for this arm and gun.
+    /// Set arm and gun for robot programs.
     SetUp(ProgramSetup),
-    /// To the next point that the arm does not reach.
+    /// Move to the next point that the arm does not reach.
     ShowUnreached,
-    /// Have a person choose a file.
+    /// Ask for a file.
     Ask(PaintFile),
-    /// A person chose it.
+    /// A file was chosen.
     Chosen(PaintFile, PathBuf),
-    /// Show the gun after this many seconds of the path.
+    /// Move to this time on the path, seconds.
     Scrub(f64),
-    /// To the next or the last stroke.
+    /// Move by this many strokes.
     Step(i32),
     /// Play or pause.
     TogglePlay,
-    /// Seconds that have passed while playing.
+    /// Advance playback by this many seconds.
     Advance(f64),
 }
 
-/// Which path is shown.
+/// The path shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShownPath {
-    /// The one that the coat gives.
+    /// The path planned with the coat.
     #[default]
     Planned,
-    /// The one that is stored with the part.
+    /// The path stored with the part.
     Stored,
 }
 
-/// What a person is asked to choose.
+/// A file that a person is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PaintFile {
-    /// Where the path is written to as a table.
+    /// The table that the path is written to.
     Table,
-    /// Where it is written to as a robot program.
+    /// The robot program that the path is written to.
     Program,
-    /// The arm, as a TOML file.
+    /// The arm, a TOML file.
     Arm,
-    /// Boxes and floor of the cell, as a TOML file.
+    /// The cell's boxes and floor, a TOML file.
     Obstacles,
 }
 
 impl PaintFile {
-    /// What is asked; a program is called as the robot of `convention` has its files.
+    /// The dialog to open; a program is named as usual for the robot of `convention`.
     pub(super) fn request(self, convention: Convention) -> FileRequest {
         match self {
             Self::Program => FileRequest {

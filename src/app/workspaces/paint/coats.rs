@@ -34,7 +34,7 @@ impl PaintState {
                 }
             }
         }
-        // A slider that is being dragged is one step.
+        // Dragging a slider is one step.
         let is_dragged = cx.egui.input(|input| input.pointer.any_down());
         if is_dragged && self.is_last_change_of(parameter) {
             self.design.coat = coat;
@@ -58,7 +58,7 @@ impl PaintState {
         }
     }
 
-    /// Lists the coats anew: files may have been added.
+    /// Lists the coats again, as files may have been added.
     pub(super) fn list_coats(&mut self, cx: &mut ShellContext<'_>) {
         let Some(folder) = &self.coat_folder else {
             return;
@@ -90,7 +90,7 @@ impl PaintState {
             notes: self.design.kept.notes.clone(),
             recipe: self.design.coat,
         };
-        // What is kept under the name that the coat has is what is being changed.
+        // Saving under the coat's own name replaces it.
         let replace = if coat.name == self.design.kept.name {
             Replace::Yes
         } else {

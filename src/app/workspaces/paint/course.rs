@@ -1,4 +1,4 @@
-//! When the gun is where on a path.
+//! Times along a spray path, and the gun at a time.
 
 use nalgebra::{Point3, Unit, Vector3};
 
@@ -7,29 +7,29 @@ use crate::library::SprayPath;
 /// Times along a path, from 0 at its first point.
 #[derive(Clone, Debug, Default)]
 pub struct GunCourse {
-    /// Of each point, seconds.
+    /// Time at each point, seconds.
     pub seconds: Vec<f64>,
-    /// First and last point of each stroke.
+    /// Indices of the first and the last point of each stroke.
     pub strokes: Vec<[usize; 2]>,
 }
 
-/// The gun at one moment.
+/// The gun at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GunState {
-    /// Where its mouth is, part space.
+    /// Position of the nozzle, part frame.
     pub nozzle: Point3<f64>,
-    /// Where it points.
+    /// Direction of the jet.
     pub direction: Unit<Vector3<f64>>,
     /// True while it sprays.
     pub is_on: bool,
     /// Its speed, m/s.
     pub speed: f64,
-    /// The stroke that it is on, or comes to next; the number of strokes behind the last.
+    /// Index of the present or next stroke; the number of strokes after the last.
     pub stroke: usize,
 }
 
 impl GunCourse {
-    /// The times of a path; `speed` in m/s where the path sets none.
+    /// Computes the times of a path; `speed` in m/s applies where the path sets none.
     pub fn of(path: &SprayPath, speed: f64) -> Self {
         let mut seconds = vec![0.0];
         let mut now = 0.0;
@@ -43,17 +43,17 @@ impl GunCourse {
         }
     }
 
-    /// The whole path, seconds.
+    /// Duration of the whole path, seconds.
     pub fn duration(&self) -> f64 {
         self.seconds.last().copied().unwrap_or(0.0)
     }
 
-    /// When a stroke begins and ends, seconds.
+    /// Begin and end of a stroke, seconds.
     pub fn times(&self, stroke: [usize; 2]) -> [f64; 2] {
         stroke.map(|point| self.seconds[point])
     }
 
-    /// The gun at a time in seconds on `path`, whose course this is.
+    /// Returns the gun at a time in seconds; `path` must be the path of this course.
     pub fn at(&self, path: &SprayPath, speed: f64, time: f64) -> GunState {
         let points = path.points();
         let behind = self.seconds.partition_point(|t| *t <= time);

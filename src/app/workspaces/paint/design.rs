@@ -1,4 +1,4 @@
-//! What is painted how, and its history: every step is taken back and done again in its order.
+//! The design of a spray path, and its undo history.
 
 use std::mem;
 
@@ -10,45 +10,45 @@ use crate::{
     pipeline::{RecipeFile, parameters::Parameter},
 };
 
-/// What is painted how: what Undo brings back.
+/// Everything that Undo restores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
-    /// The part; none before one was chosen.
+    /// The part; `None` until chosen.
     pub part: Option<PartName>,
     /// The saved coat that was chosen.
     pub kept: RecipeFile<Coat>,
     /// Its parameters, with the changes made since.
     pub coat: Coat,
-    /// Where paint goes and where not.
+    /// Keep-outs and areas to be painted.
     pub regions: Vec<KeepOut>,
-    /// What was corrected by hand in the path that they give.
+    /// Corrections by hand of the path planned from them.
     pub edits: Vec<PathEdit>,
 }
 
-/// A step that can be taken back.
+/// An undoable step.
 #[derive(Clone, Debug)]
 pub(super) enum Step {
-    /// The design as it was.
+    /// Set the design.
     Design(Box<Design>),
-    /// The path that was stored with a part.
+    /// Store this path with a part; `None` removes the present one.
     Stored(PartName, Option<SprayPath>),
 }
 
-/// More steps than this are forgotten, the oldest first.
+/// Limit of steps; the oldest are dropped.
 const MAX_STEPS: usize = 100;
 
-/// Which way a step is made.
+/// Direction in which a step is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum UndoDirection {
-    /// For the first time.
+    /// Made for the first time.
     First,
-    /// Taken back.
+    /// Undone.
     Back,
-    /// Done again.
+    /// Redone.
     Again,
 }
 
-/// What can be taken back, and what was taken back and can be done again; the latest last.
+/// The steps that can be undone and redone; the latest last.
 #[derive(Debug, Default)]
 pub(super) struct UndoStack {
     pub(super) done: Vec<Step>,
@@ -56,7 +56,7 @@ pub(super) struct UndoStack {
 }
 
 impl UndoStack {
-    /// Something was done for the first time.
+    /// Adds the step that undoes a new one.
     pub(super) fn push(&mut self, step: Step) {
         self.undone.clear();
         self.done.push(step);
@@ -65,7 +65,7 @@ impl UndoStack {
         }
     }
 
-    /// The list that the next step that way is taken from.
+    /// The list from which the next step in this direction is taken.
     pub(super) fn from(&mut self, way: UndoDirection) -> &mut Vec<Step> {
         match way {
             UndoDirection::First | UndoDirection::Back => &mut self.done,
@@ -73,7 +73,7 @@ impl UndoStack {
         }
     }
 
-    /// The list that the way back is put into.
+    /// The list that receives the inverse step.
     pub(super) fn to(&mut self, way: UndoDirection) -> &mut Vec<Step> {
         match way {
             UndoDirection::Back => &mut self.undone,
@@ -83,19 +83,19 @@ impl UndoStack {
 }
 
 impl Design {
-    /// True if the same path is planned of both, before corrections by hand.
+    /// True if both give the same path, before corrections by hand.
     pub(super) fn is_same_path(&self, other: &Self) -> bool {
         (&self.part, &self.coat, &self.regions) == (&other.part, &other.coat, &other.regions)
     }
 
-    /// True if the coat differs from what is kept under its name.
+    /// True if the coat differs from the saved one of its name.
     pub fn is_coat_changed(&self) -> bool {
         self.coat != self.kept.recipe
     }
 }
 
 impl PaintState {
-    /// Changes the design; Undo brings back what it was.
+    /// Changes the design as an undoable step.
     pub(super) fn change(&mut self, change: impl FnOnce(&mut Design)) {
         let before = self.design.clone();
         change(&mut self.design);
@@ -118,7 +118,7 @@ impl PaintState {
         same == self.design && **before != self.design
     }
 
-    /// Areas to be painted are one region together; others stand for themselves.
+    /// Adds regions. Areas to be painted are merged into one region; keep-outs stay separate.
     pub(super) fn add(&mut self, regions: Vec<KeepOut>) {
         self.change(|design| {
             for region in regions {
@@ -134,7 +134,7 @@ impl PaintState {
         });
     }
 
-    /// Takes the last step back, or does it again.
+    /// Undoes or redoes one step.
     pub(super) fn step(&mut self, way: UndoDirection, cx: &ShellContext<'_>) {
         if self.is_storing() {
             return;

@@ -56,12 +56,12 @@ use crate::app::{
     },
 };
 
-/// Width of the panel on the right, logical pixels, and in a narrow window.
+/// Width of the panel on the right in a wide and in a narrow window, logical pixels.
 const SIDE: [f32; 2] = [340.0, 300.0];
 /// Height of the timeline, logical pixels.
 const TIMELINE: f32 = 2.0 * space::TARGET + 46.0;
 
-/// The keys of the workspace. Those with more modifiers come first: the others would take them too.
+/// The shortcuts of this workspace. Those with more modifiers come first, as the others would match them too.
 const SHORTCUTS: [Shortcut<PaintAction>; 8] = [
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
@@ -132,7 +132,7 @@ pub struct PaintWorkspace {
 }
 
 impl PaintWorkspace {
-    /// Before a part was chosen; the user's coats are in `coats`.
+    /// Creates the workspace without a chosen part; `coats` is the folder of the user's coats.
     pub fn new(
         gpu: &Result<ViewportGpu, ViewError>,
         coats: Option<PathBuf>,
@@ -145,12 +145,12 @@ impl PaintWorkspace {
         }
     }
 
-    /// What it knows.
+    /// The state of the workspace.
     pub fn state(&self) -> &PaintState {
         &self.state
     }
 
-    /// The same, to be changed without a person.
+    /// The state, to be changed by a program.
     pub fn state_mut(&mut self) -> &mut PaintState {
         &mut self.state
     }

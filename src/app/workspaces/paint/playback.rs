@@ -1,19 +1,19 @@
-//! The gun along the path: where on the timeline, and whether it moves on.
+//! Playback of the gun along the path.
 
 use super::state::PaintState;
 
 /// Whether the gun moves by itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Playback {
-    /// It stands.
+    /// The gun stands still.
     #[default]
     Paused,
-    /// It moves on.
+    /// The gun moves.
     Playing,
 }
 
 impl PaintState {
-    /// The whole path, seconds.
+    /// Duration of the whole path, seconds.
     pub fn duration(&self) -> f64 {
         let planned = self.planned.as_ref();
         planned.map_or(0.0, |planned| planned.course.duration())
@@ -23,7 +23,7 @@ impl PaintState {
         self.time = time.clamp(0.0, self.duration());
     }
 
-    /// To the beginning of a stroke before or behind.
+    /// Moves by this many strokes, to the beginning of a stroke.
     pub(super) fn go_by(&mut self, strokes: i32) {
         let Some(planned) = &self.planned else { return };
         let course = &planned.course;
@@ -48,7 +48,7 @@ impl PaintState {
         };
     }
 
-    /// Moves on by the seconds that have passed, while it plays.
+    /// Advances by the elapsed seconds while playing.
     pub(super) fn advance(&mut self, seconds: f64) {
         if self.playback == Playback::Playing {
             self.go_to(self.time + seconds);

@@ -42,7 +42,7 @@ use crate::{
     stages::stand_off::StandOffParams,
 };
 
-/// What reach is checked of.
+/// Input of a reach check.
 #[derive(Clone, Debug)]
 pub(super) struct ReachRequest {
     planned: Arc<Planned>,
@@ -57,27 +57,27 @@ impl PartialEq for ReachRequest {
     }
 }
 
-/// What an arm reaches of a path in the part's standard position.
+/// The points of a path that an arm reaches, with the part in its standard position.
 #[derive(Clone, Debug)]
 pub struct Reach {
-    /// What the arm is called.
+    /// Name of the arm.
     pub arm: String,
-    /// Every point of the path.
+    /// The result for every point of the path.
     pub check: PathCheck,
-    /// Where its base would reach more points.
+    /// A position of its base that reaches more points.
     pub base: Option<PlaceSuggestion>,
-    /// Where on its rail it would.
+    /// A position on its rail that reaches more points.
     pub rail: Option<PlaceSuggestion>,
     /// Of what accelerations are not checked: `joints`, `rail` or `joints and rail`.
     pub unchecked_accelerations: Option<&'static str>,
     /// Between which positions, metres, its rail moves along the path; none of a rail that stands still.
     pub rail_range: Option<[f64; 2]>,
-    /// The path where it is not reached, and the boxes of the cell.
+    /// Lines over the points not reached, and the boxes of the cell.
     pub(super) lines: LineSet,
 }
 
 impl Reach {
-    /// Why points are not reached, the most frequent reason first, and of how many points.
+    /// Reasons why points are not reached with their numbers of points, the most frequent first.
     pub fn reasons(&self) -> Vec<(String, usize)> {
         let mut reasons: Vec<(String, usize)> = Vec::new();
         let problems = self.check.points.iter().map(|point| &point.problem);
@@ -125,14 +125,14 @@ fn reason(problem: &PointProblem) -> String {
 }
 
 impl PaintState {
-    /// What the arm reaches of the path that is shown, or why that is not known; none while it is being found out, or
-    /// without an arm and a calibrated cell.
+    /// The reach of the path shown, or why it is unknown; `None` while it is being checked, or without an arm and a
+    /// calibrated cell.
     pub fn reach(&self, session: &Session) -> Option<&Result<Arc<Reach>, UserError>> {
         let is_asked = self.reach_request(session) == self.reach_asked;
         self.reach.as_ref().filter(|_| is_asked)
     }
 
-    /// What reach is to be checked of now.
+    /// The reach check needed now.
     pub(super) fn reach_request(&self, session: &Session) -> Option<ReachRequest> {
         session.program.arm.as_ref()?;
         Some(ReachRequest {
@@ -142,7 +142,7 @@ impl PaintState {
         })
     }
 
-    /// Takes in what was found, and checks what is not checked yet.
+    /// Takes in the result, and starts a check if one is needed.
     pub(super) fn update_reach(&mut self, cx: &ShellContext<'_>) {
         while let Some(event) = self.reach_task.poll() {
             self.reach = Some(match event {
@@ -166,7 +166,7 @@ impl PaintState {
         }
     }
 
-    /// Moves to the next point that is not reached, around the end.
+    /// Moves to the next point not reached, wrapping at the end.
     pub(super) fn show_unreached(&mut self, session: &Session) {
         let (Some(Ok(reach)), Some(planned)) = (self.reach(session), &self.planned) else {
             return;
@@ -180,7 +180,7 @@ impl PaintState {
         }
     }
 
-    /// Writes the program of the path that is shown.
+    /// Writes the program of the path shown.
     pub(super) fn export_program(&mut self, file: PathBuf, cx: &ShellContext<'_>) {
         let (Some(planned), Some(robot)) = (self.planned.clone(), cx.session.robot.clone()) else {
             return;
@@ -227,7 +227,7 @@ fn in_standard_position(
     })
 }
 
-/// Which points are reached, and then from where more would be.
+/// Finds which points are reached, then positions that reach more.
 fn found(
     request: &ReachRequest,
     library_cache: &LibraryCache,
@@ -263,7 +263,7 @@ fn found(
         rail: None,
     };
     if num < points.len() {
-        // Places take longer than the check.
+        // Finding positions takes longer than the check.
         context.partial(Arc::new(reach.clone()));
         let progress = |done, total| context.progress(done, total);
         let is_cancelled = || context.check().is_err();
@@ -275,10 +275,10 @@ fn found(
     Ok(Arc::new(reach))
 }
 
-/// Half the length of the line over a point that is not reached, metres.
+/// Half the length of the line over a single point not reached, metres.
 const HALF: f32 = 0.01;
 
-/// A line from each point that is not reached to the next, and a short one where that is reached.
+/// Returns a line from each unreached point to the next, or a short one if the next is reached.
 fn unreached(planned: &Planned, check: &PathCheck) -> Vec<Line> {
     let is_bad = |i: usize| check.points.get(i).is_some_and(|p| p.problem.is_some());
     let at = |i: usize| aim(&planned.path, i, &planned.coat);
@@ -310,7 +310,7 @@ fn outlines(obstacles: &Obstacles, robot_from_part: &RigidTransform) -> Vec<Line
     obstacles.boxes().flat_map(edges_of).collect()
 }
 
-/// Writes the program of a path in the part's standard position; says what was written.
+/// Writes the program of a path in the part's standard position; describes what was written.
 pub(super) fn write_program(
     file: &Path,
     planned: &Planned,

@@ -1,4 +1,4 @@
-//! What is drawn over the view, as the planner takes it: regions, and corrections of the path.
+//! Converts what is drawn over the view into regions and corrections of the path.
 
 use glam::{DVec2, DVec4, Mat4, Vec2, Vec3};
 use nalgebra::Point3;
@@ -11,42 +11,42 @@ use crate::{
 /// What a left drag in the view does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PaintTool {
-    /// It turns the view.
+    /// Turns the view.
     #[default]
     Look,
-    /// It draws around a region.
+    /// Draws around a region.
     Outline(DrawnShape, RegionUse),
-    /// It keeps out what it runs over.
+    /// Adds what it passes over to the keep-outs.
     Brush,
-    /// It corrects the path from the point where it begins.
+    /// Corrects the path, beginning at a point of it.
     Edit(EditKind),
 }
 
-/// What a drag from a point of the path moves.
+/// What dragging a point of the path moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EditKind {
     /// The whole stroke.
     Stroke,
-    /// The point, and its neighbours less.
+    /// The point, and to a lesser degree its neighbours.
     Point,
-    /// The gun about where it aims.
+    /// The direction of the gun about the point that it aims at.
     Turn,
 }
 
-/// What becomes of a region that is drawn around.
+/// Use of a region that is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RegionUse {
-    /// No paint goes there.
+    /// It gets no paint.
     #[default]
     KeepOut,
-    /// Paint goes there, and into other such regions alone.
+    /// Only such regions get paint.
     PaintOnly,
 }
 
 /// Radius of the brush, metres.
 pub(super) const BRUSH: f64 = 0.03;
 
-/// Where points of a surface are seen, in shares of the view's width and height from the top left.
+/// Where points of a surface are seen, as fractions of the view's width and height from the top left.
 struct Seen<'a> {
     surface: &'a PaintSurface,
     at: Vec<Option<Vec2>>,
@@ -63,7 +63,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// The point that is seen nearest to a place, and how far off, in the same shares.
+    /// The point seen nearest to a place, and its distance in the view, in the same fractions.
     fn nearest(&self, place: Vec2) -> Option<(Point3<f64>, f32)> {
         let each = self.at.iter().zip(&self.surface.points);
         let each = each.filter_map(|(at, p)| Some((*p, (*at)?.distance(place))));
@@ -71,7 +71,7 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// The place seen at `place` that is as deep as `depth_of`, part space.
+/// Unprojects `place` to the depth of `depth_of`; part frame.
 pub(super) fn at_depth_of(
     depth_of: &Point3<f64>,
     place: Vec2,
@@ -85,7 +85,7 @@ pub(super) fn at_depth_of(
     Point3::new(there.x, there.y, there.z)
 }
 
-/// The corners of an outline in part space: each as deep as the point of the surface that is seen nearest to it.
+/// The corners of an outline in the part frame, each at the depth of the surface point seen nearest to it.
 pub(super) fn corners_of(
     outline: &[Vec2],
     surface: &PaintSurface,
@@ -99,19 +99,19 @@ pub(super) fn corners_of(
     corners.collect()
 }
 
-/// Spheres along the way of a brush over the surface; nothing where it runs beside it.
+/// Returns spheres along a brush stroke over the surface; nothing where the brush is beside the part.
 pub(super) fn brushed(
     trail: &[Vec2],
     surface: &PaintSurface,
     clip_from_part: &Mat4,
 ) -> Vec<KeepOut> {
-    /// Farther from every point the brush is beside the part, share of the view.
+    /// Distance to the nearest point from which the brush is beside the part, fraction of the view.
     const BESIDE: f32 = 0.02;
-    /// Places on the way are this far apart at most.
+    /// Largest distance between places along the trail, fraction of the view.
     const STEP: f32 = 0.005;
     let seen = Seen::new(surface, clip_from_part);
     let mut middles: Vec<Point3<f64>> = Vec::new();
-    // A quick hand is seen at a few places alone.
+    // Interpolate: a quick drag is sampled at only a few places.
     let between = trail.windows(2).flat_map(|ends| {
         let num = (ends[0].distance(ends[1]) / STEP).ceil().max(1.0) as usize;
         (1..=num).map(move |i| ends[0].lerp(ends[1], i as f32 / num as f32))

@@ -22,7 +22,7 @@ use crate::{
     robot::arm::{ARM_NAMES, Arm, PointProblem},
 };
 
-/// Reasons that are listed.
+/// Number of reasons listed.
 const MAX_REASONS: usize = 3;
 
 /// Draws the section.
@@ -165,7 +165,7 @@ fn obstacles_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAc
     response.on_hover_text(text!("paint-obstacles-hint"));
 }
 
-/// A line of text below its name.
+/// Draws a text field below its label.
 fn field(ui: &mut Ui, theme: &Theme, label: &str, text: &mut String, hint: &str) -> egui::Response {
     let name = ui.label(RichText::new(label).color(theme.text));
     let edit = TextEdit::singleline(text)
@@ -176,7 +176,7 @@ fn field(ui: &mut Ui, theme: &Theme, label: &str, text: &mut String, hint: &str)
     ui.add(edit).labelled_by(name.id)
 }
 
-/// How much of the path the arm reaches, in one line; nothing where that is not known.
+/// Draws in one line how much of the path the arm reaches; nothing if unknown.
 pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session, theme: &Theme) {
     let Some(Ok(reach)) = paint.reach(session) else {
         return;
@@ -193,7 +193,7 @@ pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session, theme:
     }
 }
 
-/// Why points are not reached, and from where more would be.
+/// Draws why points are not reached, and positions that reach more.
 fn reasons(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAction>) {
     collisions_ui(ui, reach, theme);
     if let Some(range) = reach.rail_range {

@@ -1,4 +1,4 @@
-//! On the right: the part, its coat with every parameter, what the film comes to, and what can be done with the path.
+//! On the right: the part, its coat with every parameter, the figures of the film, and what can be done with the path.
 
 use egui::{
     Button, CentralPanel, Frame, Label, Margin, Panel, Rect, Response, RichText, ScrollArea, Sense,
@@ -27,9 +27,9 @@ use crate::{
     stages::reference::Coverage,
 };
 
-/// Letters of a part's title on its menu.
+/// Characters of a part's title on its menu.
 pub(super) const TITLE: usize = 26;
-/// The share of the film within its tolerance from which a path is good, as `partsight path plan` has it.
+/// Share of the film within tolerance from which a path is good, as in `partsight path plan`.
 const GOOD: f64 = 0.9;
 
 /// Draws the panel.
@@ -76,7 +76,7 @@ pub(super) fn ui(
     });
 }
 
-/// The part, and whether its film is good.
+/// Draws the part, and whether its film is good.
 fn head(
     ui: &mut Ui,
     paint: &PaintState,
@@ -151,7 +151,7 @@ fn head(
     ui.add(Label::new(scope).wrap());
 }
 
-/// The coat, by name and by every parameter.
+/// Draws the coat: its name and every parameter.
 fn coat(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut Vec<PaintAction>) {
     let design = &paint.design;
     heading(ui, theme, &text!("paint-coat"));
@@ -189,13 +189,13 @@ fn coat(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut Vec<PaintA
     if let Some(naming) = &paint.naming {
         name_ui(ui, naming, actions);
     }
-    // What is changed most comes first.
+    // Most frequently changed first.
     for group in [CoatGroup::Path, CoatGroup::Film, CoatGroup::Gun] {
         parameters_of(ui, group, paint, theme, actions);
     }
 }
 
-/// The line in which a name for the coat is written.
+/// Draws the field for the coat's name.
 fn name_ui(ui: &mut Ui, naming: &str, actions: &mut Vec<PaintAction>) {
     let mut written = naming.to_owned();
     ui.horizontal_wrapped(|ui| {
@@ -226,7 +226,7 @@ fn name_ui(ui: &mut Ui, naming: &str, actions: &mut Vec<PaintAction>) {
     });
 }
 
-/// The parameters of a group: those in front, the others in its fold.
+/// Draws the parameters of a group, the less used ones folded.
 fn parameters_of(
     ui: &mut Ui,
     group: CoatGroup,
@@ -234,7 +234,7 @@ fn parameters_of(
     theme: &Theme,
     actions: &mut Vec<PaintAction>,
 ) {
-    // The row of tools has it.
+    // The pattern is in the row of tools.
     let is_here = |key: &str| key != "pattern";
     let of = |place: Place| {
         let all = Coat::ALL.iter();
@@ -266,7 +266,7 @@ fn parameters_of(
         });
 }
 
-/// What the film comes to.
+/// Draws the figures of the film.
 fn check(ui: &mut Ui, planned: &Planned, theme: &Theme) {
     heading(ui, theme, &text!("paint-check"));
     let (film, takes) = (&planned.film.figures, &planned.film.path);
@@ -301,7 +301,7 @@ fn check(ui: &mut Ui, planned: &Planned, theme: &Theme) {
     }
 }
 
-/// Shares of the surface by thickness; what is within the tolerance stands out.
+/// Draws the shares of the surface by thickness; those within tolerance are highlighted.
 fn histogram(ui: &mut Ui, film: &FilmFigures, tolerance: f64, theme: &Theme) {
     let size = vec2(ui.available_width(), 52.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -346,7 +346,7 @@ fn percent(share: f64) -> String {
     format!("{:.1}", 100.0 * share)
 }
 
-/// What can be done with the path.
+/// Draws the buttons for the path.
 fn buttons(
     ui: &mut Ui,
     paint: &PaintState,
@@ -404,7 +404,7 @@ fn buttons(
         button(ui, &store, can, half, Some(theme))
     });
     let response = response.inner;
-    // There is no room for all of it.
+    // The button shows a shorter text.
     let whole = text!("paint-store");
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, &whole));
     let reason = match (fixed, is_stored) {
@@ -420,7 +420,7 @@ fn buttons(
     }
 }
 
-/// A button of this width; in the accent's colours of a theme if one is given.
+/// Draws a button of this width, in the theme's accent colour if a theme is given.
 fn button(ui: &mut Ui, label: &str, can: bool, width: f32, accent: Option<&Theme>) -> Response {
     let text = RichText::new(label).font(font::body_strong());
     let button = match accent.filter(|_| can) {

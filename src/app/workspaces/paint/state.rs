@@ -1,4 +1,4 @@
-//! What the workspace knows, and what changes it.
+//! State of the workspace, and the actions that change it.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -30,26 +30,26 @@ use crate::{
     pipeline::Verdict,
 };
 
-/// What the workspace knows.
+/// State of the workspace.
 #[derive(Debug)]
 pub struct PaintState {
-    /// What is painted how.
+    /// The design of the path.
     pub design: Design,
-    /// Which path is shown.
+    /// The path shown.
     pub shown_path: ShownPath,
-    /// The last path, its film, and what they were made of.
+    /// The last path with its film and input.
     pub planned: Option<Arc<Planned>>,
-    /// Why there is no path for what was asked last.
+    /// Why there is no path for the last request.
     pub failed: Option<UserError>,
     /// What a left drag does.
     pub tool: PaintTool,
     /// True if the part is coloured by its film.
     pub is_film_shown: bool,
-    /// Place on the timeline, seconds.
+    /// Position on the timeline, seconds.
     pub time: f64,
-    /// Whether it moves on.
+    /// Whether the position advances by itself.
     pub playback: Playback,
-    /// The name that is being written for the coat.
+    /// The name being entered for the coat.
     pub naming: Option<String>,
     /// Names of all coats.
     pub coats: Vec<String>,
@@ -58,18 +58,18 @@ pub struct PaintState {
     asked: Option<Request>,
     task: Task<PaintResult>,
     storing: Task<PaintResult>,
-    /// What is being stored, and which way.
+    /// The step being stored, and its direction.
     pending: Option<(UndoDirection, Step)>,
     pub(super) reach: Option<Result<Arc<Reach>, UserError>>,
     pub(super) reach_asked: Option<ReachRequest>,
     pub(super) reach_task: Task<Arc<Reach>>,
-    /// It says what was written.
+    /// Its result describes what was written.
     pub(super) writing: Task<String>,
     dialog: FileDialog<PaintFile>,
 }
 
 impl PaintState {
-    /// Before a part was chosen; the user's coats are in `coats`.
+    /// Creates the state without a chosen part; `coats` is the folder of the user's coats.
     pub fn new(coats: Option<PathBuf>, runner: &TaskRunner) -> Self {
         let kept = built_in_coat(BUILT_IN_COATS[0]).expect("the program has it");
         Self {
@@ -103,7 +103,7 @@ impl PaintState {
         }
     }
 
-    /// The run that plans or stores, if any.
+    /// The job that plans, stores or checks reach, if any.
     pub fn running(&self) -> Option<&Running> {
         let own = self.task.running().or_else(|| self.storing.running());
         own.or_else(|| self.reach_task.running())
@@ -119,13 +119,13 @@ impl PaintState {
         self.writing.running()
     }
 
-    /// True if there is something to take back, and something to do again.
+    /// Whether there is a step to undo and one to redo.
     pub fn can_undo(&self) -> [bool; 2] {
         let steps = &self.steps;
         [!steps.done.is_empty(), !steps.undone.is_empty()]
     }
 
-    /// Regions that a person has drawn and whose path is not stored, in words.
+    /// Describes regions drawn by a person whose path is not stored.
     pub(super) fn unsaved(&self) -> Option<String> {
         let is_stored = self
             .planned
@@ -135,19 +135,19 @@ impl PaintState {
         (is_drawn && !is_stored).then(|| text!("paint-unsaved"))
     }
 
-    /// Stops planning; what was shown stays.
+    /// Cancels planning and the reach check; the shown path stays.
     pub fn cancel(&mut self) {
         self.task.cancel();
         self.reach_task.cancel();
     }
 
-    /// True while what is shown is not what was asked for last.
+    /// True while the shown path does not match the last request.
     pub fn is_old(&self, session: &Session) -> bool {
         let is_asked = self.request(session) == self.asked;
         !is_asked || self.task.running().is_some() || self.failed.is_some()
     }
 
-    /// True if nothing is at work, nor waits for the next frame to begin.
+    /// True if no job runs and none will start with the next frame.
     pub(super) fn is_idle(&self, session: &Session) -> bool {
         let is_front = session.workspace == WorkspaceKind::Paint;
         let is_waiting = is_front
@@ -156,7 +156,7 @@ impl PaintState {
         !is_waiting && self.running().is_none() && self.writing().is_none()
     }
 
-    /// The part that is painted: the one chosen, else the one that was recognised last, else the first.
+    /// The part to paint: the one chosen, else the one recognised last, else the first.
     pub fn part<'a>(&'a self, session: &'a Session) -> Option<&'a PartName> {
         let parts = &session.library.as_ref()?.parts;
         let names = || parts.iter().map(|part| &part.name);
@@ -172,7 +172,7 @@ impl PaintState {
         chosen.or_else(recognised).or_else(|| names().next())
     }
 
-    /// The path that is stored with the part, if one is.
+    /// The path stored with the part, if any.
     pub fn stored<'a>(&self, session: &'a Session) -> Option<&'a SprayPath> {
         let library = session.library.as_ref()?;
         let place = library.place_of(self.part(session)?.as_str())?;
@@ -184,7 +184,7 @@ impl PaintState {
         let before = self.design.clone();
         let is_step = matches!(action, PaintAction::Undo | PaintAction::Redo);
         self.carry_out(action, cx);
-        // Points and strokes of another path are others.
+        // Corrections refer to points and strokes of the former path.
         let is_corrected = !is_step && !self.design.edits.is_empty();
         if is_corrected && !self.design.is_same_path(&before) {
             self.design.edits.clear();
@@ -296,7 +296,7 @@ impl PaintState {
             .start(title, move |_| Ok(work::write(&file, &planned.path)?));
     }
 
-    /// What is asked for now, if there is a part.
+    /// The present request, if there is a part.
     fn request(&self, session: &Session) -> Option<Request> {
         let library = session.library.as_ref()?;
         let part = self.part(session)?.clone();
@@ -328,7 +328,7 @@ impl PaintState {
         });
     }
 
-    /// Takes in what the tasks and the dialog report, and plans what is not planned yet.
+    /// Takes in the results of the tasks and of the file dialog, and plans if needed.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.task.poll() {
             match event {
@@ -339,7 +339,7 @@ impl PaintState {
         match self.storing.poll() {
             Some(TaskEvent::Done(result) | TaskEvent::Partial(result)) => self.receive(result, cx),
             Some(TaskEvent::Failed(error)) => {
-                // A step that could not be made can be tried again.
+                // Keep a step that failed, so that it can be tried again.
                 if let Some((way @ (UndoDirection::Back | UndoDirection::Again), step)) =
                     self.pending.take()
                 {
@@ -388,7 +388,7 @@ impl PaintState {
         match result {
             PaintResult::Planned(planned) => self.show(planned),
             PaintResult::Proposed(planned) => {
-                // Of a design that was changed meanwhile the proposal is no longer wanted.
+                // Drop a proposal if the design has changed meanwhile.
                 if self.request(cx.session) == self.asked {
                     self.change(|design| {
                         design.coat = planned.coat;

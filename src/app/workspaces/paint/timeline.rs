@@ -14,7 +14,7 @@ use crate::app::{
 
 /// Height of the blocks, logical pixels.
 const BLOCKS: f32 = 14.0;
-/// Seconds that an arrow key moves.
+/// Distance that an arrow key moves, seconds.
 const STEP: f64 = 0.5;
 
 /// Draws heading and timeline.
@@ -119,7 +119,7 @@ fn heading(
     });
 }
 
-/// Where the gun is on the path, in words.
+/// Describes where the gun is on the path.
 fn place_text(paint: &PaintState, planned: &Planned) -> String {
     let course = &planned.course;
     let gun = course.at(&planned.path, planned.coat.speed, paint.time);
@@ -145,7 +145,7 @@ fn place_text(paint: &PaintState, planned: &Planned) -> String {
     }
 }
 
-/// "1:05".
+/// Formats a duration as "1:05".
 fn minutes(seconds: f64) -> String {
     let whole = seconds.round() as u64;
     format!("{}:{:02}", whole / 60, whole % 60)

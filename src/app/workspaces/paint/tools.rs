@@ -1,4 +1,4 @@
-//! Above the view: how rows run, what a drag does, undo, colours.
+//! Above the view: pattern of the rows, effect of a drag, undo, colours.
 
 use egui::Ui;
 
@@ -31,7 +31,7 @@ pub(super) fn ui(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>
     tool_row(ui, sets, actions);
 }
 
-/// How the rows run: the choice of the coat that is changed most.
+/// Choices of the pattern of the rows, the coat's parameter changed most often.
 fn patterns(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     const KEY: &str = "pattern";
     let Some(parameter) = Parameter::<Coat>::of_key(KEY) else {
@@ -50,7 +50,7 @@ fn patterns(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     each.collect()
 }
 
-/// A drag turns the view, or draws a region.
+/// Tools by which a drag turns the view or draws a region.
 fn regions(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     let keep_out = text!("paint-keep-out-hint");
     let only = text!("paint-only-hint");
@@ -96,7 +96,7 @@ fn regions(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     tools.map(|tool| drag_tool(paint, tool)).into()
 }
 
-/// A drag corrects the path; and what forgets that and the regions.
+/// Tools by which a drag corrects the path, and the one that clears corrections and regions.
 fn edits(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     let tools = [
         (
@@ -131,7 +131,7 @@ fn edits(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     each
 }
 
-/// A tool by its text, its label, its hint and what a drag does with it.
+/// Makes a tool of its text, its label, its hint and the effect of a drag.
 fn drag_tool(
     paint: &PaintState,
     (text, label, hint, tool): (String, String, String, PaintTool),
@@ -146,7 +146,7 @@ fn drag_tool(
     }
 }
 
-/// Back and forth.
+/// Undo and Redo.
 fn steps(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     let [can_undo, can_redo] = paint.can_undo();
     [
@@ -165,7 +165,7 @@ fn steps(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     .collect()
 }
 
-/// What colours the part.
+/// Choice of the colours of the part.
 fn colours(paint: &PaintState) -> Vec<Tool<PaintAction>> {
     let text = text!("paint-film-colours");
     vec![Tool {

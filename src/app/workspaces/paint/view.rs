@@ -1,4 +1,4 @@
-//! The part in three dimensions with its film, the path over it, and the gun at the moment shown.
+//! The part in three dimensions with its film, the path, and the gun at the time shown.
 
 use std::{f64::consts::TAU, sync::Arc};
 
@@ -37,9 +37,9 @@ pub(super) struct PaintView {
     camera: ViewCamera,
     style: ViewStyle,
     styled: Option<ThemeChoice>,
-    /// The part that the camera was put before.
+    /// The part that the camera was fitted to.
     fitted: Option<PartName>,
-    /// The gun's lines, and of which path and moment they are.
+    /// The drawn gun, with its path and time.
     gun: Option<(Arc<Planned>, f64, Gun)>,
     has_focus: bool,
 }
@@ -51,16 +51,16 @@ struct Gun {
     label: TextLabel,
 }
 
-/// How far from the pointer a point of the path is taken, logical pixels.
+/// Largest distance from the pointer at which a point of the path is picked, logical pixels.
 const REACH: f32 = 24.0;
 
-/// Size of the marks where the gun goes on and off, in points of the part.
+/// Size of the marks where the gun is switched on or off, relative to the points of the part.
 const MARKS: f32 = 1.2;
 
-/// Width of a view in which controls and scale stand side by side, logical pixels.
+/// Width of a view from which controls and scale fit side by side, logical pixels.
 const BESIDE_CONTROLS: f32 = 560.0;
 
-/// What the film's scale spans on both sides of the target, in tolerances.
+/// Range of the film's scale on either side of the target, in tolerances.
 const SCALE: f64 = 2.0;
 
 impl PaintView {
@@ -76,7 +76,7 @@ impl PaintView {
         }
     }
 
-    /// True while keys go to the view.
+    /// True while the view has the key focus.
     pub(super) fn has_focus(&self) -> bool {
         self.has_focus
     }
@@ -113,7 +113,7 @@ impl PaintView {
             .viewport
             .ui(ui, &label, &mut self.camera, &scene, &self.style);
         self.has_focus = seen.response.has_focus();
-        // A click of the brush is a way of one point.
+        // A click with the brush is a trail of one point.
         let clicked = seen.response.interact_pointer_pos();
         let clicked = clicked.filter(|_| seen.response.clicked());
         let clicked = clicked.map(|at| vec![share_of(at, rect)]);
@@ -128,7 +128,7 @@ impl PaintView {
         self.tool_overlay(ui, rect, paint);
     }
 
-    /// What becomes of what was drawn, corners in shares of the view.
+    /// Returns the action for what was drawn; corners are fractions of the view.
     fn drawn(
         &self,
         way: &[glam::Vec2],
@@ -145,7 +145,7 @@ impl PaintView {
                 return Some(PaintAction::Edit(edit));
             }
             PaintTool::Brush => brushed(way, surface, &clip_from_part),
-            // A click.
+            // Ignore a click.
             PaintTool::Outline(..) if way.len() < 3 => return None,
             PaintTool::Outline(_, RegionUse::KeepOut) => vec![KeepOut::Polygon {
                 corners: corners_of(way, surface, &clip_from_part),
@@ -157,7 +157,7 @@ impl PaintView {
         (!regions.is_empty()).then_some(PaintAction::Add(regions))
     }
 
-    /// The correction by a drag from a point of a stroke.
+    /// Returns the correction made by a drag from a point of a stroke.
     fn edit(
         &self,
         kind: EditKind,
@@ -179,7 +179,7 @@ impl PaintView {
         })
     }
 
-    /// The point of a stroke that is seen nearest to a place, and its stroke; none is near beside them.
+    /// Finds the stroke point seen nearest to a place, and its stroke; `None` if none is within reach.
     fn nearest_point(
         &self,
         place: glam::Vec2,
@@ -200,7 +200,7 @@ impl PaintView {
         nearest.map(|(stroke, point, _)| (stroke, point))
     }
 
-    /// What is being drawn, and how it is done.
+    /// Draws the shape being drawn, or a hint on how to draw.
     fn tool_overlay(&self, ui: &mut Ui, rect: Rect, paint: &PaintState) {
         let painter = ui.painter_at(rect);
         let colours = &self.style.colours;
@@ -255,7 +255,7 @@ impl PaintView {
                 drawing::outline(&painter, &corners, &title, colours);
             }
         }
-        // It would cover what is drawn around.
+        // The hint would cover the part while a person draws.
         if corners.is_empty() {
             let place = rect.with_min_y(rect.bottom() - 2.0 * space::TARGET);
             let text = RichText::new(hint).font(font::small()).color(colours.text);
@@ -273,7 +273,7 @@ impl PaintView {
         }
     }
 
-    /// About how many logical pixels a length takes where the camera looks at.
+    /// Approximate size of a length in logical pixels at the camera's target.
     fn pixels(&self, metres: f64, rect: Rect) -> f32 {
         let size = size_of(rect);
         let target = self.camera.target();
@@ -288,7 +288,7 @@ impl PaintView {
                 ThemeChoice::Dark => ViewColours::dark(),
                 ThemeChoice::Light => ViewColours::light(),
             });
-            // Where the gun goes on and off is seen from afar.
+            // Make the marks of the gun going on and off visible from afar.
             for role in [Role::AxisX, Role::AxisY] {
                 self.style.colours.roles[role as usize].weight = MARKS;
             }
@@ -298,7 +298,7 @@ impl PaintView {
             return;
         };
         let coat = &planned.coat;
-        // Enrolled parts are thinned: closed from afar.
+        // Enrolled parts are thinned; points of this size look closed from afar.
         self.style.point_size = PointSize::Metres(Metres(1.9 * planned.surface.spacing));
         let range = SCALE * coat.tolerance * coat.target;
         self.style.deviation_range = Metres(range * MAGNIFIED);
@@ -333,7 +333,7 @@ impl PaintView {
         }
     }
 
-    /// The gun, made anew only where it has moved.
+    /// Returns the drawn gun, made again only if it has moved.
     fn gun(&mut self, planned: &Arc<Planned>, time: f64, session: &Session) -> Gun {
         if let Some((of, at, gun)) = &self.gun
             && Arc::ptr_eq(of, planned)
@@ -372,13 +372,13 @@ fn size_of(rect: Rect) -> glam::Vec2 {
     glam::Vec2::new(rect.width(), rect.height())
 }
 
-/// A place on the screen in shares of the view.
+/// Converts a position on the screen to fractions of the view.
 fn share_of(at: egui::Pos2, rect: Rect) -> glam::Vec2 {
     let share = (at - rect.min) / rect.size();
     glam::Vec2::new(share.x, share.y)
 }
 
-/// The jet's axis, the pattern where it lands, and stand-off, speed and angle in words.
+/// Draws the jet's axis, its pattern on the surface, and a label with stand-off, speed and angle.
 fn drawn_gun(planned: &Planned, gun: &GunState, session: &Session) -> Gun {
     let surface = &planned.surface;
     let coat = &planned.coat;
@@ -387,7 +387,7 @@ fn drawn_gun(planned: &Planned, gun: &GunState, session: &Session) -> Gun {
     let off = |p: &nalgebra::Point3<f64>| (p - aim).norm_squared();
     let nearest = surface.points.iter().enumerate();
     let nearest = nearest.min_by(|a, b| off(a.1).total_cmp(&off(b.1)));
-    // Beside the part there is no distance to tell.
+    // Beside the part there is no stand-off to show.
     let near = nearest.filter(|(_, p)| off(p).sqrt() < 3.0 * surface.spacing);
     let mut words = Vec::new();
     if let Some((place, p)) = near {
@@ -434,7 +434,7 @@ fn drawn_gun(planned: &Planned, gun: &GunState, session: &Session) -> Gun {
     }
 }
 
-/// A speed as paint shops write it.
+/// Formats a speed in mm/s, as paint shops write it.
 pub(super) fn speed_text(speed: f64) -> String {
     format!("{:.0} mm/s", 1000.0 * speed)
 }

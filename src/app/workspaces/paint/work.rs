@@ -1,4 +1,4 @@
-//! What the workspace's tasks do: plan a path, simulate its film, store it.
+//! Jobs of the workspace: plan a path, simulate its film, store it.
 
 use std::{path::Path, sync::Arc};
 
@@ -19,13 +19,13 @@ use crate::{
     stages::reference::Reference,
 };
 
-/// What a path is planned of.
+/// Input of planning.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Request {
     pub(super) part: PartName,
-    /// The library that the part is of.
+    /// The library of the part.
     pub(super) library: String,
-    /// The path that is stored with it.
+    /// The path stored with the part.
     pub(super) stored: Option<SprayCheck>,
     pub(super) coat: Coat,
     pub(super) regions: Vec<KeepOut>,
@@ -36,36 +36,36 @@ pub(super) struct Request {
 /// A path and its film, and what the view shows of them.
 #[derive(Debug)]
 pub struct Planned {
-    /// The part.
+    /// Name of the part.
     pub part: PartName,
-    /// The surface that is painted.
+    /// The surface to paint.
     pub surface: PaintSurface,
-    /// The path.
+    /// The spray path.
     pub path: SprayPath,
-    /// Its film.
+    /// The simulated film.
     pub film: Film,
-    /// When the gun is where.
+    /// Times along the path.
     pub course: GunCourse,
-    /// The coat; of a proposal the one that was found.
+    /// The coat; for a proposal, the one found.
     pub coat: Coat,
     /// True if the same path was stored with the part when it was planned.
     pub is_stored: bool,
-    /// The surface by its film.
+    /// The surface coloured by its film.
     pub(super) points: PointSet,
-    /// Strokes, and the ways between them in dashes.
+    /// Strokes as lines, and the moves between them dashed.
     pub(super) lines: LineSet,
-    /// Where the gun goes on, and where off.
+    /// The points where the gun is switched on, and off.
     pub(super) marks: [PointSet; 2],
 }
 
-/// What a task hands over.
+/// A result of a task.
 #[derive(Debug)]
 pub(super) enum PaintResult {
     /// A path and its film.
     Planned(Arc<Planned>),
-    /// The same of a coat whose spacing and speed were found.
+    /// A path and its film for a coat whose spacing and speed were found.
     Proposed(Arc<Planned>),
-    /// A path was stored with a part, or taken away; and what was there before.
+    /// A path was stored with a part or removed; holds the former path.
     Stored {
         part: PartName,
         former: Option<SprayPath>,
@@ -74,7 +74,7 @@ pub(super) enum PaintResult {
     },
 }
 
-/// A part of the library, and its place there.
+/// Finds a part of the library, and its index.
 pub(super) fn enrolled<'a>(
     loaded: &'a LoadedLibrary,
     part: &PartName,
@@ -141,10 +141,10 @@ pub(super) fn planned(
     })
 }
 
-/// A view keeps whole micrometres of deviations, and films are as thin.
+/// Scale of the film's deviations: a view keeps whole micrometres, and films are only some micrometres thick.
 pub(super) const MAGNIFIED: f64 = 1000.0;
 
-/// The surface with the film's distance from its target; what the gun cannot face, or is kept out, has none.
+/// Returns the surface with the film's deviation from its target; keep-outs and what the gun cannot face have none.
 fn coloured(surface: &PaintSurface, film: &Film, coat: &Coat) -> PointSet {
     let positions: Vec<[f32; 3]> = surface
         .points
@@ -166,10 +166,10 @@ fn coloured(surface: &PaintSurface, film: &Film, coat: &Coat) -> PointSet {
         .packed()
 }
 
-/// How far before the surface lines are drawn, metres: points have a size.
+/// Distance of lines from the surface, metres, as points have a size.
 const BEFORE: f64 = 0.008;
 
-/// Where the gun aims at a point of the path, a little before the surface.
+/// The point at which the gun aims at a point of the path, moved a little off the surface.
 pub(super) fn aim(path: &SprayPath, point: usize, coat: &Coat) -> Vec3 {
     let point = &path.points()[point];
     let stand_off = point.stand_off.map_or(coat.stand_off, |d| d.0);
@@ -211,7 +211,7 @@ fn marks(path: &SprayPath, course: &GunCourse, coat: &Coat) -> [PointSet; 2] {
     ]
 }
 
-/// Stores a path with a part, or takes it away, and loads the library anew.
+/// Stores a path with a part or removes it, and reloads the library.
 pub(super) fn store(
     part: &PartName,
     path: Option<&SprayPath>,
@@ -219,7 +219,7 @@ pub(super) fn store(
 ) -> Result<PaintResult, UserError> {
     let loaded = library_cache.get();
     let folder = loaded.folder_to_change()?;
-    // One that is damaged cannot be brought back.
+    // A damaged path cannot be brought back.
     let former = folder.spray_path(part.as_str()).ok().flatten();
     folder
         .set_spray_path(part, path)
@@ -235,7 +235,7 @@ pub(super) fn store(
     })
 }
 
-/// Writes a path as a table, whole or not at all; says what was written.
+/// Writes a path as a table, atomically; describes what was written.
 pub(super) fn write(file: &Path, path: &SprayPath) -> Result<String, UserError> {
     let text = path.to_text();
     write_atomically(file, |to| to.write_all(text.as_bytes()))

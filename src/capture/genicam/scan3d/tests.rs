@@ -1,7 +1,7 @@
 use super::*;
 use crate::error::Advice as _;
 
-/// What a camera of depth and points says.
+/// The nodes of a camera of depth and points.
 fn camera() -> Scan3d {
     let text = |text: &str| Some(text.to_owned());
     let nodes = |scale, offset, invalid| AxisNodes {
@@ -61,7 +61,7 @@ fn depths_are_those_of_scale_and_offset_to_half_a_unit() {
         let camera = frame.intrinsics;
         assert_eq!((camera.width, camera.height), (3, 2));
         assert!((camera.fx - 500.5).abs() < 1e-9 && (camera.cx - 1.0).abs() < 1e-9);
-        // 0 is never a reading, 65535 is what the camera calls invalid.
+        // 0 never is a reading; 65535 is the camera's invalid value.
         assert_eq!((frame.depth[0], frame.depth[5]), (0, 0));
         for (value, &depth) in values.iter().zip(&frame.depth).skip(1).take(4) {
             let expected = (f64::from(*value) * scale + offset) * 0.001;
@@ -213,7 +213,7 @@ fn a_reversed_depth_image_needs_a_file_that_says_so() {
         };
         assert!(frame.depth[0] > frame.depth[2], "{:?}", frame.depth);
     }
-    // Points have their own x and y, whatever the order in which they come.
+    // Points have x and y of their own, whatever their order.
     assert!(nodes.decoder(GenicamFormat::Coord3dAbc32f, None).is_ok());
 }
 

@@ -1,4 +1,4 @@
-//! Folders of frames that were made by others.
+//! Folders of frames made by other programs.
 
 use super::*;
 use crate::files::{
@@ -36,7 +36,7 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
     }
     list.push("1305031103.0 depth/missing.png".into());
     fs::write(folder.path().join("depth.txt"), list.join("\n")).unwrap();
-    // The assumed camera has another size: every image is named with what is wrong.
+    // The assumed camera has another size: every image is reported.
     let (_, names) = replayed(folder.path());
     assert!(names.iter().all(|name| name.starts_with('!')), "{names:?}");
     write_camera(&folder.path().join(FOLDER_CAMERA), &camera).unwrap();
@@ -56,7 +56,7 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
         panic!("a depth image");
     };
     assert_eq!((frame.depth[0], DepthCamera::of(frame)), (5002, camera));
-    // A camera given by name goes before the one in the folder.
+    // A camera given by name takes precedence over the one in the folder.
     let mut given = camera;
     given.intrinsics.fx = 580.0;
     let file = folder.path().join("mine.json");
@@ -77,7 +77,7 @@ fn the_camera_of_a_sequence_without_one_is_assumed_and_said_once() {
     let Image::Depth(mut frame) = simulated(1).remove(0).image else {
         panic!("a depth image");
     };
-    // Such a sequence has no place to say so.
+    // Such a sequence cannot say that it is simulated.
     frame.is_simulated = false;
     let mut png = Vec::new();
     write_depths(&mut png, &frame).unwrap();
@@ -89,7 +89,7 @@ fn the_camera_of_a_sequence_without_one_is_assumed_and_said_once() {
     };
     assert!(missing.ends_with(FOLDER_CAMERA));
     assert!(found[1].warnings.is_empty());
-    // The cell's unit is that of such sequences, and so is its camera.
+    // The simulated cell has the same unit and camera as such sequences.
     assert!(found[0].image == Image::Depth(frame));
 }
 

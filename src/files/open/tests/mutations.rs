@@ -1,4 +1,4 @@
-//! Small valid files of every format, changed at random: whatever comes of it is a file or a named error, never a panic.
+//! Small valid files of every format, changed at random: the result is valid content or a named error, never a panic.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use crate::geometry::cloud::Grid;
 use crate::kit::small_frame;
 use crate::stages::scene::scene_from_cloud;
 
-/// Changed files in all; about a second in a build for tests.
+/// Changed files in total; they take about a second in a test build.
 const NUM_FILES: usize = 120_000;
 
-/// Words that a header or a table may hold by mistake.
+/// Words that a damaged header or table may hold.
 const WORDS: [&[u8]; 18] = [
     b"0",
     b"-1",
@@ -39,7 +39,7 @@ const WORDS: [&[u8]; 18] = [
     b"\xff\xfe",
 ];
 
-/// A file of every format, and of every way to store it.
+/// A file of every format in every storage.
 fn seeds() -> Vec<(&'static str, Vec<u8>)> {
     let cloud = PointCloud {
         points: (0..24)
@@ -98,7 +98,7 @@ fn seeds() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// One change of a kind that copying, editing and failing disks make.
+/// Makes one change, such as copying, editing and failing disks cause.
 fn change(bytes: &mut Vec<u8>, other: &[u8], random: &mut Pcg64) {
     let len = bytes.len();
     let at = random.random_range(0..=len);

@@ -10,14 +10,14 @@ use crate::{
     stages::pose::PoseMethod,
 };
 
-/// The workspace without a window: a job runs when the test says so.
+/// The workspace without a window; jobs run when the test asks.
 struct Bench {
     align: AlignState,
     shell: TestShell,
 }
 
 impl Bench {
-    /// Before a library is loaded.
+    /// Without a loaded library.
     fn new() -> Self {
         Self {
             align: AlignState::new(&TaskRunner::without_threads()),
@@ -37,12 +37,12 @@ impl Bench {
         self.align.apply(action, &mut self.shell.context());
     }
 
-    /// Does it, and has the work done.
+    /// Carries out an action and runs the job that it starts.
     fn run(&mut self, action: AlignAction) {
         self.run_until(action, usize::MAX);
     }
 
-    /// The same until so many parts were handed over.
+    /// The same, but runs the job only until it has handed over `num_parts` partial results.
     fn run_until(&mut self, action: AlignAction, num_parts: usize) {
         self.act(action);
         assert!(self.align.task.run_waiting_until(num_parts));
@@ -58,7 +58,7 @@ impl Bench {
     }
 }
 
-/// E by its definition: every distance, no tree.
+/// E by its definition, without a tree, over every 40th point of the sample.
 fn slow_e(pair: &Pair, pose: &RigidTransform) -> f64 {
     let target: Vec<_> = pair.target.finite().map(|(_, p)| p.cast::<f64>()).collect();
     let every = 40;
@@ -85,7 +85,7 @@ fn every_method_runs_on_the_pair_and_a_scrubbed_pose_gives_the_e_of_its_iteratio
     assert_eq!(bench.place(), shown.last_place());
     for (run, track) in shown.tracks() {
         assert_eq!(track.poses.len(), track.e_m2.len());
-        // Over a part of the sample, so not exactly.
+        // Not exactly equal: each is over another part of the sample.
         for place in [0, track.poses.len() / 2, track.poses.len() - 1] {
             let (slow, quick) = (
                 slow_e(&shown.pair, &track.pose_at(place)),
@@ -238,7 +238,7 @@ fn the_scrubber_stays_within_the_way_and_plays_to_its_end() {
     bench.act(AlignAction::Scrub(-5.0));
     assert_eq!(bench.place(), 0);
     bench.act(AlignAction::Scrub(last as f32));
-    // From the end it plays from the beginning.
+    // Play at the end starts again at the beginning.
     bench.act(AlignAction::TogglePlay);
     assert_eq!(
         (bench.place(), bench.align.playback),
@@ -261,7 +261,7 @@ fn an_old_result_stays_until_the_first_method_of_the_next_has_run() {
     bench.run(AlignAction::Run);
     let old = Arc::clone(&bench.align.shown.as_ref().expect("a result").pair);
     bench.act(AlignAction::ChooseStart(Start::Paper(2)));
-    // The pair, and then no method.
+    // Run until the pair is prepared, before the first method.
     bench.run_until(AlignAction::Run, 1);
     assert!(bench.align.is_pair_at_work() && bench.align.coming.is_some());
     assert!(Arc::ptr_eq(

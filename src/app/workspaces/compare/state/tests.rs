@@ -51,7 +51,7 @@ fn listed(done: CaseDone) -> CompareResult {
     }
 }
 
-/// The workspace without a window: no job runs, the test says what came out.
+/// The workspace without a window; jobs do not run, and the test supplies their results.
 struct Bench {
     compare: CompareState,
     shell: TestShell,
@@ -84,7 +84,7 @@ impl Bench {
         self.compare.apply(action, &mut self.shell.context());
     }
 
-    /// The job at work comes out so.
+    /// Finishes the running job with this result.
     fn done(&mut self, result: CompareResult) {
         self.compare.task.start("made up", move |_| Ok(result));
         assert!(self.compare.task.run_waiting());
@@ -105,7 +105,7 @@ fn a_change_of_the_kept_cases_is_never_pushed_out() {
     let mut bench = Bench::with_a_case();
     bench.act(CompareAction::Remove("b".into()));
     assert_eq!(bench.at_work(), Some(JobKind::Cases));
-    // The study that it pushed out, and whatever comes meanwhile, waits.
+    // The study that it cancelled, and later requests, wait.
     bench.act(CompareAction::Set("accept.min_score", 0.5));
     bench.act(CompareAction::RunAll);
     assert_eq!(bench.at_work(), Some(JobKind::Cases));
@@ -117,7 +117,7 @@ fn a_change_of_the_kept_cases_is_never_pushed_out() {
     bench.done(listed(removed));
     assert!(bench.compare.is_running_cases());
     assert!(matches!(bench.compare.undo, Some(Undo::Removal { .. })));
-    // The recipe was changed before the run began: the case in front still comes, as soon as it may.
+    // The recipe was changed before the run began: the case in front is still studied, as soon as possible.
     assert!(bench.is_behind());
     bench.act(CompareAction::Follow);
     assert_eq!(bench.at_work(), Some(JobKind::Study));
@@ -158,7 +158,7 @@ fn a_recipe_that_is_the_one_in_use_again_is_no_longer_on_trial() {
     bench.act(CompareAction::Reset("project.pixel"));
     assert!(bench.compare.tried.is_none());
     bench.compare.cancel();
-    // Nothing is inspected anew for what changes nothing or cannot be.
+    // No new inspection for an action that changes nothing or is refused.
     bench.act(CompareAction::ResetAll);
     bench.act(CompareAction::Set("project.pixel", 400.0));
     assert_eq!(bench.at_work(), None);
@@ -184,7 +184,7 @@ fn a_recipe_is_used_and_the_one_before_comes_back() {
     bench.shell.session.recipe = Arc::clone(&tried);
     bench.act(CompareAction::Undo);
     assert!(used(&bench).is_some_and(|recipe| Arc::ptr_eq(&recipe, &before)));
-    // What was in use stays on trial.
+    // The recipe that was in use stays on trial.
     let on_trial = bench.compare.tried.as_ref();
     assert!(on_trial.is_some_and(|recipe| Arc::ptr_eq(recipe, &tried)));
 }

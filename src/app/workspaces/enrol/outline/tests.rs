@@ -18,10 +18,10 @@ use crate::{
     stages::scene::SceneCloud,
 };
 
-/// Of the view, logical pixels.
+/// Size of the view, logical pixels.
 const SIZE: Vec2 = Vec2::new(800.0, 600.0);
 
-/// Points about the usual target of the view, before and behind the eye, and some without coordinates.
+/// Points around the usual target of the view, before and behind the eye, some without coordinates.
 fn cloud() -> EnrolInput {
     let mut rng = Pcg64Mcg::seed_from_u64(7);
     let mut along = |low: f32, high: f32| rng.random_range(low..high);
@@ -61,7 +61,7 @@ fn in_view(camera: &ViewCamera, corners: &[[f32; 2]]) -> DrawnOutline {
     }
 }
 
-/// From 200, 150 to 560, 400.
+/// A box from (200, 150) to (560, 400), logical pixels.
 const BOX: [[f32; 2]; 4] = [
     [200.0, 150.0],
     [560.0, 150.0],
@@ -82,7 +82,7 @@ fn a_box_encloses_what_the_view_shows_within_it_and_nothing_behind_the_eye() {
         let enclosed = in_view(&camera, &BOX).encloses(&subject);
         let (mut num_inside, mut num_behind) = (0, 0);
         for (is_inside, point) in enclosed.iter().zip(&subject.cloud().points) {
-            // By angles instead of the matrix.
+            // Computed by angles instead of by the matrix.
             let seen = camera.screen_from_world(Vec3::new(point.x, point.y, point.z), SIZE);
             let Some(seen) = seen.filter(|seen| seen.is_finite()) else {
                 num_behind += 1;
@@ -90,7 +90,7 @@ fn a_box_encloses_what_the_view_shows_within_it_and_nothing_behind_the_eye() {
                 continue;
             };
             let beyond = (seen - Vec2::new(380.0, 275.0)).abs() - Vec2::new(180.0, 125.0);
-            // The two differ by rounding.
+            // Skip points on the border: the two computations differ by rounding.
             if beyond.max_element().abs() > 0.01 {
                 assert_eq!(*is_inside, beyond.max_element() < 0.0, "{point} at {seen}");
             }
@@ -113,7 +113,7 @@ fn the_same_box_encloses_other_points_once_the_view_is_turned() {
     assert_eq!(before, from_the_front.clone().encloses(&subject));
 }
 
-/// The sum of the angles under which the edges are seen: slow, and sure off the edges themselves.
+/// Winding number from the sum of the angles subtended by the edges: slow, but reliable away from the edges.
 fn turns_around(corners: &[Vec2], at: Vec2) -> i32 {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     let angles = edges.map(|(a, b)| (*a - at).angle_to(*b - at));

@@ -49,13 +49,13 @@ impl Bench {
         }
     }
 
-    /// Does this, and all work that follows from it.
+    /// Carries out an action and all work that follows from it.
     fn act(&mut self, action: EnrolAction) {
         self.begin(action);
         self.work();
     }
 
-    /// Does this; the work that follows from it waits.
+    /// Carries out an action; the work that follows from it waits.
     fn begin(&mut self, action: EnrolAction) {
         self.enrol.apply(action, &mut self.shell.context());
         self.deliver();
@@ -68,7 +68,7 @@ impl Bench {
         }
     }
 
-    /// Does what was sent as the window does.
+    /// Carries out the messages sent, as the window would.
     fn deliver(&mut self) {
         for message in std::mem::take(&mut self.shell.messages) {
             match message {
@@ -88,7 +88,7 @@ impl Bench {
         }
     }
 
-    /// Takes an L-shaped plate of this width as the draft.
+    /// Makes an L-shaped plate of this width in points (5 mm apart) the draft.
     fn take(&mut self, width: usize) {
         let points = (0..width * 80).filter_map(|i| {
             let (x, y) = ((i % width) as f32 * 0.005, (i / width) as f32 * 0.005);
@@ -110,7 +110,7 @@ impl Bench {
         self.act(EnrolAction::TakeAs(InitialSelection::Whole));
     }
 
-    /// Brings back a draft of an earlier start.
+    /// Brings back the draft of an earlier start.
     fn bring_back(&mut self, kept: KeptDraft) {
         self.enrol.bring_back(kept, &mut self.shell.context());
         self.deliver();
@@ -141,7 +141,7 @@ impl Bench {
     }
 }
 
-/// A box over the picture, as wide and as high as a third of it.
+/// A box at the top left of the picture, 0.3 of its width and height.
 fn corner(mode: OutlineMode) -> Edit {
     let corners = [[0.0, 0.0], [0.3, 0.0], [0.3, 0.3], [0.0, 0.3]];
     let outline = DrawnOutline {
@@ -151,7 +151,7 @@ fn corner(mode: OutlineMode) -> Edit {
     Edit::Outline(mode, outline)
 }
 
-/// A lasso about the middle of a view from this side.
+/// A lasso around the middle of a view turned by this angle.
 fn lasso(mode: OutlineMode, right: f32) -> Edit {
     let mut camera = ViewCamera::default();
     camera.turn(right, 0.3);
@@ -230,7 +230,7 @@ fn another_draft_keeps_the_words_and_can_be_taken_back() {
     assert_eq!(bench.from().as_deref(), Some("90.pcd"));
     let draft = bench.enrol.draft.as_ref().expect("a draft");
     assert_eq!(draft.form.name, "plate");
-    // Taken whole, then the draft itself.
+    // Undo the choice of the whole cloud, then the new draft.
     bench.act(EnrolAction::Undo);
     bench.act(EnrolAction::Undo);
     assert_eq!(bench.from().as_deref(), Some("80.pcd"));
@@ -264,7 +264,7 @@ fn a_saved_part_replaced_and_taken_back_twice_is_the_first_one_again() {
     bench.act(EnrolAction::Redo);
     assert_eq!(enrolled_from(&bench).as_deref(), Some("90.pcd"));
     bench.act(EnrolAction::Undo);
-    // The draft's own steps, then the first saving.
+    // Undo the draft's own steps, then the first save.
     while enrolled_from(&bench).is_some() {
         bench.act(EnrolAction::Undo);
     }
@@ -381,7 +381,7 @@ fn a_result_that_comes_when_the_draft_is_gone_changes_nothing() {
     assert!(bench.enrol.draft.is_none() && bench.enrol.running().is_none());
 }
 
-/// A corrected draft of a simulated frame as it would be written, and which points it keeps.
+/// A corrected draft of a simulated frame as it would be written, and the indices that it keeps.
 fn corrected() -> (KeptDraft, Vec<u32>) {
     let mut bench = Bench::new();
     let choice = CellChoice::Part(PartKind::Grille, Side::Left);
@@ -415,7 +415,7 @@ fn a_draft_of_an_earlier_start_comes_back_as_it_was() {
     );
     let kinds: Vec<_> = bench.notices.iter().map(|notice| notice.kind).collect();
     assert_eq!(kinds, [NoticeKind::Done], "{:?}", bench.notices);
-    // Another recipe, or another file of the same name.
+    // As with another recipe, or another file of the same name.
     let mut bench = Bench::new();
     bench.bring_back(KeptDraft {
         checksum: Some(7),
@@ -436,7 +436,7 @@ fn of_a_draft_whose_scene_is_gone_the_words_come_back_with_the_next() {
         path: "no such folder/door.pcd".into(),
         is_simulated: false,
     };
-    // Of a file that cannot be read its own error comes first.
+    // A file that cannot be read also reports its own error first.
     for (origin, num_notices) in [(camera, 1), (gone, 2)] {
         let mut bench = Bench::new();
         bench.bring_back(KeptDraft {

@@ -1,4 +1,4 @@
-//! What is listed, looked at and kept in memory, without a thread that answers.
+//! Tests of the list, the selection and the inspections in memory, without a writer thread.
 
 use super::*;
 use crate::{
@@ -22,7 +22,7 @@ use crate::{
 };
 
 fn inspected(number: u64) -> Arc<Inspected> {
-    // Without a pose it is quick.
+    // Skipping the pose saves time.
     let recipe = Recipe {
         pose: PoseChoice::Skip,
         ..Recipe::default()
@@ -58,7 +58,7 @@ impl Bench {
         }
     }
 
-    /// With these rows listed, the newest first.
+    /// With these rows listed, newest first.
     fn listing(inspected: &Inspected, numbers: &[i64]) -> Self {
         let mut bench = Self::new();
         let rows: Vec<Summary> = numbers.iter().map(|n| row(inspected, *n)).collect();
@@ -107,13 +107,13 @@ fn a_new_result_is_handed_over_and_the_newest_few_stay_whole() {
         };
         assert_eq!(entry.record.summary.verdict, StoredVerdict::NoPart);
         assert!(!bench.history.is_settled());
-        // The same part again and again.
+        // Every inspection is of the same part.
         assert_eq!(bench.history.num_rows(), 1);
         bench.take_news(HistoryEvent::Added { ticket, number });
     }
     let whole = |number| bench.history.whole(number).is_some();
     assert!(whole(7) && whole(4) && !whole(3) && !whole(1));
-    // A scene in front with something else changed is no inspection of its own.
+    // Repeating the present scene with another setting is not an inspection of its own.
     bench.inspected(&found, ReinspectionPurpose::Repeated);
     assert!(bench.history.jobs.is_empty());
 }

@@ -15,7 +15,7 @@ use crate::{
     robot::RobotFrame,
 };
 
-/// The workspace in front, without a window; its tasks run when the test says so.
+/// The workspace in front, without a window; its tasks run when the test asks.
 struct Bench {
     paint: PaintState,
     shell: TestShell,
@@ -23,7 +23,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// With the shipped parts in a folder of its own, and a path planned over the fender.
+    /// With the shipped parts in a folder of their own, and a path planned over the fender.
     fn new() -> Self {
         let data = tempfile::tempdir().expect("a folder");
         let parts = data.path().join("parts");
@@ -44,7 +44,7 @@ impl Bench {
         self.paint.apply(action, &mut self.shell.context());
     }
 
-    /// What the window does between frames, with all work done.
+    /// Does what the window does between frames, and all work.
     fn settle(&mut self) {
         self.paint.update(&mut self.shell.context());
         while self.paint.task.run_waiting()
@@ -72,7 +72,7 @@ impl Bench {
         self.run(PaintAction::Change(key, ParameterChange::Set(value)));
     }
 
-    /// The cell is calibrated: the camera looks along x of the robot's base from above it, this high.
+    /// Calibrates the cell: the camera is at this height above the robot's base and looks along its x axis.
     fn calibrate(&mut self, height: f64) {
         let robot_from_camera = from_euler_zyx([-FRAC_PI_2, 0.0, -FRAC_PI_2, 0.0, 0.0, height]);
         self.shell.session.robot = Some(Arc::new(RobotFrame {
@@ -150,7 +150,7 @@ fn regions_are_left_out_of_path_and_figures_and_areas_add_up() {
     bench.run(PaintAction::Add(vec![hole]));
     let planned = bench.planned();
     assert!(planned.film.path.paint < 0.97 * whole);
-    // What is kept out counts neither as missed nor as painted.
+    // A keep-out counts neither as missed nor as painted.
     assert!(
         planned.film.figures.missed < 0.02,
         "{:?}",
@@ -185,7 +185,7 @@ fn a_stored_path_can_be_taken_back_and_the_former_is_there_again() {
     bench.run(PaintAction::Show(ShownPath::Stored));
     let num = bench.planned().path.points().len();
     assert_eq!(Some(num), bench.stored().map(|path| path.points().len()));
-    // The step before is the spacing, the one before that the first storing.
+    // Undo the spacing, then the first storing.
     bench.run(PaintAction::Undo);
     bench.run(PaintAction::Undo);
     assert_eq!(bench.stored(), None);
@@ -302,7 +302,7 @@ fn escape_gives_the_drag_back_to_the_view() {
 #[test]
 fn what_the_arm_does_not_reach_is_named_shown_and_never_exported() {
     let mut bench = Bench::new();
-    // Neither an arm nor a calibration: nothing to say.
+    // Neither an arm nor a calibration, so no result.
     assert!(bench.paint.reach(&bench.shell.session).is_none());
     bench.calibrate(1.2);
     let reach = bench.reached();
@@ -332,7 +332,7 @@ fn what_the_arm_does_not_reach_is_named_shown_and_never_exported() {
         .position(|at| (at - time).abs() < 1e-9);
     let shown = shown.expect("a point of the path");
     assert!(reach.check.points[shown].problem.is_some());
-    // No earlier program may be run for it.
+    // Writing is refused, and no earlier program may be left to run.
     bench.run(PaintAction::Chosen(PaintFile::Program, file.clone()));
     assert!(!file.exists());
     let notices = bench.shell.notices();
@@ -353,7 +353,7 @@ fn boxes_of_the_cell_are_kept_clear_of_named_and_drawn() {
     };
     let reach = bench.reached();
     assert_eq!((reach.check.num_collisions(), edges(&reach)), (0, 0));
-    // Before the part, where the gun is.
+    // The box is in front of the part, where the gun is.
     let file = bench.data.path().join("boxes.toml");
     let text =
         "[[box]]\nname = \"hanger\"\ncentre_mm = [1000, 0, 1200]\nsize_mm = [300, 2000, 2000]\n";
@@ -368,7 +368,7 @@ fn boxes_of_the_cell_are_kept_clear_of_named_and_drawn() {
     let program = bench.data.path().join("paint.src");
     bench.run(PaintAction::Chosen(PaintFile::Program, program.clone()));
     assert!(!program.exists());
-    // Neither a file that is no good nor one that is gone is taken for an empty cell.
+    // An invalid or missing file is not taken for an empty cell.
     let empty = bench.data.path().join("empty.toml");
     std::fs::write(&empty, "").expect("written");
     for file in [empty, bench.data.path().join("none.toml")] {
