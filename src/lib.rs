@@ -26,8 +26,8 @@
 //! change without notice.
 //!
 //! Features, both on by default: `cli`, the command line, pictures and reports; `window`, the window. Without them only
-//! the algorithms build. Off by default: `plant`, HTTP and MQTT beside the protocols of the server, and
-//! the history in PostgreSQL.
+//! the algorithms build. Off by default: `plant`, HTTP and MQTT beside the protocols of the server, the history in PostgreSQL,
+//! and one library for many cells.
 
 #[cfg(feature = "window")]
 #[doc(hidden)]

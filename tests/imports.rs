@@ -19,6 +19,7 @@ const RESERVED: [(&str, &[&str]); 9] = [
     ("anyhow", &["cli"]),
     ("indicatif", &["cli"]),
     ("axum", &["plant"]),
+    ("object_store", &["plant"]),
     ("tokio", &["plant"]),
     ("tokio_postgres", &["plant"]),
 ];

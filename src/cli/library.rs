@@ -1,9 +1,13 @@
 //! `partsight library`: what is enrolled.
 
+#[cfg(feature = "plant")]
+mod bundle;
 mod spray_path;
 
 use clap::{Args, Subcommand};
 
+#[cfg(feature = "plant")]
+pub(super) use self::bundle::taken_version;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
@@ -61,6 +65,15 @@ enum LibraryCommand {
         name: PartName,
     },
     Path(spray_path::PathArgs),
+    #[cfg(feature = "plant")]
+    Keys(bundle::KeysArgs),
+    #[cfg(feature = "plant")]
+    Publish(bundle::PublishArgs),
+    #[cfg(feature = "plant")]
+    Take(bundle::TakeArgs),
+    /// Show which published version the library was taken from, and what has changed since
+    #[cfg(feature = "plant")]
+    Version,
 }
 
 #[derive(Debug, Args)]
@@ -87,6 +100,14 @@ pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<O
         LibraryCommand::Remove { name } => remove(&args.library, name, console),
         LibraryCommand::Restore { name } => restore(&args.library, name, console),
         LibraryCommand::Path(asked) => spray_path::run(&args.library, asked, console),
+        #[cfg(feature = "plant")]
+        LibraryCommand::Keys(asked) => bundle::make(asked, console),
+        #[cfg(feature = "plant")]
+        LibraryCommand::Publish(asked) => bundle::publish(&args.library, asked, console),
+        #[cfg(feature = "plant")]
+        LibraryCommand::Take(asked) => bundle::take(&args.library, asked, console),
+        #[cfg(feature = "plant")]
+        LibraryCommand::Version => bundle::version(&args.library, console),
     }
 }
 
@@ -99,6 +120,10 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
         place.describe(),
         if num == 1 { "part" } else { "parts" }
     ));
+    #[cfg(feature = "plant")]
+    if let Some(version) = taken_version(&place, console) {
+        console.line(&format_args!("  {version}"));
+    }
     if load.parts.is_empty() {
         let hint = place.folder().and_then(super::hint);
         let hint = hint.unwrap_or_else(|| "Enrol one: partsight enrol FILE --name NAME".into());

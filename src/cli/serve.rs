@@ -181,6 +181,10 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         .transpose()?;
     announce(&server, &listeners, &parts, &load, console);
     #[cfg(feature = "plant")]
+    if let Some(version) = super::library::taken_version(&place, console) {
+        console.note(&format_args!("Library: {version}"));
+    }
+    #[cfg(feature = "plant")]
     let mqtt = mqtt
         .map(|mqtt| mqtt.start(server.boot(), args.numbers.kind(), &load, &trace, console))
         .transpose()?;

@@ -48,6 +48,12 @@ pub(crate) fn remove_file(path: impl AsRef<Path>) -> io::Result<()> {
     fs::remove_file(path)
 }
 
+/// Removes an empty folder.
+pub(crate) fn remove_dir(path: impl AsRef<Path>) -> io::Result<()> {
+    inject_fault(|| ())?;
+    fs::remove_dir(path)
+}
+
 pub(crate) fn remove_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
     inject_fault(|| ())?;
     fs::remove_dir_all(path)

@@ -60,6 +60,16 @@ pub(super) fn is_entry(file_name: &str, path: &Path) -> bool {
     path.is_dir() && (PartName::new(file_name).is_ok() || path.join(META).exists())
 }
 
+/// True for the name of a file that the program writes into a part's folder.
+pub fn is_part_file(name: &str) -> bool {
+    let spray = name.strip_prefix(SPRAY_PREFIX);
+    let checksum = spray.and_then(|rest| rest.strip_suffix(".csv"));
+    let is_checksum = |text: &str| {
+        text.len() == 8 && text.bytes().all(|c| matches!(c, b'0'..=b'9' | b'a'..=b'f'))
+    };
+    matches!(name, META | CLOUD | SIGNATURE | THUMBNAIL) || checksum.is_some_and(is_checksum)
+}
+
 pub(super) fn write_part(folder: &Path, part: &Part) -> io::Result<()> {
     let Part {
         meta,

@@ -14,7 +14,7 @@
 //! The references of a part that is renamed are carried along before its former folder goes to the trash: the next
 //! save that finds that folder carries those along that an interrupted rename left behind.
 //!
-//! Writers take turns by a lock.
+//! Writers take turns by a lock. How all parts are replaced at once is in `replace_all`.
 
 use std::{
     fs, io,
@@ -92,6 +92,7 @@ impl LibraryFolder {
 
     /// Finishes what an interrupted writer left. Only under the lock: another writer's folders are not leftovers.
     pub(super) fn finish_interrupted_write(&self) -> io::Result<()> {
+        self.finish_replacement()?;
         for found in fs::read_dir(self.path())? {
             let path = found?.path();
             let Some(file_name) = path.file_name().and_then(|n| n.to_str()) else {

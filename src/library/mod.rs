@@ -26,6 +26,7 @@ mod part;
 mod place;
 mod problem;
 mod references;
+mod replace_all;
 mod shared_title;
 mod shipped;
 mod similarity;
@@ -43,6 +44,7 @@ pub use self::{
         EnrolError, EnrolParams, EnrolWarning, Enrolled, PartDescription, enrol_captured,
         enrol_mesh, enrol_scan, enrol_selected, enrol_surface, enrol_whole, surfaces_to_enrol,
     },
+    entry::is_part_file,
     error::LibraryError,
     load::{LibraryLoad, StoredPart},
     name::{BadName, PartName},
@@ -53,7 +55,7 @@ pub use self::{
     place::{LibraryPlace, open_library},
     problem::{EntryError, EntryIssue, EntryProblem, EntryWarning},
     shared_title::SharedTitle,
-    shipped::{EnrolledAt, shipped_enrolled_at},
+    shipped::{EnrolledAt, shipped_enrolled_at, shipped_files},
     similarity::{Similarity, likenesses, most_similar},
     spray_path::{
         MAX_PATH_POINTS, MAX_SPEED, PathLineProblem, PathPoint, SprayPath, SprayPathError,

@@ -59,6 +59,13 @@ pub(super) fn write_shipped(folder: &Path) -> io::Result<()> {
     sync_folder(folder)
 }
 
+/// Names and contents of the files of a shipped part, in the order of [`LibraryFolder::files_of`](super::LibraryFolder);
+/// `None` if there is none of this name.
+pub fn shipped_files(name: &str) -> Option<&'static [(&'static str, &'static [u8])]> {
+    let part = SHIPPED.iter().find(|part| part.name == name)?;
+    Some(&part.files)
+}
+
 /// Where a shipped part hung when it was enrolled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnrolledAt {

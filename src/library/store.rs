@@ -11,12 +11,15 @@ use std::{
 };
 
 use super::{
-    entry::{Entry, META, NEW_PREFIX, copy_files, is_entry, meta_text, rewrite_meta, write_part},
+    entry::{
+        CLOUD, Entry, META, NEW_PREFIX, SIGNATURE, THUMBNAIL, copy_files, is_entry, meta_text,
+        rewrite_meta, write_part,
+    },
     error::LibraryError,
     install::RenamedFolder,
     load::meta_of,
     name::PartName,
-    part::{Part, PartMeta, PartNaming},
+    part::{Part, PartMeta, PartNaming, SprayCheck},
     trash,
 };
 use crate::files::{disk, new_folder, sync_folder, write_file};
@@ -135,25 +138,10 @@ impl LibraryFolder {
     pub(super) fn entries(&self) -> Result<Vec<Entry>, LibraryError> {
         let list = || -> io::Result<Vec<Entry>> {
             let mut entries: Vec<Entry> = Vec::new();
-            let mut aside: Vec<Entry> = Vec::new();
-            for found in fs::read_dir(&self.path)? {
-                let path = found?.path();
-                let Some(file_name) = path.file_name().map(|n| n.to_string_lossy().into_owned())
-                else {
-                    continue;
-                };
-                if let Some(RenamedFolder { name, successor }) = RenamedFolder::of(&file_name) {
-                    if !self.path.join(successor).exists() {
-                        aside.push(Entry::in_folder(name.to_owned(), path));
-                    }
-                } else if !file_name.starts_with('.') && is_entry(&file_name, &path) {
-                    entries.push(Entry::in_folder(file_name, path));
-                }
-            }
-            for old in aside {
-                if !entries.iter().any(|e| e.name == old.name) {
-                    entries.push(old);
-                }
+            for folder in self.part_folders() {
+                let found = entries_in(&folder)?;
+                entries.retain(|before| found.iter().all(|e| e.name != before.name));
+                entries.extend(found);
             }
             entries.sort_by(|a, b| a.name.cmp(&b.name));
             Ok(entries)
@@ -162,6 +150,18 @@ impl LibraryFolder {
             path: self.path.clone(),
             source,
         })
+    }
+
+    /// The files of a part that the program reads, those that are there: description, cloud, signature, thumbnail and
+    /// spray path, in this order.
+    pub fn files_of(&self, name: &PartName) -> Result<Vec<PathBuf>, LibraryError> {
+        let entry = self.entry(name.as_str())?;
+        let meta = meta_of(&entry).map_err(|problem| LibraryError::Damaged(Box::new(problem)))?;
+        let spray = meta.spray.as_ref().and_then(SprayCheck::file_name);
+        let fixed = [META, CLOUD, SIGNATURE, THUMBNAIL].map(str::to_owned);
+        let files = fixed.into_iter().chain(spray);
+        let files = files.map(|file| entry.path.join(file));
+        Ok(files.filter(|file| file.is_file()).collect())
     }
 
     /// The folder of one part.
@@ -292,6 +292,31 @@ impl LibraryFolder {
         let entry = self.entry(name.as_str())?;
         meta_of(&entry).map_err(|problem| LibraryError::Damaged(Box::new(problem)))
     }
+}
+
+/// The folders of the parts in one folder.
+fn entries_in(folder: &Path) -> io::Result<Vec<Entry>> {
+    let mut entries: Vec<Entry> = Vec::new();
+    let mut aside: Vec<Entry> = Vec::new();
+    for found in fs::read_dir(folder)? {
+        let path = found?.path();
+        let Some(file_name) = path.file_name().map(|n| n.to_string_lossy().into_owned()) else {
+            continue;
+        };
+        if let Some(RenamedFolder { name, successor }) = RenamedFolder::of(&file_name) {
+            if !folder.join(successor).exists() {
+                aside.push(Entry::in_folder(name.to_owned(), path));
+            }
+        } else if !file_name.starts_with('.') && is_entry(&file_name, &path) {
+            entries.push(Entry::in_folder(file_name, path));
+        }
+    }
+    for old in aside {
+        if !entries.iter().any(|e| e.name == old.name) {
+            entries.push(old);
+        }
+    }
+    Ok(entries)
 }
 
 #[cfg(test)]

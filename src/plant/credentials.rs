@@ -81,25 +81,37 @@ pub(super) fn read_password(path: &Path) -> Result<String, CredentialError> {
 
 /// TLS configuration that trusts the certificate authorities in a PEM file, or without a file those of the system.
 pub(super) fn tls_config(ca_file: Option<&Path>) -> Result<ClientConfig, CredentialError> {
-    let mut roots = RootCertStore::empty();
-    if let Some(path) = ca_file {
+    let roots = if let Some(path) = ca_file {
         let bytes = read_limited(path, MAX_CA_BYTES)?;
         let found = CertificateDer::pem_slice_iter(&bytes);
+        let mut roots = RootCertStore::empty();
         roots.add_parsable_certificates(found.filter_map(Result::ok));
         if roots.is_empty() {
             return Err(CredentialError::NoCertificate {
                 path: path.display().to_string(),
             });
         }
+        roots
     } else {
-        let found = rustls_native_certs::load_native_certs();
-        roots.add_parsable_certificates(found.certs);
+        let roots = system_roots();
         if roots.is_empty() {
             return Err(CredentialError::NoSystemCertificates);
         }
-    }
+        roots
+    };
+    client_config(roots).map_err(|source| CredentialError::Tls { source })
+}
+
+/// Certificate authorities that the system trusts, or those in the file that `SSL_CERT_FILE` names.
+pub(super) fn system_roots() -> RootCertStore {
+    let mut roots = RootCertStore::empty();
+    roots.add_parsable_certificates(rustls_native_certs::load_native_certs().certs);
+    roots
+}
+
+/// TLS 1.2 and 1.3, for servers whose certificate one of these authorities has signed.
+pub(super) fn client_config(roots: RootCertStore) -> Result<ClientConfig, rustls::Error> {
     let config = ClientConfig::builder_with_provider(Arc::new(ring::default_provider()))
-        .with_safe_default_protocol_versions()
-        .map_err(|source| CredentialError::Tls { source })?;
+        .with_safe_default_protocol_versions()?;
     Ok(config.with_root_certificates(roots).with_no_client_auth())
 }

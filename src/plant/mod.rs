@@ -1,5 +1,6 @@
 //! Interfaces to the systems of a plant, beside the line protocols of [`crate::serve`].
 
+pub mod bundle;
 mod credentials;
 pub mod database;
 mod host;

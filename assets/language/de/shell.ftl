@@ -31,6 +31,8 @@ shell-library-named = { $num ->
     }
 shell-no-library = Keine Bibliothek
 shell-library-in-use = Verwendete Bibliothek
+shell-library-version = Version { $version } von { $store }
+shell-library-version-changed = Version { $version } von { $store }, seither hier geändert
 shell-use-another-library = Andere Bibliothek verwenden…
 shell-use-usual-library = Übliche Bibliothek verwenden
 shell-progress = { $work } · { $done } von { $total }

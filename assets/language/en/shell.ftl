@@ -31,6 +31,8 @@ shell-library-named = { $num ->
     }
 shell-no-library = No library
 shell-library-in-use = Library in use
+shell-library-version = Version { $version } of { $store }
+shell-library-version-changed = Version { $version } of { $store }, changed here since
 shell-use-another-library = Use another library…
 shell-use-usual-library = Use the usual library
 shell-progress = { $work } · { $done } of { $total }

@@ -31,6 +31,8 @@ shell-library-named = { $num ->
     }
 shell-no-library = Sin biblioteca
 shell-library-in-use = Biblioteca en uso
+shell-library-version = Versión { $version } de { $store }
+shell-library-version-changed = Versión { $version } de { $store }, modificada aquí desde entonces
 shell-use-another-library = Usar otra biblioteca…
 shell-use-usual-library = Usar la biblioteca habitual
 shell-progress = { $work } · { $done } de { $total }

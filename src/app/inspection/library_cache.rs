@@ -10,6 +10,8 @@ use std::{
 use image::RgbaImage;
 
 use super::{camera::Camera, fitted::PreparedLibraryCache, recording::SharedRecording};
+#[cfg(feature = "plant")]
+use crate::plant::bundle::{BundleError, TakenBundle};
 use crate::{
     app::{language::text, user_error::UserError},
     error::Advice as _,
@@ -86,6 +88,9 @@ pub struct LibraryView {
     pub is_fixed: Option<UserError>,
     /// What had to be set aside, and what is odd.
     pub troubles: Vec<UserError>,
+    /// The published version that it was taken from, if it was, in words.
+    #[cfg(feature = "plant")]
+    pub version: Option<String>,
 }
 
 /// A part that could not be loaded.
@@ -100,6 +105,10 @@ pub struct Damaged {
 impl LibraryView {
     /// True if it holds the same parts, with the same titles, notes and spray paths, in the same folder.
     fn is_same(&self, other: &Self) -> bool {
+        #[cfg(feature = "plant")]
+        if self.version != other.version {
+            return false;
+        }
         self.path == other.path
             && self.identity == other.identity
             && self.parts == other.parts
@@ -294,6 +303,11 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
     };
     let without_parts = place.folder().filter(|_| parts.is_empty());
     troubles.extend(without_parts.and_then(no_library));
+    #[cfg(feature = "plant")]
+    let version = version_of(&place).unwrap_or_else(|error| {
+        troubles.push(UserError::of(&error));
+        None
+    });
     let shown = Arc::new(LibraryView {
         path: place.location().into(),
         identity,
@@ -304,6 +318,8 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
         is_fixed,
         parts,
         troubles,
+        #[cfg(feature = "plant")]
+        version,
     });
     Ok(LoadedLibrary {
         place: Some(place),
@@ -311,6 +327,32 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
         shown,
         fitted: PreparedLibraryCache::default(),
     })
+}
+
+/// The published version that a library was taken from, in words.
+#[cfg(feature = "plant")]
+fn version_of(place: &LibraryPlace) -> Result<Option<String>, BundleError> {
+    let Some(folder) = place.folder() else {
+        return Ok(None);
+    };
+    let Some(taken) = TakenBundle::of(folder)? else {
+        return Ok(None);
+    };
+    let is_changed = !taken.differences(folder)?.is_empty();
+    let version = taken.manifest.version.to_string();
+    Ok(Some(if is_changed {
+        text!(
+            "shell-library-version-changed",
+            version = version,
+            store = taken.store
+        )
+    } else {
+        text!(
+            "shell-library-version",
+            version = version,
+            store = taken.store
+        )
+    }))
 }
 
 /// What to say of a folder without parts: something else lies there, so probably another one was meant.

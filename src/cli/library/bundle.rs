@@ -1,0 +1,217 @@
+//! `partsight library keys`, `publish`, `take` and `version`: one library for many cells.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{Console, LibraryChoice, Outcome};
+use crate::{
+    cli::console::Advised as _,
+    files::file_name,
+    library::{LibraryFolder, LibraryPlace},
+    plant::bundle::{
+        self, BundleError, BundleStore, Installed, KeyFiles, LocalPart, LocalParts, Manifest,
+        SigningKey, StoreAddress, Take, TakenBundle, TrustedKey, make_keys,
+    },
+};
+
+/// Make the keys by which versions of a library are signed and known
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight library keys keys
+
+Writes library.key, the private key, which stays with whoever publishes and which only its owner can read, and library.pub,
+the public key, which every cell gets. Keys that are there are never replaced.")]
+pub(super) struct KeysArgs {
+    /// The folder for both; made if it is not there
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+}
+
+/// Publish the library as the next version
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight library publish --to /mnt/plant/library --key keys/library.key --note \"New doors\"
+  partsight library publish --to s3://parts/hall-3 --key keys/library.key --library parts
+
+A store is a folder that is there, or s3://BUCKET/PREFIX. S3 takes endpoint, region and credentials from AWS_ENDPOINT,
+AWS_REGION, AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY; over plain HTTP only with AWS_ALLOW_HTTP=true.
+Only what can be taken is published: every part is loaded first.")]
+pub(super) struct PublishArgs {
+    /// The store
+    #[arg(long, value_name = "STORE")]
+    to: String,
+    /// The private key, which signs the version
+    #[arg(long, value_name = "FILE")]
+    key: PathBuf,
+    /// What is new, for people; at most 2000 characters
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    note: String,
+}
+
+/// Take a published version in place of all parts of the library: whole or not at all
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight library take --from /mnt/plant/library --trust library.pub
+  partsight library take --from s3://parts/hall-3 --trust library.pub --library parts
+  partsight library take --from s3://parts/hall-3 --trust library.pub --version 6
+
+Signature, digest and every part are checked before anything is changed. Parts that the version replaces are moved to the
+library's .trash. Without the store, the library that is there is used as before. A running program reads its library when
+it starts; the window notices by itself.")]
+pub(super) struct TakeArgs {
+    /// The store, as for publish (partsight library publish --help)
+    #[arg(long, value_name = "STORE")]
+    from: String,
+    /// The public key of whoever publishes
+    #[arg(long, value_name = "FILE")]
+    trust: PathBuf,
+    /// This version, also an older one; without it the newest, if it is newer than the installed one
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    version: Option<u32>,
+    /// Move parts that were enrolled or changed here to the library's .trash, too
+    #[arg(long)]
+    replace: bool,
+}
+
+pub(super) fn make(args: &KeysArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let KeyFiles { private, public } = make_keys(&args.folder).advised()?;
+    let key = TrustedKey::load(&public).advised()?;
+    console.line(&format_args!("Made the key {key}"));
+    let private = private.display();
+    console.line(&format_args!(
+        "  {private}  to publish with: keep it secret, and a copy of it safe"
+    ));
+    console.line(&format_args!("  {}  for every cell", public.display()));
+    Ok(Outcome::Accepted)
+}
+
+pub(super) fn publish(
+    choice: &LibraryChoice,
+    args: &PublishArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let store = open_store(&args.to)?;
+    let key = SigningKey::load(&args.key).advised()?;
+    let library = choice.open(console)?.into_folder().advised()?;
+    let manifest = bundle::publish(&library, &store, &key, &args.note).advised()?;
+    let Manifest {
+        version, num_parts, ..
+    } = manifest;
+    console.line(&format_args!(
+        "Published version {version}: parts: {num_parts}"
+    ));
+    console.line(&format_args!(
+        "  to {}, signed with the key {}",
+        store.address(),
+        key.trusted()
+    ));
+    Ok(Outcome::Accepted)
+}
+
+pub(super) fn take(
+    choice: &LibraryChoice,
+    args: &TakeArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let store = open_store(&args.from)?;
+    let trusted = TrustedKey::load(&args.trust).advised()?;
+    let library = match &choice.library {
+        Some(path) => LibraryFolder::open_or_create(path).advised()?,
+        None => choice.open_to_change()?,
+    };
+    let asked = Take {
+        version: args.version,
+        local: if args.replace {
+            LocalParts::Trash
+        } else {
+            LocalParts::Keep
+        },
+    };
+    match bundle::take(&library, &store, trusted, asked).advised()? {
+        Installed::Already(manifest) => {
+            console.line(&format_args!(
+                "Version {} is installed already",
+                manifest.version
+            ));
+        }
+        Installed::New { manifest, trashed } => {
+            let Manifest {
+                version, num_parts, ..
+            } = manifest;
+            console.line(&format_args!("Took version {version}: parts: {num_parts}"));
+            console.entry("from", store.address());
+            console.entry("published", &manifest.published_at.strftime(MINUTE));
+            if !manifest.note.is_empty() {
+                console.entry("note", &manifest.note);
+            }
+            for kept in trashed {
+                console.entry("in .trash", &file_name(&kept));
+            }
+        }
+    }
+    Ok(Outcome::Accepted)
+}
+
+pub(super) fn version(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
+    let place = choice.open(console)?;
+    let taken = place.folder().map(TakenBundle::of).transpose().advised()?;
+    let (Some(folder), Some(taken)) = (place.folder(), taken.flatten()) else {
+        console.line(&format_args!(
+            "{}: not taken from a store",
+            place.location()
+        ));
+        return Ok(Outcome::Accepted);
+    };
+    let manifest = &taken.manifest;
+    console.line(&format_args!("Version {}", manifest.version));
+    console.entry("store", &taken.store);
+    console.entry("published", &manifest.published_at.strftime(MINUTE));
+    console.entry("taken", &taken.taken_at.strftime(MINUTE));
+    if !manifest.note.is_empty() {
+        console.entry("note", &manifest.note);
+    }
+    console.entry("parts", &manifest.num_parts);
+    let differences = taken.differences(folder).advised()?;
+    if !differences.is_empty() {
+        let names: Vec<String> = differences.iter().map(LocalPart::to_string).collect();
+        console.entry("changed", &names.join(", "));
+    }
+    Ok(Outcome::Accepted)
+}
+
+/// Which published version a library was taken from, in words. Without one that can be read, it is not shown.
+pub(in crate::cli) fn taken_version(place: &LibraryPlace, console: &Console) -> Option<String> {
+    let folder = place.folder()?;
+    let shown = || -> Result<Option<String>, BundleError> {
+        let Some(taken) = TakenBundle::of(folder)? else {
+            return Ok(None);
+        };
+        let changed = if taken.differences(folder)?.is_empty() {
+            ""
+        } else {
+            ", changed here since"
+        };
+        let version = taken.manifest.version;
+        Ok(Some(format!(
+            "version {version} of {}{changed}",
+            taken.store
+        )))
+    };
+    shown().unwrap_or_else(|error| {
+        console.warn(&error, &error);
+        None
+    })
+}
+
+/// To the minute, in UTC.
+const MINUTE: &str = "%Y-%m-%d %H:%M UTC";
+
+/// Not parsed by clap, whose message would show a password in the address.
+fn open_store(address: &str) -> anyhow::Result<BundleStore> {
+    let address: StoreAddress = address.parse().advised()?;
+    BundleStore::open(address).advised()
+}

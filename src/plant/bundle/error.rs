@@ -1,0 +1,287 @@
+//! Why a library could not be published or taken.
+
+use std::{fmt, io, path::PathBuf};
+
+use thiserror::Error;
+
+use super::{keys::TrustedKey, store::StoreAddress};
+use crate::{
+    error::Advice,
+    files::{FileError, advice_on, words_of},
+    library::{EntryProblem, EntryWarning, LibraryError, PartName},
+};
+
+/// Why a library could not be published or taken. The library and the versions in the store are as they were before.
+#[derive(Debug, Error)]
+pub enum BundleError {
+    /// A text is no store.
+    #[error("{address:?} is no store: {reason}")]
+    BadAddress {
+        /// As it was given.
+        address: String,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// The store cannot be reached, or refuses.
+    #[error("{store}: {doing}: {reason}")]
+    Store {
+        /// Which.
+        store: StoreAddress,
+        /// What was tried, such as `cannot list the versions`.
+        doing: &'static str,
+        /// What its client says.
+        reason: String,
+    },
+    /// The store writes over what is there, though it was asked not to.
+    #[error(
+        "{store}: this store does not keep two publishers from making the same version: it ignores If-None-Match"
+    )]
+    NoConditionalPut {
+        /// Which.
+        store: StoreAddress,
+    },
+    /// The store has no version at all.
+    #[error("{store}: no version of a library was published there")]
+    NothingPublished {
+        /// Which.
+        store: StoreAddress,
+    },
+    /// The store has no version of this number.
+    #[error("{store}: no version {wanted}; the newest is {newest}")]
+    NoSuchVersion {
+        /// Which.
+        store: StoreAddress,
+        /// The version asked for.
+        wanted: u32,
+        /// The newest version there.
+        newest: u32,
+    },
+    /// Somebody else has published this version meanwhile.
+    #[error("{store}: version {version} was published by somebody else meanwhile")]
+    VersionTaken {
+        /// Which.
+        store: StoreAddress,
+        /// Its number.
+        version: u32,
+    },
+    /// A manifest cannot be understood, or was changed.
+    #[error("{name}: the manifest is damaged or was changed: {reason}")]
+    BadManifest {
+        /// Its name in the store.
+        name: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A manifest of a later version of this program.
+    #[error("{name}: made by a newer version of Partsight")]
+    Newer {
+        /// Its name in the store.
+        name: String,
+    },
+    /// Another key than the trusted one signed it.
+    #[error("{name}: signed by the key {found}, trusted is {trusted}")]
+    OtherKey {
+        /// Its name in the store.
+        name: String,
+        /// The key that it names.
+        found: TrustedKey,
+        /// The key that was given.
+        trusted: TrustedKey,
+    },
+    /// A bundle is not the one that its manifest names, or holds what no bundle may hold.
+    #[error("{name}: the bundle is damaged or was changed: {reason}")]
+    BadBundle {
+        /// Its name in the store.
+        name: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A part in a bundle cannot be loaded.
+    #[error("version {version} holds a part that cannot be read: {problem}")]
+    UnreadablePart {
+        /// The version.
+        version: u32,
+        /// Which part, and why.
+        problem: Box<EntryProblem>,
+    },
+    /// A part of the library that is to be published cannot be loaded.
+    #[error(transparent)]
+    Problem(#[from] Box<EntryProblem>),
+    /// A spray path of the library that is to be published cannot be used.
+    #[error(transparent)]
+    SprayPath(#[from] EntryWarning),
+    /// The library has no parts.
+    #[error("{}: the library has no part to publish", path.display())]
+    NoParts {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The parts changed while they were packed.
+    #[error("{}: the library changed while it was read", path.display())]
+    Changing {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// More than is published or taken at once.
+    #[error("{found} bytes, at most {limit} are published or taken")]
+    TooLarge {
+        /// Bytes of the object or of the parts.
+        found: u64,
+        /// The largest size allowed.
+        limit: u64,
+    },
+    /// The note is no note.
+    #[error("the note has {found} characters, at most {limit} are allowed")]
+    LongNote {
+        /// Characters given.
+        found: usize,
+        /// Characters allowed.
+        limit: usize,
+    },
+    /// The library has a later version than the newest one in the store.
+    #[error("version {found} is older than version {installed}, which is installed")]
+    Older {
+        /// The version that would be taken.
+        found: u32,
+        /// The version of the library.
+        installed: u32,
+    },
+    /// Parts would leave the library that are in no version taken before.
+    #[error("these parts are in no version that was taken: {}", listed(parts))]
+    LocalParts {
+        /// Which, and what became of them since.
+        parts: Vec<LocalPart>,
+    },
+    /// What the library says of the version that it was taken from cannot be read.
+    #[error("{}: damaged: {reason}", path.display())]
+    BadRecord {
+        /// The file.
+        path: PathBuf,
+        /// The first thing wrong.
+        reason: String,
+    },
+    /// A key is there already.
+    #[error("{}: there already", path.display())]
+    KeyExists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file holds no key of the kind that is needed.
+    #[error("{}: no Ed25519 {what} in PEM: {reason}", path.display())]
+    BadKey {
+        /// The file.
+        path: PathBuf,
+        /// `private key` or `public key`.
+        what: &'static str,
+        /// What the reader says.
+        reason: String,
+    },
+    /// The system gives no random numbers.
+    #[error("the system gives no random numbers, of which a key is made")]
+    NoRandom,
+    /// The system gives no thread or socket for the connection.
+    #[error("the connection cannot be prepared: {source}")]
+    NoRuntime {
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The parts cannot be packed.
+    #[error("the library cannot be packed: {}", words_of(source))]
+    Pack {
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The library cannot be read or written.
+    #[error(transparent)]
+    Library(#[from] LibraryError),
+}
+
+/// A part of a library that differs from the version taken last.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LocalPart {
+    /// It is not in that version.
+    Enrolled(String),
+    /// It is in that version, with other files.
+    Changed(String),
+    /// It is in that version, but not here.
+    Removed(PartName),
+}
+
+impl fmt::Display for LocalPart {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Enrolled(name) => write!(f, "{name} (enrolled here)"),
+            Self::Changed(name) => write!(f, "{name} (changed here)"),
+            Self::Removed(name) => write!(f, "{name} (removed here)"),
+        }
+    }
+}
+
+fn listed(parts: &[LocalPart]) -> String {
+    let parts: Vec<String> = parts.iter().map(LocalPart::to_string).collect();
+    parts.join(", ")
+}
+
+impl Advice for BundleError {
+    fn advice(&self) -> String {
+        match self {
+            Self::BadAddress { .. } => {
+                "Give a folder, or s3://BUCKET or s3://BUCKET/PREFIX".into()
+            }
+            Self::Store {
+                store: StoreAddress::Folder(_),
+                ..
+            } => "Check that the folder is there and its drive or share connected, and that you may use it".into(),
+            Self::Store { .. } => {
+                "Check the network, the bucket and its name, and AWS_ENDPOINT, AWS_REGION, AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY in the environment; the library that is there works without the store".into()
+            }
+            Self::NoConditionalPut { .. } => {
+                "Publish to a folder, or to a store that knows If-None-Match, such as Amazon S3 or a recent MinIO".into()
+            }
+            Self::NothingPublished { .. } => {
+                "Check the address, or publish one: partsight library publish --to STORE --key FILE".into()
+            }
+            Self::NoSuchVersion { newest, .. } => format!("Ask for --version {newest} or less, or for the newest without --version"),
+            Self::VersionTaken { .. } => {
+                "Look at what they published with partsight library take, then publish again: yours then becomes the next version".into()
+            }
+            Self::BadManifest { .. } | Self::BadBundle { .. } => {
+                "Do not use this version: publish the library again, and find out who can write to the store".into()
+            }
+            Self::Newer { .. } => "Update Partsight on this computer".into(),
+            Self::OtherKey { .. } => {
+                "Ask who publishes for the public key, library.pub, and give that with --trust if you trust it".into()
+            }
+            Self::UnreadablePart { version, .. } => {
+                format!("Update Partsight on this computer if it is older than where version {version} was published; else publish the library again")
+            }
+            Self::Problem(problem) => problem.advice(),
+            Self::SprayPath(warning) => warning.advice(),
+            Self::NoParts { .. } => "Enrol a part first: partsight enrol FILE --name NAME".into(),
+            Self::Changing { .. } => "Wait until nobody enrols any more, then publish again".into(),
+            Self::TooLarge { .. } => "Publish fewer parts at once, in several stores".into(),
+            Self::LongNote { .. } => "Shorten the note".into(),
+            Self::Older { found, .. } => {
+                format!("Nothing is to be done, unless you want to go back: then ask for --version {found}")
+            }
+            Self::LocalParts { .. } => {
+                "Publish them with the library, or take with --replace, which moves them to the library's .trash".into()
+            }
+            Self::BadRecord { path, .. } => {
+                format!("Remove {}, then take the version again", path.display())
+            }
+            Self::KeyExists { .. } => {
+                "Use this key, or name another folder; cells that trust it take nothing that another key signed".into()
+            }
+            Self::BadKey { what, .. } => format!("Give the {what} that partsight library keys has made"),
+            Self::NoRandom => "Report this with the message".into(),
+            Self::NoRuntime { .. } => "Close other programs, then try again".into(),
+            Self::Pack { source } => advice_on(source).into(),
+            Self::File(error) => error.advice(),
+            Self::Library(error) => error.advice(),
+        }
+    }
+}

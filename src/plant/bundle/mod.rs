@@ -1,0 +1,49 @@
+//! One library for many cells: signed, numbered versions of it in a folder or an S3-compatible store.
+//!
+//! ```text
+//! publish: LibraryFolder ─► archive (tar) ─► STORE/bundles/SHA256.tar, then STORE/manifests/0000000007.txt
+//! take:    manifest ─► signature ─► archive ─► digest ─► files ─► LibraryFolder::replace_all
+//! ```
+//!
+//! A manifest names its bundle by size and SHA-256 and is signed with Ed25519, so that nothing about the store has to be
+//! trusted. It is written last, and only where there is none of its number: a version is published whole or not at all,
+//! and no two are the same. Taking changes nothing before the whole bundle was checked and every part in it was loaded.
+//!
+//! `docs/guide/plant.md` describes it for users.
+
+mod archive;
+mod connector;
+mod error;
+mod keys;
+mod manifest;
+mod publish;
+mod store;
+mod take;
+
+pub use self::{
+    error::{BundleError, LocalPart},
+    keys::{KeyFiles, SigningKey, TrustedKey, make_keys},
+    manifest::{BundleCheck, Manifest},
+    publish::publish,
+    store::{BundleStore, StoreAddress},
+    take::{Installed, LocalParts, Take, TakenBundle, take},
+};
+
+/// The largest bundle, in bytes: a thousand parts. It is held in memory.
+pub const MAX_BUNDLE_BYTES: u64 = 512 << 20;
+
+/// SHA-256 in hexadecimal.
+fn sha256(bytes: &[u8]) -> String {
+    hex(ring::digest::digest(&ring::digest::SHA256, bytes).as_ref())
+}
+
+fn hex(bytes: &[u8]) -> String {
+    use std::fmt::Write as _;
+
+    let mut text = String::with_capacity(2 * bytes.len());
+    for byte in bytes {
+        // Writing to memory does not fail.
+        let _ = write!(text, "{byte:02x}");
+    }
+    text
+}

@@ -1,0 +1,156 @@
+//! S3 servers of the test's own.
+
+use std::{
+    io::{BufRead as _, BufReader, Read as _, Write as _},
+    net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream},
+    process::{Child, Command, Stdio},
+    sync::{Arc, Mutex},
+    thread,
+    time::{Duration, Instant},
+};
+
+/// Long enough for a machine at work with other things.
+const PATIENCE: Duration = Duration::from_mins(2);
+
+fn free_address() -> SocketAddr {
+    let socket = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a free port");
+    socket.local_addr().expect("its address")
+}
+
+/// Where nobody listens.
+pub(crate) fn closed_endpoint() -> String {
+    format!("http://{}", free_address())
+}
+
+/// A moto server with an empty bucket `parts`; killed when dropped.
+pub(crate) struct S3Server {
+    child: Child,
+    address: SocketAddr,
+}
+
+impl S3Server {
+    /// `None`, with a word about it, where there is no moto.
+    #[expect(
+        clippy::print_stdout,
+        reason = "a test that checks nothing must say so"
+    )]
+    pub(crate) fn start() -> Option<Self> {
+        let address = free_address();
+        let started = Command::new("moto_server")
+            .args(["-H", "127.0.0.1", "-p", &address.port().to_string()])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn();
+        let Ok(child) = started else {
+            let text = "skipped: moto is not installed (pip install \"moto[server]\")";
+            let is_required =
+                std::env::var_os("PARTSIGHT_REQUIRE_S3").is_some_and(|value| value == "1");
+            assert!(!is_required, "PARTSIGHT_REQUIRE_S3=1, and {text}");
+            println!("{text}");
+            return None;
+        };
+        let server = Self { child, address };
+        let until = Instant::now() + PATIENCE;
+        while TcpStream::connect(address).is_err() {
+            assert!(Instant::now() < until, "moto does not listen");
+            thread::sleep(Duration::from_millis(20));
+        }
+        server.make_bucket();
+        Some(server)
+    }
+
+    pub(crate) fn endpoint(&self) -> String {
+        format!("http://{}", self.address)
+    }
+
+    fn make_bucket(&self) {
+        let mut stream = TcpStream::connect(self.address).expect("connected");
+        let host = self.address;
+        let request = format!(
+            "PUT /parts HTTP/1.1\r\nHost: {host}\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
+        );
+        stream.write_all(request.as_bytes()).expect("sent");
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).expect("answered");
+        assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
+    }
+}
+
+impl Drop for S3Server {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// A server with an empty bucket that accepts whatever is written, as stores do that do not know `If-None-Match`.
+pub(crate) struct ForgetfulServer {
+    address: SocketAddr,
+    written: Arc<Mutex<Vec<String>>>,
+}
+
+impl ForgetfulServer {
+    /// Its thread ends with the test program.
+    pub(crate) fn start() -> Self {
+        let socket = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a free port");
+        let address = socket.local_addr().expect("its address");
+        let written = Arc::new(Mutex::new(Vec::new()));
+        let theirs = Arc::clone(&written);
+        thread::spawn(move || {
+            for stream in socket.incoming() {
+                answer(stream.expect("a connection"), &theirs);
+            }
+        });
+        Self { address, written }
+    }
+
+    pub(crate) fn endpoint(&self) -> String {
+        format!("http://{}", self.address)
+    }
+
+    /// The names of all objects that were written.
+    pub(crate) fn written(&self) -> Vec<String> {
+        self.written.lock().expect("no panic").clone()
+    }
+}
+
+/// Answers one request and closes the connection.
+fn answer(stream: TcpStream, written: &Mutex<Vec<String>>) {
+    const EMPTY: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?><ListBucketResult><Name>parts</Name>\
+                         <KeyCount>0</KeyCount><IsTruncated>false</IsTruncated></ListBucketResult>";
+    let mut reader = BufReader::new(stream);
+    let mut request = String::new();
+    let mut length = 0;
+    loop {
+        let mut line = String::new();
+        if reader.read_line(&mut line).unwrap_or(0) == 0 {
+            return;
+        }
+        let header = line.trim_end().to_lowercase();
+        if let Some(value) = header.strip_prefix("content-length:") {
+            length = value.trim().parse().expect("a number");
+        }
+        if request.is_empty() {
+            request = line;
+        } else if header.is_empty() {
+            break;
+        }
+    }
+    let mut body = vec![0; length];
+    reader.read_exact(&mut body).expect("the body");
+    let mut words = request.split(' ');
+    let (method, path) = (words.next(), words.next().expect("a path"));
+    let content = if method == Some("PUT") {
+        written.lock().expect("no panic").push(path.to_owned());
+        ""
+    } else {
+        EMPTY
+    };
+    let head = format!(
+        "HTTP/1.1 200 OK\r\nETag: \"1\"\r\nContent-Type: application/xml\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+        content.len()
+    );
+    let mut stream = reader.into_inner();
+    let sent = stream.write_all((head + content).as_bytes());
+    sent.expect("sent");
+}
