@@ -12,6 +12,7 @@
 //! A former part of which the new library has the very same files is not moved to the trash, but removed.
 
 use std::{
+    collections::BTreeMap,
     ffi::OsString,
     fs,
     io::{self, Read as _},
@@ -138,8 +139,8 @@ fn has_same_files(one: &Path, other: &Path) -> io::Result<bool> {
 }
 
 /// Names and contents of the files of a folder, in order; `None` if it holds anything but plain files.
-fn contents(folder: &Path) -> io::Result<Option<Vec<(OsString, Vec<u8>)>>> {
-    let mut files = Vec::new();
+fn contents(folder: &Path) -> io::Result<Option<BTreeMap<OsString, Vec<u8>>>> {
+    let mut files = BTreeMap::new();
     for found in fs::read_dir(folder)? {
         let found = found?;
         if !found.file_type()?.is_file() {
@@ -147,8 +148,7 @@ fn contents(folder: &Path) -> io::Result<Option<Vec<(OsString, Vec<u8>)>>> {
         }
         let mut content = Vec::new();
         open_regular(&found.path())?.read_to_end(&mut content)?;
-        files.push((found.file_name(), content));
+        files.insert(found.file_name(), content);
     }
-    files.sort();
     Ok(Some(files))
 }

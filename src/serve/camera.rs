@@ -10,7 +10,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use jiff::Timestamp;
+use jiff::{SignedDuration, Timestamp};
 use thiserror::Error;
 
 use super::{
@@ -27,6 +27,10 @@ use crate::{
 
 /// How often a waiting trigger checks whether the service is ending.
 const TURN: Duration = Duration::from_millis(100);
+
+/// Least difference between two clocks that counts. A watched file arrives later than this after it was written, so that
+/// a wrong clock is noticed before a file from before a trigger could pass for a new one.
+const CLOCK_TOLERANCE: Duration = Duration::from_millis(100);
 
 /// A source that keeps running while nobody requests frames.
 pub struct Camera {
@@ -79,13 +83,31 @@ impl NewFrame {
     pub fn captured_at(self, captured: &Captured) -> Instant {
         match self {
             Self::SecondArrived => captured.arrived,
+            // Never later than its arrival, whatever the file's clock says.
             Self::WrittenAfter => {
                 let age = Timestamp::now().duration_since(captured.taken_at);
                 let age = Duration::try_from(age).unwrap_or_default();
-                Instant::now().checked_sub(age).unwrap_or(captured.arrived)
+                let written = Instant::now().checked_sub(age);
+                written.map_or(captured.arrived, |at| at.min(captured.arrived))
             }
         }
     }
+
+    /// Whether a frame was captured after the trigger; it is the `num_arrived`-th to arrive since.
+    fn is_new(self, captured: &Captured, asked: &Asked, num_arrived: usize) -> bool {
+        match self {
+            Self::SecondArrived => num_arrived >= 2,
+            Self::WrittenAfter => num_arrived >= 1 && captured.taken_at >= asked.by_clock,
+        }
+    }
+}
+
+/// Returns how far the clock of a file is ahead of this computer's, if it is: the file was written after it arrived.
+fn clock_ahead(captured: &Captured) -> Option<Duration> {
+    let age = Timestamp::now().duration_since(captured.taken_at);
+    let here = SignedDuration::try_from(captured.arrived.elapsed()).unwrap_or(SignedDuration::MAX);
+    let ahead = Duration::try_from(here.saturating_sub(age)).ok();
+    ahead.filter(|ahead| *ahead > CLOCK_TOLERANCE)
 }
 
 /// Why a trigger got no frame.
@@ -120,6 +142,14 @@ pub enum NoFrame {
         /// The underlying error.
         error: Arc<CaptureError>,
     },
+    /// A file arrived before it was written, by the clock of its disk.
+    #[error("{name}: the clock of the disk is {:.1} s ahead of this computer's", ahead.as_secs_f64())]
+    ClockAhead {
+        /// Name of the file.
+        name: String,
+        /// The difference between the clocks.
+        ahead: Duration,
+    },
     /// The service is ending.
     #[error("the service ends")]
     Stopping,
@@ -134,6 +164,7 @@ impl NoFrame {
             Self::Ended => "source_ended",
             Self::Late { .. } => "no_frame",
             Self::Unreadable { .. } => "unreadable",
+            Self::ClockAhead { .. } => "clock_ahead",
             Self::Stopping => "stopping",
         }
     }
@@ -144,6 +175,10 @@ impl Advice for NoFrame {
         match self {
             Self::Lost { error } | Self::Failed { error } | Self::Unreadable { error, .. } => {
                 error.advice()
+            }
+            Self::ClockAhead { .. } => {
+                "Set both clocks by the same time server: the age of a file cannot be known otherwise"
+                    .into()
             }
             Self::Ended => "TRIGGER again: the source is opened anew".into(),
             Self::Late { .. } => {
@@ -234,12 +269,16 @@ impl Camera {
             match feed.wait(TURN) {
                 Some(FeedItem::Captured(captured)) => {
                     num_arrived += usize::from(captured.arrived > asked.at);
-                    let is_new = match rule {
-                        NewFrame::SecondArrived => num_arrived >= 2,
-                        NewFrame::WrittenAfter => captured.taken_at >= asked.by_clock,
-                    };
-                    if is_new {
-                        return Ok(captured);
+                    if rule.is_new(&captured, asked, num_arrived) {
+                        let ahead = match rule {
+                            NewFrame::SecondArrived => None,
+                            NewFrame::WrittenAfter => clock_ahead(&captured),
+                        };
+                        let Some(ahead) = ahead else {
+                            return Ok(captured);
+                        };
+                        let name = captured.name;
+                        unreadable = Some(NoFrame::ClockAhead { name, ahead });
                     }
                 }
                 Some(FeedItem::Skipped(skipped)) => {
@@ -292,8 +331,6 @@ mod tests {
         collections::VecDeque,
         sync::atomic::{AtomicBool, AtomicUsize, Ordering},
     };
-
-    use jiff::SignedDuration;
 
     use super::*;
     use crate::{
@@ -463,7 +500,26 @@ mod tests {
             .frame_after(&asked, PATIENCE, || false)
             .expect("written after");
         assert_eq!(frame.number, 3);
-        assert!(camera.captured_at(&frame) <= Instant::now());
+        assert!(camera.captured_at(&frame) <= frame.arrived);
+    }
+
+    #[test]
+    fn a_file_of_a_clock_that_is_ahead_is_refused_and_never_younger_than_its_arrival() {
+        let asked = Asked::now();
+        let by_clock = asked.by_clock;
+        let ahead = SignedDuration::from_secs(5);
+        let camera = scripted(NewFrame::WrittenAfter, move || {
+            let file = captured(1, by_clock + ahead);
+            vec![NextCapture::Captured(file)]
+        });
+        let why = camera.frame_after(&asked, PATIENCE, || false);
+        let why = why.expect_err("nobody knows when it was written");
+        assert_eq!(why.reason(), "clock_ahead");
+        assert!(why.to_string().contains("5.0 s ahead"), "{why}");
+        let file = captured(1, Timestamp::now() + ahead);
+        assert_eq!(NewFrame::WrittenAfter.captured_at(&file), file.arrived);
+        // A file that waited in the feed was written before the trigger, whatever its clock says.
+        assert!(!NewFrame::WrittenAfter.is_new(&file, &Asked::now(), 0));
     }
 
     #[test]

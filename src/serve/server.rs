@@ -417,7 +417,8 @@ fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: 
         clients.retain(|client| !client.is_finished());
         let Some(slot) = ClientSlot::take(shared) else {
             shared.tell(peer, listener.at.protocol.name(), ClientNews::TurnedAway);
-            turn_away(&stream, listener, shared);
+            // A fault in it must not end the listener.
+            let _ = guarded(|| turn_away(&stream, listener, shared));
             if turned_away.len() == MAX_TURNED_AWAY {
                 turned_away.pop_front();
             }

@@ -46,6 +46,8 @@ fn title(ui: &Ui, source: &str) -> String {
 pub(in crate::app) fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     ui.menu_button(title(ui, &now(&state.session.source)), |ui| {
         let height = ui.ctx().content_rect().height() - MARGIN;
+        // A menu is less high than the window by itself.
+        ui.set_max_height(height);
         ui.horizontal_top(|ui| {
             column(ui, height, "cell", |ui| simulated(ui, state, actions));
             ui.separator();

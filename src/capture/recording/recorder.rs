@@ -112,6 +112,7 @@ impl Recorder {
         written.map_err(|source| {
             // An incomplete frame is useless; if it cannot be removed either, the manifest does not list it.
             let _ = disk::remove_file(&path);
+            let _ = disk::remove_file(path.with_extension("json"));
             let _ = disk::set_len(&self.manifest, self.length);
             CaptureError::Unwritable {
                 path,

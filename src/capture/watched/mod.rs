@@ -150,9 +150,15 @@ impl WatchedFolder {
             Err(error) => error,
         };
         match &error {
-            // A preview image beside a cloud, or a file that disappeared before it was read.
-            CaptureError::File(FileError::WrongPngKind { .. } | FileError::NotFound { .. }) => {
+            // A preview image beside a cloud.
+            CaptureError::File(FileError::WrongPngKind { .. }) => {
                 file.state = Progress::Done;
+                None
+            }
+            // It disappeared before it was read; the share may come back with it.
+            CaptureError::File(FileError::NotFound { .. }) => {
+                file.state = Progress::Waiting;
+                file.same = 0;
                 None
             }
             _ if is_last_try => {

@@ -218,6 +218,21 @@ fn the_folder_may_vanish_and_come_back() {
 }
 
 #[test]
+fn a_file_that_vanished_before_it_was_read_is_taken_when_it_is_back() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    save(&bench.path("one.pcd"), 1.0);
+    bench.source.look().unwrap();
+    bench.source.look().unwrap();
+    assert_eq!(bench.source.ready.len(), 1);
+    let away = bench.folder.path().join("away.pcd");
+    fs::rename(bench.path("one.pcd"), &away).unwrap();
+    assert!(bench.looks(2).is_empty());
+    fs::rename(&away, bench.path("one.pcd")).unwrap();
+    assert_eq!(bench.looks(3), ["one.pcd"]);
+}
+
+#[test]
 fn an_image_without_a_reading_is_a_capture_of_nothing() {
     let mut bench = Bench::new(WatchedFrom::Now);
     bench.look();

@@ -80,20 +80,20 @@ impl HttpService for Service {
         let patience = patience(request.body().content_length() as u64);
         let answer = timeout(patience, self.client.request(request)).await;
         let answer = answer.map_err(|late| HttpError::new(HttpErrorKind::Timeout, late))?;
-        let (head, body) = answer.map_err(wrong)?.into_parts();
+        let (head, body) = answer.map_err(|error| wrong(&error))?.into_parts();
         let body = body.map_err(|error| HttpError::new(HttpErrorKind::Interrupted, error));
         Ok(HttpResponse::from_parts(head, HttpResponseBody::new(body)))
     }
 }
 
 /// What went wrong, in the words of its cause: those around it say no more than that something did.
-fn wrong(error: legacy::Error) -> HttpError {
+fn wrong(error: &legacy::Error) -> HttpError {
     let kind = if error.is_connect() {
         HttpErrorKind::Connect
     } else {
         HttpErrorKind::Interrupted
     };
-    let mut cause: &dyn std::error::Error = &error;
+    let mut cause: &dyn std::error::Error = error;
     while let Some(deeper) = cause.source() {
         cause = deeper;
     }

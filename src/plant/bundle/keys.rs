@@ -241,10 +241,6 @@ mod tests {
     }
 
     #[test]
-    #[expect(
-        clippy::print_stdout,
-        reason = "a test that checks nothing must say so"
-    )]
     fn keys_of_openssl_are_read() {
         let folder = tempfile::tempdir().expect("a folder");
         let openssl = |args: &[&str]| {

@@ -244,7 +244,7 @@ impl BundleStore {
 
     fn location(&self, name: &str) -> Path {
         let names = name.split('/');
-        names.fold(self.prefix.clone(), |path, name| path.join(name))
+        names.fold(self.prefix.clone(), Path::join)
     }
 
     fn wrong(&self, doing: &'static str, error: &object_store::Error) -> BundleError {

@@ -177,8 +177,8 @@ impl Database {
             ];
             let asked = format!(
                 "SELECT {names}, {NUM_BELOW}, there.cell, there.history FROM partsight.inspection AS there
-                    JOIN partsight.detail AS rest USING (cell, history, number)
-                    JOIN partsight.recipe AS known ON known.cell = there.cell AND known.history = there.history
+                    LEFT JOIN partsight.detail AS rest USING (cell, history, number)
+                    LEFT JOIN partsight.recipe AS known ON known.cell = there.cell AND known.history = there.history
                         AND known.identity = rest.recipe
                     WHERE {} AND (there.at, there.cell, there.history, there.number) > ({})
                     ORDER BY there.at, there.cell, there.history, there.number LIMIT {READ_AT_ONCE}",

@@ -94,7 +94,9 @@ const MAKE_VERSION: &str = "INSERT INTO partsight.schema_version (version) VALUE
 impl Database {
     /// Reads the version of the tables; 0 if there are none.
     fn version(&self) -> Result<i32, DatabaseError> {
-        let asked = "SELECT to_regclass('partsight.schema_version') IS NOT NULL";
+        // Asked of the tables of the system: to_regclass answers from a cache, which misses what another cell just made.
+        let asked = "SELECT EXISTS (SELECT FROM pg_catalog.pg_tables
+            WHERE schemaname = 'partsight' AND tablename = 'schema_version')";
         let row = self.link.wait(self.client.query_one(asked, &[]))?;
         if !self.read::<bool>(&row, 0)? {
             return Ok(0);
