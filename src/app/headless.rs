@@ -1,8 +1,8 @@
-//! The window without a display: drawn frame by frame into a picture of its own, as a desktop would have it drawn.
+//! The window without a display, drawn frame by frame into a texture as on a desktop.
 //!
-//! A frame goes the way that it goes on a desktop: the panels run, their shapes become triangles, buffers are filled,
-//! the passes are recorded and submitted. Only the last step, showing the picture, is left out. It serves to measure
-//! what a frame costs and to prove what it does not do.
+//! A frame does everything that it does on a desktop: the panels run, their shapes become triangles, buffers are filled, the
+//! passes are recorded and submitted. Only presenting the picture is left out. Used to measure the cost of frames and to test
+//! that they do no unnecessary work.
 
 mod cost;
 mod live_cost;
@@ -30,24 +30,24 @@ use super::{
 };
 use crate::bench::ProcessorWatch;
 
-/// What the picture is drawn in.
+/// Format of the target texture.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Whether the next frame may begin while the device still draws this one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pace {
-    /// It may: what the processor does is told apart from what the device does.
+    /// The next frame may begin, so that the cost of the processor is measured apart from that of the device.
     Ahead,
-    /// It waits, as behind a display that takes one picture after the other.
+    /// The next frame waits, as with a display that takes one picture after the other.
     InStep,
 }
 
 /// How long a frame took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameTime {
-    /// Processor time of the window's thread, seconds; the clock's where the system does not tell.
+    /// Processor time of the window's thread, seconds; elapsed time if the system does not report it.
     pub busy: f64,
-    /// From its beginning until the next may begin, seconds.
+    /// Time from its start until the next frame may start, seconds.
     pub whole: f64,
 }
 
@@ -67,7 +67,7 @@ pub struct HeadlessWindow {
 }
 
 impl HeadlessWindow {
-    /// Opens it, `size` in logical pixels, on whatever device there is.
+    /// Opens the window on any available device; `size` in logical pixels.
     pub fn open(size: [u32; 2], options: WindowOptions) -> Result<Self, ViewError> {
         let no_device = |reason: String| ViewError::NoDevice { reason };
         let setup = WgpuSetup::CreateNew(WgpuSetupCreateNew::without_display_handle());
@@ -118,22 +118,22 @@ impl HeadlessWindow {
         })
     }
 
-    /// The window.
+    /// The window that is drawn.
     pub fn window(&self) -> &Window {
         &self.window
     }
 
-    /// True once the window asked to be closed.
+    /// True once the window has asked to be closed.
     pub fn closes(&self) -> bool {
         self.closes
     }
 
-    /// What its frames have done so far.
+    /// Work done by its frames so far.
     pub fn counts(&self) -> WorkCounts {
         self.window.counts()
     }
 
-    /// Draws frames until nothing is at work any more; false if that took more than a minute.
+    /// Draws frames until no work is running; false if that took more than a minute.
     pub fn settle(&mut self) -> bool {
         let begun = Instant::now();
         loop {
@@ -152,12 +152,12 @@ impl HeadlessWindow {
         true
     }
 
-    /// Does what a person could cause.
+    /// Carries out an action that the user could cause.
     pub fn act(&mut self, action: Action) {
         self.window.act(action, &self.ctx);
     }
 
-    /// Does something in the workspace of this type.
+    /// Runs `act` on the workspace of this type.
     pub fn with<W: Workspace, R>(
         &mut self,
         act: impl FnOnce(&mut W, &mut ShellContext<'_>) -> R,
@@ -165,13 +165,13 @@ impl HeadlessWindow {
         self.window.with(&self.ctx, act)
     }
 
-    /// Draws one frame in which this happens.
+    /// Draws one frame with these input events.
     pub fn frame(&mut self, events: Vec<Event>, pace: Pace) -> FrameTime {
         let (begun, watch) = (Instant::now(), ProcessorWatch::start());
         self.draw(events);
         let busy = watch.elapsed().as_secs_f64();
         if pace == Pace::InStep {
-            // A device that is gone draws nothing to wait for.
+            // Fails for a lost device, which draws nothing to wait for.
             let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
         }
         FrameTime {

@@ -9,11 +9,11 @@
 //!
 //! - [`workspaces`]: each owns its state, its panels and its tasks; the window knows it as a
 //!   [`Workspace`](shell::workspace::Workspace), and none imports another. [`shots`] is the list that Inspect and Enrol share.
-//! - [`shell`]: what they stand on, and what stands around them.
-//! - [`inspection`]: a scene, its result and what is drawn of them; no egui, no session.
-//! - [`ui`]: colours, widgets, the 3-D view. [`task`]: jobs on threads of their own. [`language`]: the texts.
+//! - [`shell`]: the session and the services that workspaces use, and the bars and tasks around them.
+//! - [`inspection`]: a scene, its result and the data drawn for them; no egui, no session.
+//! - [`ui`]: colours, widgets, the 3-D view. [`task`]: jobs on background threads. [`language`]: the texts.
 //!
-//! Panels draw the last result, always, and never compute.
+//! Panels only draw the last result and never compute.
 
 pub mod headless;
 pub mod inspection;

@@ -1,4 +1,4 @@
-//! Opening the window, or saying in words why it cannot be opened.
+//! Opens the window, or explains why it cannot be opened.
 
 use std::{
     cell::OnceCell,
@@ -17,28 +17,28 @@ use super::{
 };
 use crate::error::Advice;
 
-/// Why there is no window.
+/// Why the window could not be opened or stayed closed.
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
     /// No desktop to open a window on.
     #[error("there is no display to open a window on")]
     NoDisplay,
-    /// The desktop refused.
+    /// The desktop refused to open the window.
     #[error("the window could not be opened ({reason})")]
     Refused {
-        /// What the system said.
+        /// Message of the system.
         reason: String,
     },
-    /// The device went away while the window was open, and with it all that draws.
+    /// The graphics device was lost while the window was open.
     #[error("the graphics device was lost while the window was open ({reason})")]
     DeviceLost {
-        /// What the system said.
+        /// Message of the system.
         reason: String,
     },
-    /// Nothing can draw.
+    /// No graphics driver can draw the window.
     #[error("there is no graphics driver that can draw the window ({reason})")]
     NoAdapter {
-        /// What the system said.
+        /// Message of the system.
         reason: String,
     },
 }
@@ -64,17 +64,17 @@ impl Advice for WindowError {
     }
 }
 
-/// The window's size when it opens, logical pixels.
+/// Default size of the window, logical pixels.
 const SIZE: [f32; 2] = [1440.0, 900.0];
-/// Below this something would be cut off.
+/// Minimum size, logical pixels; below it the contents would be cut off.
 const MIN_SIZE: [f32; 2] = [960.0, 640.0];
 
-/// A window that was open for this long before its device was lost is opened again.
+/// Minimum time that a window must have been open to be reopened after its device was lost.
 const WORTH_REOPENING: Duration = Duration::from_secs(30);
 
-/// Opens the window and returns when it is closed by a person. One whose graphics device is lost opens again.
+/// Opens the window and returns when the user closes it. Reopens it if its graphics device is lost.
 pub fn run(given: WindowOptions) -> Result<(), WindowError> {
-    // Without either nobody would see the window; asking the system only costs a wait.
+    // Without either variable the window cannot be shown; asking the system would only take time.
     if cfg!(all(unix, not(target_os = "macos"))) && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")
     {
         return Err(WindowError::NoDisplay);
@@ -87,12 +87,12 @@ pub fn run(given: WindowOptions) -> Result<(), WindowError> {
     loop {
         let opened = Instant::now();
         let closed = open(given.clone(), is_reopened);
-        // A device that a driver's reset took away is there again; one that is lost at once would be lost for ever.
+        // After a driver reset the device is available again; a device lost soon after opening would be lost again and again.
         let was_lost = matches!(closed, Err(WindowError::DeviceLost { .. }));
         if !was_lost || opened.elapsed() < WORTH_REOPENING {
             return closed;
         }
-        // What was opened last is remembered, whatever was given at first.
+        // The settings remember what was open last.
         given.scene = None;
         is_reopened = true;
     }
@@ -121,7 +121,7 @@ fn open(given: WindowOptions, is_reopened: bool) -> Result<(), WindowError> {
                 window.tell_of_lost_device();
             }
             if let Ok(gpu) = window.gpu() {
-                // Opened once: the cell is empty.
+                // The cell is empty: the window is created only once.
                 let _ = of_window.set(gpu.clone());
             }
             Ok(Box::new(window) as Box<dyn eframe::App>)
@@ -131,7 +131,7 @@ fn open(given: WindowOptions, is_reopened: bool) -> Result<(), WindowError> {
         eframe::Error::Wgpu(error) => WindowError::NoAdapter {
             reason: error.to_string(),
         },
-        // Its own words are about the library that asked.
+        // The original message is only about the library that failed.
         eframe::Error::WinitEventLoop(_) => WindowError::Refused {
             reason: "the desktop does not answer".into(),
         },

@@ -1,7 +1,7 @@
 //! Background tasks. A [`Task`] belongs to whoever wants its result; nobody else sees it.
 //!
-//! Each run of a task has a channel of its own. Replacing or cancelling a run drops the receiving end, so whatever the old
-//! run still sends is lost: results need no generation numbers. Progress is a value that is overwritten, not an event.
+//! Each run has a channel of its own. Replacing or cancelling a run drops the receiver, so whatever the old run still sends is
+//! lost and results need no generation numbers. Progress is a value that is overwritten, not an event.
 
 use std::{
     fmt, io,
@@ -22,7 +22,7 @@ use crate::{
     pipeline::{Cancelled, ProgressObserver, Stage},
 };
 
-/// Starts the threads of tasks, and wakes the window when one has something to read. Clones share it.
+/// Starts the threads of tasks and wakes the window when there is something to read. Clones share it.
 #[derive(Clone)]
 pub struct TaskRunner {
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -34,13 +34,13 @@ pub struct TaskRunner {
 enum Threads {
     /// On a thread per task.
     OnePerTask,
-    /// Nowhere until [`Task::run_waiting`].
+    /// Only in [`Task::run_waiting`].
     #[cfg(test)]
     None,
 }
 
 impl TaskRunner {
-    /// `wake` is called from the threads and asks for another frame.
+    /// `wake` is called from the threads and requests another frame of the window.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self {
             wake: Arc::new(wake),
@@ -48,7 +48,7 @@ impl TaskRunner {
         }
     }
 
-    /// Jobs wait until a test runs them with [`Task::run_waiting`].
+    /// Makes jobs wait until a test runs them with [`Task::run_waiting`].
     #[cfg(test)]
     pub(in crate::app) fn without_threads() -> Self {
         Self {
@@ -57,11 +57,11 @@ impl TaskRunner {
         }
     }
 
-    /// Parts that may wait to be read.
+    /// Maximum number of unread partial results.
     fn max_unread(&self) -> usize {
         match self.threads {
             Threads::OnePerTask => 32,
-            // Writer and reader are the same thread.
+            // Writer and reader are the same thread, so the writer must never block.
             #[cfg(test)]
             Threads::None => 4096,
         }
@@ -77,11 +77,11 @@ impl fmt::Debug for TaskRunner {
 /// What a task reports.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TaskEvent<T> {
-    /// A part of the result; the run goes on.
+    /// A partial result; the run continues.
     Partial(T),
-    /// The run has ended.
+    /// The final result; the run has ended.
     Done(T),
-    /// The run has failed or panicked.
+    /// The run failed or panicked.
     Failed(UserError),
 }
 
@@ -106,18 +106,18 @@ impl From<Cancelled> for TaskError {
     }
 }
 
-/// A run as the top bar shows it.
+/// A running job as the top bar shows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Running {
-    /// What is being done, for a person.
+    /// Description for the user.
     pub title: String,
     /// The pipeline stage begun last.
     pub stage: Option<Stage>,
-    /// Steps done, and steps in all.
+    /// Steps done, and total steps.
     pub progress: Option<(usize, usize)>,
 }
 
-/// One job at a time, on a thread that starts with the first; the newest job replaces the one before.
+/// Runs one job at a time on a thread that starts with the first job; a new job replaces the current one.
 ///
 /// Dropping the task cancels its job and waits for the thread.
 pub struct Task<T> {
@@ -127,14 +127,14 @@ pub struct Task<T> {
     queue: JobQueue,
 }
 
-/// The newest run.
+/// The current run.
 struct Run<T> {
     running: Running,
     shared: Arc<RunShared<T>>,
     events: Receiver<TaskEvent<T>>,
 }
 
-/// What a run and its job share.
+/// State shared by a run and its job.
 struct RunShared<T> {
     is_cancelled: AtomicBool,
     progress: Mutex<Progress>,
@@ -144,12 +144,12 @@ struct RunShared<T> {
     limit: Mutex<Limit<T>>,
 }
 
-/// How far a test lets a job come.
+/// How far a test lets a job run.
 #[cfg(test)]
 struct Limit<T> {
-    /// Parts that it may still hand over.
+    /// Partial results that it may still hand over.
     num_left: usize,
-    /// Keeps the run open after that, as if the job were still at work.
+    /// Keeps the run open after that, as if the job were still running.
     held: Option<SyncSender<TaskEvent<T>>>,
 }
 
@@ -160,7 +160,7 @@ struct Progress {
 }
 
 impl<T: Send + 'static> Task<T> {
-    /// A task without a job. The thread has this name.
+    /// Makes a task without a job. `name` becomes the name of the thread.
     pub fn new(name: &'static str, runner: &TaskRunner) -> Self {
         Self {
             name,
@@ -170,7 +170,7 @@ impl<T: Send + 'static> Task<T> {
         }
     }
 
-    /// Runs the job in place of the one before, which is cancelled. `title` says what it does, for a person.
+    /// Runs a job in place of the current one, which is cancelled. `title` describes it to the user.
     pub fn start(
         &mut self,
         title: impl Into<String>,
@@ -213,19 +213,19 @@ impl<T: Send + 'static> Task<T> {
                 what: text!("shell-no-thread", error = error.to_string()),
                 advice: text!("shell-no-thread-advice"),
             };
-            // The channel is empty and its other end is ours.
+            // The channel is empty and its receiver exists, so this cannot block or fail.
             let _ = sender.send(TaskEvent::Failed(failed));
         }
     }
 
-    /// Cancels the job, running or waiting; it reports nothing any more.
+    /// Cancels the running or waiting job, which reports nothing any more.
     pub fn cancel(&mut self) {
         if let Some(run) = self.run.take() {
             run.shared.is_cancelled.store(true, Ordering::Relaxed);
         }
     }
 
-    /// The next event, without waiting; `None` if there is none.
+    /// Returns the next event, if there is one, without waiting.
     pub fn poll(&mut self) -> Option<TaskEvent<T>> {
         let run = self.run.as_mut()?;
         let progress = *lock(&run.shared.progress);
@@ -233,7 +233,7 @@ impl<T: Send + 'static> Task<T> {
         run.running.progress = progress.steps;
         let event = match run.events.try_recv() {
             Ok(event) => event,
-            // In this order: the latest part is newer than the queued ones.
+            // Checked after the channel: the latest value is newer than the queued ones.
             Err(TryRecvError::Empty) => TaskEvent::Partial(lock(&run.shared.latest).take()?),
             Err(TryRecvError::Disconnected) => {
                 self.run = None;
@@ -251,14 +251,14 @@ impl<T: Send + 'static> Task<T> {
         self.run.as_ref().map(|run| &run.running)
     }
 
-    /// Runs the waiting job on this thread; false if none waits.
+    /// Runs the waiting job on this thread; false if there is none.
     #[cfg(test)]
     pub(in crate::app) fn run_waiting(&self) -> bool {
         let job = lock(&self.queue.waiting).take();
         job.map(|job| job()).is_some()
     }
 
-    /// Runs the waiting job until it has handed over so many parts; it then counts as still at work.
+    /// Runs the waiting job until it has handed over this many partial results; it then counts as still running.
     #[cfg(test)]
     pub(in crate::app) fn run_waiting_until(&self, num_parts: usize) -> bool {
         if let Some(run) = &self.run {
@@ -270,7 +270,7 @@ impl<T: Send + 'static> Task<T> {
 
 impl<T> Drop for Task<T> {
     fn drop(&mut self) {
-        // Before the queue waits for its thread, which may itself wait for somebody to read.
+        // Cancel before the queue waits for its thread, which may be blocked until its results are read or dropped.
         if let Some(run) = self.run.take() {
             run.shared.is_cancelled.store(true, Ordering::Relaxed);
         }
@@ -284,7 +284,7 @@ impl<T> fmt::Debug for Task<T> {
     }
 }
 
-/// The job's side of a run: progress out, cancellation in.
+/// The job's side of a run: reports progress, learns of cancellation.
 pub struct TaskContext<T> {
     shared: Arc<RunShared<T>>,
     events: SyncSender<TaskEvent<T>>,
@@ -292,36 +292,36 @@ pub struct TaskContext<T> {
 }
 
 impl<T> TaskContext<T> {
-    /// Reports the steps done, and the steps in all.
+    /// Reports the steps done and the total steps.
     pub fn progress(&self, done: usize, total: usize) {
         lock(&self.shared.progress).steps = Some((done, total));
         (self.wake)();
     }
 
-    /// Hands over a part of the result. Waits while the window has not read the parts before.
+    /// Hands over a partial result. Blocks while too many are unread.
     pub fn partial(&self, part: T) {
         #[cfg(test)]
         {
             let mut limit = lock(&self.shared.limit);
             limit.num_left = limit.num_left.saturating_sub(1);
         }
-        // A cancelled run has no reader.
+        // A cancelled run has no receiver.
         let _ = self.events.send(TaskEvent::Partial(part));
         (self.wake)();
     }
 
-    /// Hands over a part in place of the one handed over so before, if that was not read yet.
+    /// Hands over a partial result, replacing the previous one from here if that is still unread.
     pub fn latest(&self, part: T) {
         *lock(&self.shared.latest) = Some(part);
         (self.wake)();
     }
 
-    /// True if the part of the last [`latest`](Self::latest) was read.
+    /// True if the value of the last [`latest`](Self::latest) was read.
     pub fn is_latest_read(&self) -> bool {
         lock(&self.shared.latest).is_none()
     }
 
-    /// An error once the run is cancelled.
+    /// Returns an error once the run is cancelled.
     pub fn check(&self) -> Result<(), TaskError> {
         if self.is_cancelled() {
             Err(TaskError::Cancelled)
@@ -334,7 +334,7 @@ impl<T> TaskContext<T> {
         if self.is_cancelled() {
             return;
         }
-        // What a job shares with others (a loaded library) is only ever replaced whole.
+        // Unwind-safe: data shared with others, such as a loaded library, is only ever replaced as a whole.
         let ended = guarded(|| job(&self));
         let event = match ended {
             Ok(Ok(result)) => Some(TaskEvent::Done(result)),
@@ -381,7 +381,7 @@ impl<T> ProgressObserver for TaskContext<T> {
 
 type Job = Box<dyn FnOnce() + Send>;
 
-/// A thread and the one job that waits for it.
+/// A thread, and the single job waiting for it.
 #[derive(Default)]
 struct JobQueue {
     waiting: Arc<Mutex<Option<Job>>>,
@@ -395,7 +395,7 @@ struct JobThread {
 }
 
 impl JobQueue {
-    /// Puts the job in place of the one that waits.
+    /// Puts a job in place of the waiting one.
     fn push(&mut self, job: Job, name: &'static str, threads: Threads) -> io::Result<()> {
         *lock(&self.waiting) = Some(job);
         match threads {
@@ -410,7 +410,7 @@ impl JobQueue {
                 .insert(JobThread::start(name, Arc::clone(&self.waiting))?),
         };
         match thread.filled.try_send(()) {
-            // Full: the thread has yet to look.
+            // Full: the thread has not taken the signal yet.
             Ok(()) | Err(TrySendError::Full(())) => Ok(()),
             Err(TrySendError::Disconnected(())) => Err(io::ErrorKind::BrokenPipe.into()),
         }
@@ -456,7 +456,7 @@ mod tests {
         Task::new("test", &TaskRunner::new(|| {}))
     }
 
-    /// The next event, waited for.
+    /// Waits for the next event.
     fn next<T: Send + 'static>(task: &mut Task<T>) -> TaskEvent<T> {
         let until = Instant::now() + Duration::from_secs(10);
         while Instant::now() < until {

@@ -1,4 +1,4 @@
-//! A failure as a person reads it.
+//! An error as shown to the user.
 
 use std::fmt::Display;
 
@@ -14,7 +14,7 @@ pub struct UserError {
 }
 
 impl UserError {
-    /// From an error that brings its advice.
+    /// Converts an error that has advice.
     pub fn of<E: Display + Advice>(error: &E) -> Self {
         Self {
             what: error.to_string(),

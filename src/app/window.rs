@@ -1,4 +1,4 @@
-//! The window as eframe drives it: fetch news, draw the last result, apply what was done.
+//! The window as eframe drives it: polls tasks, draws the last results, applies the user's actions.
 
 use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
@@ -54,28 +54,28 @@ use crate::{
 
 mod hosting;
 
-/// What the window is opened with.
+/// Options for opening the window.
 #[derive(Clone, Debug, Default)]
 pub struct WindowOptions {
-    /// The library's folder; without it the one chosen last, else the one found as on the command line.
+    /// The library's folder; `None` for the one chosen last, else the one that the command line would find.
     pub library: Option<PathBuf>,
-    /// The captured scene, or the folder of a scan, that is opened first; without it Capture takes one from the source.
+    /// A captured scene, or the folder of a scan, to open first; `None` to capture from the source.
     pub scene: Option<PathBuf>,
-    /// Where the settings are kept, and beside them the draft of Enrol; without it nothing is remembered.
+    /// File of the settings, beside which the draft of Enrol is kept; `None` to keep nothing.
     pub settings: Option<PathBuf>,
-    /// The folder of kept cases; without it the user's own.
+    /// Folder of kept cases; `None` for the user's own.
     pub cases: Option<PathBuf>,
-    /// The folder of the user's recipes; without it none are kept.
+    /// Folder of the user's recipes; `None` to keep none.
     pub recipes: Option<PathBuf>,
-    /// The folder of the history; without it inspections are kept in memory alone.
+    /// Folder of the history; `None` to keep inspections only in memory.
     pub history: Option<PathBuf>,
-    /// Where the user's own calibration of the robot's cell is; without it none is looked for.
+    /// File of the user's own calibration of the robot's cell; `None` to use none.
     pub cell: Option<PathBuf>,
-    /// The folder of the cell's baseline and checks; without it none are kept.
+    /// Folder of the cell's baseline and checks; `None` to keep none.
     pub cell_checks: Option<PathBuf>,
-    /// What opens cameras.
+    /// Opens cameras.
     pub camera: Camera,
-    /// The language to speak where none was chosen in the window; without it English.
+    /// Language unless one was chosen in the window; `None` for English.
     pub language: Option<Language>,
 }
 
@@ -87,16 +87,16 @@ pub struct Window {
     services: Services,
     robot: RobotCell,
     workspaces: Vec<Box<dyn Workspace>>,
-    /// What the workspaces have sent and was not done yet.
+    /// Messages of the workspaces that were not handled yet.
     messages: Vec<Message>,
     installed: Option<ThemeChoice>,
     gpu: Result<ViewportGpu, ViewError>,
-    /// When a hand was last on the window, seconds on egui's clock.
+    /// Time of the last input, seconds of egui's clock.
     touched: f64,
 }
 
 impl Window {
-    /// Starts the threads and asks for the first frame. Without a `render_state` the 3-D view says so in words.
+    /// Starts the threads and requests the first frame. Without a `render_state` the 3-D view shows an error text.
     pub fn new(
         ctx: &egui::Context,
         render_state: Option<&RenderState>,
@@ -131,7 +131,7 @@ impl Window {
             .ok_or_else(|| ViewError::NoDevice {
                 reason: "the window draws without one".into(),
             });
-        // Coats of paint are kept beside the recipes.
+        // Coats are kept beside the recipes.
         let coats = recipes.as_ref().map(|path| path.with_file_name("coats"));
         let draft = settings.as_ref();
         let draft = draft.map(|path| path.with_file_name("draft.json"));
@@ -171,13 +171,13 @@ impl Window {
         let answers = session.answering.is_on && session.source.followed().is_some();
         let first = match (scene, &session.source) {
             (Some(path), _) => Action::Open(path),
-            // Robots that were answered before are answered again: that takes frames.
+            // If robots were answered before, follow the source: answering them takes frames.
             (None, _) if answers => Action::Live(LiveAction::Toggle),
             (None, Source::Camera(spec)) => Action::Live(LiveAction::Use((**spec).clone())),
             (None, _) => Action::Capture,
         };
         window.state.load_library();
-        // At start the first scene is inspected, even if Enrol is in front.
+        // The first scene is inspected even if Enrol is in front.
         let front = std::mem::take(&mut window.state.session.workspace);
         window.state.inspector.is_start = true;
         window.act(first, ctx);
@@ -186,7 +186,7 @@ impl Window {
         Ok(window)
     }
 
-    /// Starts with the user's default recipe, where no recipe is remembered.
+    /// Uses the user's default recipe, if no recipe is remembered.
     fn use_default_recipe(&mut self, recipes: PathBuf) {
         match open_recipe(Ok(RecipeFolder::at(recipes)), None) {
             Ok(file) => self.state.session.recipe = Arc::new(file.into()),
@@ -194,19 +194,19 @@ impl Window {
         }
     }
 
-    /// What the window knows.
+    /// State of the window outside the workspaces.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// Does what a person could cause.
+    /// Carries out an action that the user could cause.
     pub fn act(&mut self, action: Action, ctx: &egui::Context) {
         if let Some(effect) = apply(&mut self.state, action) {
             self.make(effect, ctx);
         }
     }
 
-    /// Shows a result made elsewhere as an inspection of its own; what is being inspected is cancelled.
+    /// Shows a result made elsewhere as a new inspection; cancels a running one.
     pub fn show_result(&mut self, inspected: Arc<Inspected>, ctx: &egui::Context) {
         let event = inspector::show_made(&mut self.state, inspected);
         self.tell(&event, ctx);
@@ -246,7 +246,7 @@ impl Window {
         }
     }
 
-    /// True if nothing would be lost, or that was agreed to; else a person is asked.
+    /// True if nothing would be lost or the user has agreed; otherwise asks the user.
     fn may_close(&mut self) -> bool {
         if self.state.closing == Closing::Confirmed {
             return true;
@@ -258,36 +258,36 @@ impl Window {
         may_close
     }
 
-    /// Tells every workspace.
+    /// Sends an event to every workspace.
     fn tell(&mut self, event: &Event, ctx: &egui::Context) {
         for kind in WorkspaceKind::ALL {
             self.lend(kind, ctx, |workspace, cx| workspace.on_event(event, cx));
         }
     }
 
-    /// What the views draw with; the window itself draws with the same device.
+    /// The device that the views draw with, which also draws the window.
     pub(super) fn gpu(&self) -> &Result<ViewportGpu, ViewError> {
         &self.gpu
     }
 
-    /// True when nothing can be drawn any more, not even words.
+    /// True if the device is lost and nothing can be drawn any more.
     fn is_lost(&self) -> bool {
         self.gpu.as_ref().is_ok_and(ViewportGpu::is_lost)
     }
 
-    /// What the frames of the Inspect workspace have done so far.
+    /// Work done by the frames of Inspect so far.
     pub fn counts(&self) -> WorkCounts {
         let inspect = self.workspace::<InspectWorkspace>();
         inspect.map_or_else(WorkCounts::default, InspectWorkspace::counts)
     }
 
-    /// Share of the points that the Inspect workspace's view drew in the last frame, 0..1.
+    /// Share of the points that the view of Inspect drew in the last frame, 0..1.
     pub fn detail_of_view(&self) -> f32 {
         let inspect = self.workspace::<InspectWorkspace>();
         inspect.map_or(1.0, InspectWorkspace::detail)
     }
 
-    /// Says why the window is a new one.
+    /// Shows a notice that the window was reopened after its device was lost.
     pub(super) fn tell_of_lost_device(&mut self) {
         let lost = UserError {
             what: text!("shell-device-lost"),
@@ -296,7 +296,7 @@ impl Window {
         self.state.notices.push(lost.into());
     }
 
-    /// A source that is not there any more gives way to the simulated cell.
+    /// Replaces a source whose file is gone by the simulated cell.
     fn forget_a_vanished_file(&mut self) {
         let session = &mut self.state.session;
         let path = match &session.source {
@@ -324,7 +324,7 @@ impl Window {
         }
     }
 
-    /// Files dropped onto the window: the first is opened; a folder is a scan if poses lie in it, else it is played as a
+    /// Opens the first of the files dropped onto the window; a folder is a scan if it contains poses, else it is played as a
     /// recording.
     fn take_drops(&mut self, ctx: &egui::Context) {
         let dropped = ctx.input(|input| {
@@ -336,7 +336,7 @@ impl Window {
         }
     }
 
-    /// Enrols it where that is in front; what is opened elsewhere is inspected.
+    /// Enrols the file if Enrol is in front, else inspects it.
     fn take_file(&mut self, path: PathBuf, ctx: &egui::Context) {
         let is_scan = path.join(FRAME_POSES).is_file();
         let taker = match self.state.session.workspace {
@@ -355,7 +355,7 @@ impl Window {
         self.act(opened, ctx);
     }
 
-    /// Takes in what the threads, the dialog and the desktop have to tell.
+    /// Handles the results of tasks, the dialog, and input from the desktop.
     pub(super) fn fetch(&mut self, ctx: &egui::Context) {
         self.state.session.language.make_current();
         self.install_theme(ctx);
@@ -393,9 +393,9 @@ impl Window {
         }
     }
 
-    /// Draws everything, and does what a person caused.
+    /// Draws everything and carries out the user's actions.
     pub(super) fn show(&mut self, ui: &mut Ui) {
-        // egui breaks off on a device that is gone, unless there is nothing to draw.
+        // egui aborts on a lost device, unless there is nothing to draw.
         if self.is_lost() {
             return;
         }
@@ -419,7 +419,7 @@ impl Window {
         let room = notices::room(ui, &self.state, theme);
         let front = self.state.session.workspace;
         let canvas = match front {
-            // Its view covers everything: a software driver paints what is beneath all the same.
+            // Its view covers everything, and a software driver would still paint what is below.
             WorkspaceKind::Inspect => Frame::new(),
             _ => Frame::new().fill(theme.canvas),
         };
@@ -452,7 +452,7 @@ impl Window {
         self.lock_untouched(&ctx);
     }
 
-    /// True while a dialog lies over the workspaces, the window's, a workspace's or the system's.
+    /// True while any dialog is on top of the workspaces, including the system's.
     fn is_behind_dialog(&self, ctx: &egui::Context) -> bool {
         let state = &self.state;
         let is_own = state.help == HelpPage::Open
@@ -465,7 +465,7 @@ impl Window {
         is_own || self.services.dialogs.is_open() || ctx.memory(is_beneath)
     }
 
-    /// Locks the engineer's view when nobody has touched it for long.
+    /// Locks the engineer's view after a long time without input.
     fn lock_untouched(&mut self, ctx: &egui::Context) {
         let (now, is_touched) = ctx.input(|input| (input.time, !input.events.is_empty()));
         if is_touched {

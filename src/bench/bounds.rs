@@ -1,8 +1,8 @@
-//! Whether poses are as exact as their bounds say, on parts whose truth is exact.
+//! Measures whether pose errors stay within the bounds that the inspection reports, on parts with exact ground truth.
 //!
-//! Each part is enrolled, seen in simulated frames, and inspected. The error of the pose is taken where its bounds hold:
-//! at the middle of what was seen. Bounds deserve their name if 95 of 100 errors lie within them, and are of use if they
-//! are not many times the error.
+//! Each part is enrolled, rendered in simulated frames, and inspected. The pose error is taken where the bounds hold:
+//! at the centroid of the visible points. Good bounds contain 95 of 100 errors without being many times larger than
+//! them.
 
 mod subject;
 
@@ -23,21 +23,21 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// How much of a part is in the picture.
+/// Visible portion of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum View {
-    /// All of it, ±30° to the camera, any roll, 1 to 2 m away.
+    /// The whole part: ±30° to the camera, any roll, 1 to 2 m away.
     Whole,
-    /// The same, with 20 to 50 % of it beyond an edge of the picture.
+    /// The same, with 20 to 50 % of the part beyond an edge of the picture.
     Cut,
 }
 
 impl View {
-    /// Both.
+    /// Both views.
     pub const ALL: [Self; 2] = [Self::Whole, Self::Cut];
 
-    /// In a word.
+    /// Returns the name used in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Whole => "whole",
@@ -46,41 +46,41 @@ impl View {
     }
 }
 
-/// One frame.
+/// Result of one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundsCase {
-    /// What hung there.
+    /// Name of the part in the frame.
     pub part: String,
-    /// How much of it was in the picture.
+    /// Visible portion of the part.
     pub view: View,
-    /// The frame's seed.
+    /// Seed of the frame.
     pub seed: u64,
-    /// Whether it was named.
+    /// True if the part was named correctly.
     pub is_named: bool,
-    /// Whether it was accepted.
+    /// True if the verdict was accepted.
     pub is_accepted: bool,
-    /// The pose, if it was named.
+    /// The pose found, if the part was named correctly.
     pub found: Option<PoseAgainstTruth>,
 }
 
-/// A pose beside the truth.
+/// A pose compared with the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseAgainstTruth {
-    /// How far off, the shift at the middle of what was seen.
+    /// Pose error, with the shift at the centroid of the visible points.
     pub error: PoseDelta,
-    /// How far off it may be.
+    /// Reported bounds of the error.
     pub bounds: Option<Uncertainty>,
-    /// Why it should not be relied upon.
+    /// Warning against relying on the pose.
     pub doubt: Option<PoseWarning>,
 }
 
 impl PoseAgainstTruth {
-    /// True of a pose that is not another one altogether: within 5° and 40 mm.
+    /// Returns whether the error is at most 5° and 40 mm, so that this is not another pose altogether.
     pub fn is_near(&self) -> bool {
         self.error.rotation.degrees() <= 5.0 && self.error.shift.mm() <= 40.0
     }
 
-    /// The bounds, unless nothing holds the pose.
+    /// Returns the bounds, unless the pose is unconstrained.
     pub fn held(&self) -> Option<Uncertainty> {
         self.bounds.filter(Uncertainty::is_held)
     }
@@ -96,10 +96,10 @@ fn placement() -> PoseRange {
     }
 }
 
-/// Share of the part that a cut view leaves out.
+/// Share of the part outside the picture in a cut view.
 const CUT: std::ops::Range<f64> = 0.2..0.5;
 
-/// Inspects every part of a library in `num_poses` frames of each view; `after_each` is called with every case.
+/// Inspects every part of a library in `num_poses` frames of each view, and calls `after_each` with every case.
 pub fn bounds_cases(
     library: &BoundsLibrary,
     num_poses: u64,

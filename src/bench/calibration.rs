@@ -1,12 +1,11 @@
-//! Fitting the score: from the evidence for a reference to the probability that it is the part and stands where it was
-//! found.
+//! Fits the score: from the evidence for a reference to the probability that it is the right part at the right pose.
 //!
 //! Logistic regression with a small ridge penalty by Newton's method (D. R. Cox, "The regression analysis of binary
 //! sequences", Journal of the Royal Statistical Society B 20(2), 1958). Every contender of every frame is one sample,
-//! so an unknown object speaks against each part that it resembles. Right is a contender whose name is right and whose
-//! pose is within 5° and 40 mm. Parts of other car models are left out: a camera cannot tell all of them from the enrolled
-//! ones; those of other makes are never right. The likeness is fitted likewise: there
-//! right is a whole part whose name is right, of whatever model or make.
+//! so an unknown object is evidence against each part that it resembles. A contender is right if its name is right and
+//! its pose is within 5° and 40 mm. Parts of other car models are left out, since a camera cannot tell all of them from
+//! the enrolled ones; parts of other makes are never right. The likeness is fitted in the same way: there a contender
+//! is right if it is a whole part with the right name, of any model or make.
 
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -14,23 +13,23 @@ use serde::Serialize;
 use super::suites::{Suite, SuiteResult};
 use crate::stages::confirm::{Evidence, FEATURES, TYPE_FEATURES};
 
-/// Keeps the weights finite where the samples are told apart without a fault.
+/// Keeps the weights finite where the samples are perfectly separable.
 const RIDGE: f64 = 1e-4;
-/// A pose within this is right: degrees and millimetres.
+/// Largest error of a right pose: degrees and millimetres.
 const RIGHT_POSE: [f64; 2] = [5.0, 40.0];
 
-/// What a model gives the probability of.
+/// The question whose answer a model gives the probability of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Question {
-    /// Is it the part, at its place? The score.
+    /// Is it this part at this pose? The score.
     Part,
     /// Is it a part of this type? The likeness.
     Type,
 }
 
 impl Question {
-    /// The names of the features.
+    /// Returns the names of the features.
     pub fn features(self) -> &'static [&'static str] {
         match self {
             Self::Part => &FEATURES,
@@ -49,13 +48,13 @@ impl Question {
 /// One contender of one frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
-    /// What speaks for and against it.
+    /// Evidence for and against the contender.
     pub evidence: Evidence,
-    /// Whether the answer is yes.
+    /// True if the answer is yes.
     pub is_right: bool,
 }
 
-/// The contenders of all frames; for the type only the first of each, and only whole parts.
+/// Collects the contenders of all frames; for [`Question::Type`] only the first of each frame, and only whole parts.
 pub fn samples(results: &[SuiteResult], question: Question) -> Vec<Sample> {
     let of_suites = |is_used: fn(Suite) -> bool| {
         let used = results.iter().filter(move |result| is_used(result.suite));
@@ -72,7 +71,7 @@ pub fn samples(results: &[SuiteResult], question: Question) -> Vec<Sample> {
                         .is_some_and(|off| off[0] <= RIGHT_POSE[0] && off[1] <= RIGHT_POSE[1]),
             })
             .collect(),
-        // The mirror image of a part is of its type too, and is found another way.
+        // The mirror image of a part is of its type too; it is detected by other means.
         Question::Type => of_suites(|suite| suite != Suite::Mirrored)
             .filter_map(|(_, case)| {
                 let first = case.contenders.first()?;
@@ -86,19 +85,19 @@ pub fn samples(results: &[SuiteResult], question: Question) -> Vec<Sample> {
     }
 }
 
-/// A fitted model and how well it does on other samples.
+/// A fitted logistic model.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Model {
-    /// What it answers.
+    /// The question it answers.
     pub question: Question,
-    /// The constant.
+    /// Intercept.
     pub constant: f64,
-    /// A weight per feature.
+    /// One weight per feature.
     pub weights: Vec<f64>,
 }
 
 impl Model {
-    /// Fits the features that are switched on.
+    /// Fits a model with the features that are switched on.
     pub fn fit(samples: &[Sample], question: Question, is_on: &[bool]) -> Self {
         let size = is_on.len() + 1;
         let row = |sample: &Sample| {
@@ -133,14 +132,14 @@ impl Model {
         }
     }
 
-    /// The probability of being right.
+    /// Returns the probability of being right.
     pub fn probability(&self, evidence: &Evidence) -> f64 {
         let features = self.question.of(evidence);
         let sum: f64 = self.weights.iter().zip(features).map(|(w, x)| w * x).sum();
         logistic(self.constant + sum)
     }
 
-    /// Mean of -ln(probability of what is so), over samples.
+    /// Returns the mean of -ln(probability of the true answer) over the samples.
     pub fn log_loss(&self, samples: &[Sample]) -> f64 {
         let loss = samples.iter().map(|sample| {
             let p = self.probability(&sample.evidence);
@@ -150,7 +149,7 @@ impl Model {
         loss.sum::<f64>() / samples.len().max(1) as f64
     }
 
-    /// Wrong samples at or above a threshold, and right ones below it.
+    /// Counts the wrong samples at or above a threshold, and the right ones below it.
     pub fn errors(&self, samples: &[Sample], threshold: f64) -> [usize; 2] {
         let mut errors = [0; 2];
         for sample in samples {
@@ -169,20 +168,20 @@ fn logistic(x: f64) -> f64 {
     1.0 / (1.0 + (-x).exp())
 }
 
-/// Of the verdicts whose score falls into a band: how many there are, and how many are right.
+/// The verdicts whose score falls into one band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ScoreBand {
     /// Lower end of the band.
     pub from: f64,
-    /// Mean score of those in it.
+    /// Mean score in the band.
     pub mean_score: f64,
-    /// Best guesses in it.
+    /// Number of best guesses in the band.
     pub num: usize,
-    /// Right ones.
+    /// Number of right ones among them.
     pub num_right: usize,
 }
 
-/// How often best guesses were right, by score: calibrated is as often as the score says.
+/// Counts how often the best guesses were right, by score. The score is calibrated if that share equals it.
 pub fn bands(results: &[SuiteResult]) -> Vec<ScoreBand> {
     const ENDS: [f64; 8] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99];
     let cases: Vec<(f64, bool)> = results

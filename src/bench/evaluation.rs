@@ -1,4 +1,4 @@
-//! What `evaluate` reports: as text for people, as a record for other programs.
+//! The report of `evaluate`: as text for people, as a record for other programs.
 
 use std::fmt::Display;
 
@@ -13,7 +13,7 @@ use crate::{
     report::TextTable,
 };
 
-/// An evaluation with its recipe and its times.
+/// An evaluation with its recipe and stage times.
 #[derive(Debug)]
 pub struct EvaluationReport<'a> {
     evaluation: &'a Evaluation,
@@ -23,7 +23,7 @@ pub struct EvaluationReport<'a> {
 }
 
 impl<'a> EvaluationReport<'a> {
-    /// The report on an evaluation by this recipe, of `num_threads` inspections at a time.
+    /// Creates the report on an evaluation with this recipe, which ran `num_threads` inspections at a time.
     pub fn of(evaluation: &'a Evaluation, recipe: &'a RecipeRecord, num_threads: usize) -> Self {
         let timings: Vec<Timings> = evaluation.results.iter().map(|r| r.timings).collect();
         Self {
@@ -34,7 +34,7 @@ impl<'a> EvaluationReport<'a> {
         }
     }
 
-    /// What `evaluate --json` writes.
+    /// Returns what `evaluate --json` writes.
     pub fn record(&self) -> EvaluationRecord<'_, &[StageTimes]> {
         EvaluationRecord::of(
             self.evaluation,
@@ -45,7 +45,7 @@ impl<'a> EvaluationReport<'a> {
     }
 }
 
-/// Lines to be shown. Control characters in names are shown as `\u001b`.
+/// Report lines. Control characters in names are shown as `\u001b`.
 #[derive(Default)]
 struct Text {
     lines: Vec<String>,
@@ -62,7 +62,7 @@ impl Text {
 }
 
 impl EvaluationReport<'_> {
-    /// The report in English, line by line.
+    /// Returns the report in English, line by line.
     pub fn lines(&self) -> Vec<String> {
         let mut text = Text::default();
         self.show(&mut text);
@@ -141,7 +141,7 @@ fn show_tallies<'a>(
     text.table(&table);
 }
 
-/// Every case that is not right, the worst first.
+/// Lists every case that is not right, the worst first.
 fn show_mistakes(evaluation: &Evaluation, text: &mut Text) {
     for judgement in [CaseOutcome::WrongAccepted, CaseOutcome::Refused] {
         let wrong = evaluation.results.iter();
@@ -161,7 +161,7 @@ fn show_mistakes(evaluation: &Evaluation, text: &mut Text) {
     }
 }
 
-/// Columns by number, so that eight names fit a terminal.
+/// Heads the columns with numbers, so that eight parts fit a terminal.
 fn show_confusion(confusion: &Confusion, text: &mut Text) {
     text.line(&"Confusion matrix: rows what it is, columns what it was accepted as");
     let numbers =

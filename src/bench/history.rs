@@ -1,4 +1,4 @@
-//! How long the history takes to be asked when it is long.
+//! Measures how long queries of a long history take.
 
 use std::{sync::Arc, time::Instant};
 
@@ -17,31 +17,32 @@ use crate::{
     stages::scene::{SceneCloud, scene_from_frame},
 };
 
-/// Rows of a page.
+/// Rows per page.
 const PAGE: usize = 50;
-/// Times that each filter is asked.
+/// Number of times that each query runs.
 const NUM_TIMES: usize = 21;
-/// Inspections that are written with their frames.
+/// Number of inspections that are written with their frames.
 const NUM_WRITTEN: usize = 25;
-/// Between two inspections, seconds: a hundred thousand are three years of one every five minutes, day and night.
+/// Interval between two inspections, seconds: a hundred thousand of them span almost three years.
 const APART: i64 = 900;
 
-/// The time of something.
+/// Time of one operation.
 #[derive(Clone, Debug, Serialize)]
 pub struct HistoryTime {
-    /// What.
+    /// Name of the operation.
     pub what: &'static str,
-    /// Rows that it lets through; of writing, bytes of a frame.
+    /// Number of matching rows; for writing, bytes per frame.
     pub num: usize,
     /// Median, milliseconds.
     pub median_ms: f64,
-    /// The longest, milliseconds.
+    /// Maximum, milliseconds.
     pub longest_ms: f64,
-    /// What it may take, milliseconds.
+    /// Budget, milliseconds.
     pub budget_ms: f64,
 }
 
-/// Fills a history with so many rows and asks for pages with their counts, first and last; then writes some with frames.
+/// Fills a history with `num_rows` rows and times pages with their counts, the statistics, and writing entries with
+/// frames.
 pub fn history_times(num_rows: usize) -> Result<Vec<HistoryTime>, HistoryError> {
     let unwritable = |source| HistoryError::Unwritable {
         path: std::env::temp_dir(),
@@ -210,7 +211,7 @@ fn entry(
                 recipe: Some(Arc::clone(recipe)),
                 library_identity: "0badcafe".into(),
                 program: env!("CARGO_PKG_VERSION").into(),
-                // As long as one is.
+                // Length of a typical line.
                 line: "x".repeat(1500),
                 thumbnail: Vec::new(),
                 origin: None,

@@ -1,7 +1,7 @@
-//! Experiments: how often right, how far off, how long. On simulated frames, and on the paper's own protocol.
+//! Experiments: recognition rate, pose error and run time, on simulated frames and on the paper's own protocol.
 //!
-//! Speed is reported here and nowhere else: as medians on the machine at hand, beside the budgets that the design
-//! names, never asserted by a test. The window, which shows some of these, is measured beside it.
+//! Speed is reported here only: as medians on the present machine, next to the budgets of the design. Tests never
+//! assert it. The window, which shows some of these figures, is measured separately.
 
 pub mod bounds;
 pub mod calibration;

@@ -1,8 +1,9 @@
-//! Spray paths and films of enrolled parts: the planned path beside two plain ones with the same gun, the part hung elsewhere,
-//! and what an error of its pose costs.
+//! Spray paths and films of enrolled parts: the planned path compared with two plain ones of the same gun, the film on
+//! a part that hangs elsewhere, and the effect of a pose error.
 //!
-//! The plain ones are straight rows over the part's bounding box, at the stand-off above the surface along the side and pointing along
-//! it, and the contour pattern. All three run at the speed that brings most of the surface within the tolerance.
+//! The plain paths are straight rows over the part's bounding box, at the stand-off above the surface and pointing
+//! along the part's side direction, and the contour pattern. All three run at the speed that brings most of the surface
+//! within the tolerance.
 
 use std::time::Instant;
 
@@ -21,75 +22,75 @@ use crate::{
     units::Metres,
 };
 
-/// How the part hangs for the comparison with its standard position: turned about this axis, and shifted.
+/// Pose of the part for the comparison with its standard position: axis, turn in degrees, shift in metres.
 const HUNG_AXIS: [f64; 3] = [0.3, 1.0, 0.2];
 const HUNG_TURN: f64 = 15.0;
 const HUNG_SHIFT: [f64; 3] = [0.06, -0.05, 0.062];
-/// Errors of a pose, degrees and metres.
+/// Pose errors, degrees and metres.
 const POSE_ERRORS: [[f64; 2]; 2] = [[0.5, 0.005], [1.0, 0.01]];
 
 /// A path over a part and its film.
 #[derive(Clone, Debug, Serialize)]
 pub struct PaintTrial {
-    /// Which way it was planned.
+    /// How the path was planned.
     pub way: &'static str,
-    /// Seconds that planning took, with all simulations that it needed.
+    /// Planning time, including the simulations it needs, seconds.
     pub seconds: f64,
-    /// Points of the path.
+    /// Number of points of the path.
     pub num_points: usize,
-    /// Ways with the gun on in one piece.
+    /// Number of uninterrupted strokes.
     pub num_rows: usize,
-    /// Between rows, metres.
+    /// Row spacing, metres.
     pub spacing: f64,
-    /// Speed of the jet, m/s.
+    /// Gun speed, m/s.
     pub speed: f64,
-    /// What the path takes.
+    /// Figures of the path.
     pub path: PathFigures,
-    /// The film.
+    /// Figures of the film.
     pub film: FilmFigures,
 }
 
-/// What an error of the pose changes, the worst over turns and shifts along three axes.
+/// Effect of a pose error on the film: the worst over errors about three axes.
 #[derive(Clone, Debug, Serialize)]
 pub struct PoseCost {
-    /// Turn, degrees.
+    /// Rotation error, degrees.
     pub turn_deg: f64,
-    /// Shift along the axis of the turn, metres.
+    /// Shift along the rotation axis, metres.
     pub shift_m: f64,
-    /// Share within the tolerance, least of all axes.
+    /// Smallest share of the surface within the tolerance.
     pub least_within: f64,
-    /// Change of the mean thickness, share of it.
+    /// Relative change of the mean thickness.
     pub mean_change: f64,
-    /// Change that 95 % of the points stay below, share of the target.
+    /// 95th percentile of the thickness change, as a share of the target.
     pub change_95: f64,
-    /// Greatest change at a point, share of the target.
+    /// Largest thickness change at a point, as a share of the target.
     pub most_change: f64,
 }
 
-/// A part, painted.
+/// Results of painting one part.
 #[derive(Clone, Debug, Serialize)]
 pub struct PaintedPart {
-    /// Its name.
+    /// Name of the part.
     pub name: String,
-    /// Points of its surface, and their spacing in metres.
+    /// Number of surface points.
     pub num_surface_points: usize,
-    /// Spacing of them.
+    /// Spacing of the surface points, metres.
     pub surface_spacing: f64,
-    /// The planned path first.
+    /// The trials, the planned path first.
     pub trials: Vec<PaintTrial>,
-    /// Greatest change of thickness where the part hangs turned and shifted, share of the target.
+    /// Largest thickness change where the part hangs turned and shifted, as a share of the target.
     pub hung_change: f64,
-    /// What errors of the pose cost.
+    /// Effects of pose errors.
     pub pose_costs: Vec<PoseCost>,
-    /// Surface and film of the planned path, for pictures.
+    /// Surface of the part, for pictures.
     #[serde(skip)]
     pub surface: PaintSurface,
-    /// Likewise.
+    /// Film of the planned path, for pictures.
     #[serde(skip)]
     pub film: Film,
 }
 
-/// Paints an enrolled part.
+/// Plans, simulates and compares the paths of an enrolled part.
 pub fn paint_part(
     reference: &Reference,
     surface: PaintSurface,
@@ -153,7 +154,8 @@ impl PaintTrial {
     }
 }
 
-/// Straight rows at even distances over the bounding box, there and back; the nozzle is above the nearest point of the surface.
+/// Plans straight rows at even distances over the bounding box, back and forth; the nozzle is above the nearest surface
+/// point.
 fn straight_rows(surface: &PaintSurface, coat: &Coat) -> Option<SprayPath> {
     let w = surface.side;
     let axes = [surface.longest, w.cross(&surface.longest), w];
@@ -209,7 +211,7 @@ fn moved(surface: &PaintSurface, by: &RigidTransform) -> PaintSurface {
     }
 }
 
-/// Greatest change of thickness where the part hangs turned and shifted and its path is carried there.
+/// Returns the largest thickness change where the part hangs turned and shifted and its path is carried along.
 fn hung_change(
     reference: &Reference,
     surface: &PaintSurface,
@@ -244,7 +246,7 @@ fn hung_change(
         .fold(0.0, f64::max))
 }
 
-/// Change of the thickness at each reachable point, share of the target.
+/// Returns the thickness change at each reachable point, as a share of the target.
 fn changes(before: &Film, after: &Film, coat: &Coat) -> Vec<f64> {
     let each = before
         .thickness
@@ -300,7 +302,7 @@ fn pose_cost(
     Ok(cost)
 }
 
-/// Places of the points, seen from the side: to the right and up, metres.
+/// Projects the points onto the side view: to the right and up, metres.
 pub fn seen_from_side(surface: &PaintSurface) -> Vec<[f64; 2]> {
     let across = surface.side.cross(&surface.longest);
     let of =

@@ -1,22 +1,22 @@
-//! What this process holds of the system: more with every frame would fill it in the end.
+//! Memory, threads and handles of this process; a leak with every frame would exhaust them in the end.
 
 use std::fs;
 
 use serde::Serialize;
 
-/// What this process holds; `None` where the system does not tell.
+/// Resources that this process holds.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ProcessUsage {
-    /// Memory that is in use, megabytes.
+    /// Resident memory, megabytes.
     pub memory_mb: f64,
-    /// Threads.
+    /// Number of threads.
     pub num_threads: usize,
-    /// Open files, sockets and devices.
+    /// Number of open files, sockets and devices.
     pub num_handles: usize,
 }
 
 impl ProcessUsage {
-    /// As it is now.
+    /// Reads the present usage; `None` where the system does not report it.
     pub fn now() -> Option<Self> {
         let status = fs::read_to_string("/proc/self/status").ok()?;
         let number = |name: &str| -> Option<f64> {
@@ -27,7 +27,7 @@ impl ProcessUsage {
         Some(Self {
             memory_mb: number("VmRSS:")? / 1024.0,
             num_threads: number("Threads:")? as usize,
-            // Less the one that lists them.
+            // Excludes the handle that lists the folder.
             num_handles: fs::read_dir("/proc/self/fd").ok()?.count().checked_sub(1)?,
         })
     }
@@ -44,7 +44,7 @@ mod tests {
         let file = fs::File::open("Cargo.toml").expect("there");
         let memory = std::hint::black_box(vec![1_u8; 64 << 20]);
         let now = ProcessUsage::now().expect("Linux tells");
-        // Other tests run at the same time.
+        // Allows for other tests that run at the same time.
         assert!(
             now.memory_mb > before.memory_mb + 20.0,
             "{before:?} {now:?}"

@@ -1,4 +1,4 @@
-//! Processor time, which others at work on the machine do not lengthen.
+//! Processor time, which other load on the machine does not lengthen.
 
 use std::{
     fs,
@@ -8,7 +8,7 @@ use std::{
 #[cfg(target_os = "linux")]
 use rustix::time::{ClockId, clock_gettime};
 
-/// Processor time of this thread so far, seconds; `None` where the system does not tell.
+/// Returns the processor time of this thread so far, seconds; `None` where the system does not report it.
 #[cfg_attr(
     target_os = "linux",
     expect(
@@ -23,8 +23,8 @@ fn thread_seconds() -> Option<f64> {
     None
 }
 
-/// Processor time of all threads of this process so far, seconds: with a software driver the drawing is in it. `None`
-/// where the system does not tell.
+/// Returns the processor time of all threads of this process so far, seconds, including drawing by a software driver;
+/// `None` where the system does not report it.
 pub fn process_seconds() -> Option<f64> {
     #[cfg(target_os = "linux")]
     return Some(seconds(ClockId::ProcessCPUTime));
@@ -38,16 +38,16 @@ fn seconds(clock: ClockId) -> f64 {
     now.tv_sec as f64 + now.tv_nsec as f64 / 1e9
 }
 
-/// Seconds that this thread could have run so far, and waited for a core that others had; `None` where the system does
-/// not tell.
+/// Returns how long this thread has been runnable but waiting for a core so far, seconds; `None` where the system does
+/// not report it.
 pub fn cpu_wait_seconds() -> Option<f64> {
-    // Nanoseconds run, nanoseconds waited, turns taken.
+    // Nanoseconds running, nanoseconds waiting, number of time slices.
     let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let waited: f64 = text.split_whitespace().nth(1)?.parse().ok()?;
     Some(waited / 1e9)
 }
 
-/// Counts the processor time of the thread that started it; the clock's where the system does not tell.
+/// Measures the processor time of the thread that started it, or wall-clock time where the system reports none.
 #[derive(Clone, Copy, Debug)]
 pub struct ProcessorWatch {
     begun: Instant,
@@ -55,7 +55,7 @@ pub struct ProcessorWatch {
 }
 
 impl ProcessorWatch {
-    /// Begins to count.
+    /// Starts measuring.
     pub fn start() -> Self {
         Self {
             begun: Instant::now(),
@@ -63,7 +63,7 @@ impl ProcessorWatch {
         }
     }
 
-    /// What was spent since the start, to be asked on the same thread.
+    /// Returns the time since the start; call it on the same thread.
     pub fn elapsed(&self) -> Duration {
         match (self.thread_seconds, thread_seconds()) {
             (Some(before), Some(now)) => Duration::from_secs_f64((now - before).max(0.0)),

@@ -1,7 +1,8 @@
-//! Registration where no two clouds share a point: how often the pose is right, how sure it is, how long it takes.
+//! Registration of clouds that share no point: how often the pose is right, its uncertainty and its time.
 //!
 //! The paper's protocol aligns copies of the same points, which two starts along the principal axes solve. Here every
-//! cloud is sampled anew from the part's surface, with noise, and brought anywhere: what a second capture of a part is.
+//! cloud is sampled anew from the part's surface, with noise, and moved to an arbitrary pose, like a second capture of
+//! a part.
 
 mod clouds;
 
@@ -28,37 +29,38 @@ use crate::{
     units::Metres,
 };
 
-/// Points of every target, and of a source at most.
+/// Number of points of every target, and the most of a source.
 pub const NUM_POINTS: usize = 20_000;
-/// Standard deviation of every coordinate of every point, unless it is said otherwise.
+/// Standard deviation of each coordinate of a point, unless the condition sets another.
 const NOISE: Metres = Metres(0.001);
-/// How far a source is shifted at most.
+/// Largest shift of a source, metres.
 const FARTHEST: f64 = 0.8;
 
-/// What a source is.
+/// How the sources are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Condition {
-    /// The whole part, turned and shifted anyhow.
+    /// The whole part at an arbitrary pose.
     Whole,
     /// One view by the simulated camera, from within 60° of the front, with a Kinect's noise.
     View,
-    /// As whole, but for 30 % of the part beyond a plane.
+    /// As [`Whole`](Self::Whole), without the 30 % of the part beyond a plane.
     Hidden,
-    /// As whole, with three times the noise.
+    /// As [`Whole`](Self::Whole), with three times the noise.
     Noisy,
-    /// As whole, with one point in ten anywhere around.
+    /// As [`Whole`](Self::Whole), with one point in ten replaced by a stray one.
     Stray,
-    /// As whole, from T1..T5 (eq. 15) and then from starts drawn anyhow.
+    /// As [`Whole`](Self::Whole), from T1..T5 (eq. 15) and then from random starts.
     Starts,
-    /// Both clouds are drawn at random places, 1 500 to 20 000 of each, with 0.5 to 4 mm of noise along and across.
+    /// Both clouds are random samples of 1 500 to 20 000 points, with 0.5 to 4 mm of noise along and across the
+    /// surface.
     Resampled,
-    /// What is seen of the part from within 75° of its outside, drawn likewise, onto the whole part.
+    /// What is visible from within 75° of the outside, sampled likewise, onto the whole part.
     Outside,
 }
 
 impl Condition {
-    /// All of them.
+    /// All conditions.
     pub const ALL: [Self; 8] = [
         Self::Whole,
         Self::View,
@@ -70,12 +72,12 @@ impl Condition {
         Self::Outside,
     ];
 
-    /// Whether every source has a target of its own.
+    /// Returns whether every source has its own target.
     fn has_targets_of_its_own(self) -> bool {
         matches!(self, Self::Resampled | Self::Outside)
     }
 
-    /// In words.
+    /// Describes the condition for people.
     pub fn title(self) -> &'static str {
         match self {
             Self::Whole => "whole, 1 mm noise, any turn, shifts to 0.8 m",
@@ -92,17 +94,17 @@ impl Condition {
     }
 }
 
-/// A part that is registered to itself.
+/// A part that is registered with itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegistrationPart {
-    /// Its name.
+    /// Name of the part.
     pub name: String,
-    /// Its surface, centred, the outside towards -z.
+    /// Surface mesh, centred, the outside towards -z.
     pub mesh: TriangleMesh,
 }
 
 impl RegistrationPart {
-    /// The eight parts of the simulator.
+    /// Returns the eight parts of the simulator.
     pub fn simulated() -> Vec<Self> {
         let part = |kind: PartKind| Self {
             name: kind.name().to_owned(),
@@ -111,7 +113,7 @@ impl RegistrationPart {
         PartKind::ALL.map(part).into()
     }
 
-    /// Any mesh in metres.
+    /// Creates a part from any mesh in metres.
     pub fn of_mesh(name: String, mesh: &TriangleMesh) -> Self {
         let hung = hung_from_mesh(mesh);
         let hang = |p: &Point3<f32>| (hung * p.cast::<f64>()).cast();
@@ -123,56 +125,56 @@ impl RegistrationPart {
     }
 }
 
-/// What is registered, and how often.
+/// What to register, and how often.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegistrationSetup {
     /// The parts.
     pub parts: Vec<RegistrationPart>,
-    /// What the sources are.
+    /// How the sources are made.
     pub condition: Condition,
-    /// Sources of each part.
+    /// Number of sources per part.
     pub num_sources: usize,
-    /// Draws everything.
+    /// Seed of all random draws.
     pub seed: u64,
     /// The methods, each with its name and parameters.
     pub methods: Vec<(String, AlignParams)>,
 }
 
-/// One method on one source.
+/// Result of one method on one source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
-    /// The method's name.
+    /// Name of the method.
     pub method: String,
-    /// The part's name.
+    /// Name of the part.
     pub part: String,
-    /// Place of the source among those of the part.
+    /// Index of the source within the part.
     pub source: usize,
-    /// Time of the estimation without preparing the target.
+    /// Time of the estimation, without preparing the target.
     pub time: Duration,
     /// The pose found, or why there is none.
     pub found: Result<PoseAgainstTruth, PoseError>,
 }
 
-/// A pose beside the truth.
+/// A pose compared with the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseAgainstTruth {
-    /// How far off the truth; the shift is that of the source's middle.
+    /// Pose error, with the shift at the source's centroid.
     pub error: rigid::PoseDelta,
-    /// Why the pose says that it should not be relied upon.
+    /// Warning against relying on the pose.
     pub doubt: Option<PoseWarning>,
-    /// How far off the pose says that it may be.
+    /// Reported bounds of the error.
     pub uncertainty: Option<Uncertainty>,
 }
 
 impl Attempt {
-    /// Within 2° and 1 cm of the truth.
+    /// Returns whether the pose is within 2° and 1 cm of the truth.
     pub fn is_right(&self) -> bool {
         self.found
             .as_ref()
             .is_ok_and(|f| f.error.rotation.degrees() <= 2.0 && f.error.shift.mm() <= 10.0)
     }
 
-    /// Within the bounds that the pose names.
+    /// Returns whether the error is within the reported bounds.
     pub fn is_within_bounds(&self) -> bool {
         self.found.as_ref().is_ok_and(|f| {
             f.uncertainty
@@ -180,18 +182,18 @@ impl Attempt {
         })
     }
 
-    /// No pose, or one with a doubt.
+    /// Returns whether there is no pose, or one with a warning.
     pub fn is_doubted(&self) -> bool {
         self.found.as_ref().map_or(true, |f| f.doubt.is_some())
     }
 }
 
-/// All attempts.
+/// Results of all registrations.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Registration {
     /// One per part, source and method, in that order.
     pub attempts: Vec<Attempt>,
-    /// How long each target took to prepare.
+    /// Time to prepare each target.
     pub preparations: Vec<Duration>,
 }
 
@@ -200,7 +202,7 @@ pub struct Registration {
 #[error("the registration was cancelled")]
 pub struct Cancelled;
 
-/// Registers all sources; `after_each` is shown every attempt as it comes.
+/// Registers all sources, and calls `after_each` with every attempt.
 pub fn register_all(
     setup: &RegistrationSetup,
     mut after_each: impl FnMut(&Attempt),
@@ -254,7 +256,7 @@ impl Registration {
     }
 }
 
-/// A source, and the pose that puts it back.
+/// Draws a source; also returns its true pose.
 fn drawn_source(
     condition: Condition,
     part: &RegistrationPart,
@@ -285,9 +287,9 @@ fn drawn_source(
     (cloud, source_from_target.inverse())
 }
 
-/// Any turn, each as likely as any other, and a shift in any direction.
+/// Draws a uniformly random rotation, and a shift in a random direction.
 fn anywhere(rng: &mut Pcg64) -> RigidTransform {
-    // A unit quaternion drawn evenly on its sphere, by rejection from the cube around it.
+    // A unit quaternion drawn uniformly on its sphere, by rejection from the cube around it.
     let turn = loop {
         let q = nalgebra::Vector4::from([(); 4].map(|()| rng.random_range(-1.0..=1.0)));
         if (0.01..=1.0).contains(&q.norm_squared()) {
@@ -303,7 +305,7 @@ fn anywhere(rng: &mut Pcg64) -> RigidTransform {
     RigidTransform::from_parts(shift.into(), turn)
 }
 
-/// Algorithm 3 and what is left of it without each of its means: what pays?
+/// Returns Algorithm 3 and its variants with one component removed, to show the contribution of each.
 pub fn ablation() -> Vec<(String, AlignParams)> {
     type Change = fn(&mut AlignParams);
     let full = AlignParams::from(PoseMethod::IcpGa);

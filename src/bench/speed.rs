@@ -1,4 +1,4 @@
-//! How long the stages take, beside what they are meant to.
+//! Stage times compared with their budgets.
 
 use std::time::Duration;
 
@@ -9,13 +9,13 @@ use crate::pipeline::Timings;
 /// Times of one stage over many inspections.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct StageTimes {
-    /// The stage, as in reports, or two that share a budget.
+    /// Name of the stage as in reports, or of two that share a budget.
     pub stage: &'static str,
     /// Median, milliseconds.
     pub median_ms: f64,
     /// 95th percentile, milliseconds.
     pub p95_ms: f64,
-    /// What the design allows, milliseconds.
+    /// Budget of the design, milliseconds.
     pub budget_ms: f64,
 }
 
@@ -24,18 +24,18 @@ pub struct StageTimes {
 pub struct SetTimes {
     /// Name of the suite, or `files`.
     pub set: String,
-    /// Inspections.
+    /// Number of inspections.
     pub num_frames: usize,
     /// Median, milliseconds.
     pub median_ms: f64,
     /// 95th percentile, milliseconds.
     pub p95_ms: f64,
-    /// The longest, milliseconds.
+    /// Maximum, milliseconds.
     pub longest_ms: f64,
 }
 
 impl SetTimes {
-    /// Of these inspections; `None` without any.
+    /// Summarises these inspections; `None` if there are none.
     pub fn of(set: &str, timings: &[Timings]) -> Option<Self> {
         let ms = || timings.iter().map(|t| t.total.as_secs_f64() * 1e3);
         Some(Self {
@@ -47,7 +47,7 @@ impl SetTimes {
         })
     }
 
-    /// How long these took where the other took one: median, 95th percentile, longest.
+    /// Returns the ratios to the other times: median, 95th percentile, maximum.
     pub fn against(&self, other: &Self) -> [f64; 3] {
         [
             self.median_ms / other.median_ms,
@@ -57,7 +57,7 @@ impl SetTimes {
     }
 }
 
-/// Medians and 95th percentiles per stage; empty without timings.
+/// Returns medians and 95th percentiles per stage; empty without timings.
 pub fn stage_times(timings: &[Timings]) -> Vec<StageTimes> {
     type Pick = fn(&Timings) -> Duration;
     let columns: [(&'static str, f64, Pick); 6] = [
@@ -82,7 +82,7 @@ pub fn stage_times(timings: &[Timings]) -> Vec<StageTimes> {
         .collect()
 }
 
-/// The value below which a share (0..1) of the values lies; `None` without values.
+/// Returns the value below which a share (0..1) of the values lies; `None` without values.
 pub fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
     let mut values: Vec<f64> = values.collect();
     if values.is_empty() {

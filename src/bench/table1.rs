@@ -1,8 +1,8 @@
-//! The right half of the paper's Table I: what is left of E after ICP and after ICP-GA, from T1..T5 (eq. 15).
+//! The right half of the paper's Table I: the remaining E after ICP and after ICP-GA, from T1..T5 (eq. 15).
 //!
-//! For each part and each `T_k` the source is `T_k` applied to the part's own points, and the target is the part. So the true
-//! pose is the inverse of `T_k`, and E can reach zero. The paper captured its parts anew; what that changes is noise,
-//! which is measured elsewhere. Our global method stands beside the paper's two.
+//! For each part and each `T_k` the source is `T_k` applied to the part's own points, and the target is the part. So
+//! the true pose is the inverse of `T_k`, and E can reach zero. The paper captured its parts anew, which adds noise;
+//! [`registration`](super::registration) measures that. Our global method is listed next to the paper's two.
 
 use std::time::{Duration, Instant};
 
@@ -28,49 +28,49 @@ use crate::{
 /// One part from one of T1..T5.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// The part's name.
+    /// Name of the part.
     pub part: String,
-    /// 1 for T1, to 5.
+    /// Index of the transform: 1 for T1, up to 5.
     pub transform: usize,
-    /// Points of the part, source and target alike.
+    /// Number of points of the part, in source and target alike.
     pub num_points: usize,
-    /// How long the target took to prepare, once for all rows of the part.
+    /// Time to prepare the target, once for all rows of the part.
     pub preparation: Duration,
-    /// What each of [`PoseMethod::ALL`] came to.
+    /// One attempt per [`PoseMethod::ALL`].
     pub attempts: [Attempt; 3],
 }
 
-/// What a method came to.
+/// Result of one method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attempt {
     /// The method.
     pub method: PoseMethod,
-    /// Time of the estimation without preparing the target.
+    /// Time of the estimation, without preparing the target.
     pub time: Duration,
     /// The pose found, or why there is none.
     pub found: Result<PoseAgainstTruth, PoseError>,
 }
 
-/// A pose beside the truth.
+/// A pose compared with the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseAgainstTruth {
-    /// Eq. 12 over all points of the source, square metres.
+    /// E (eq. 12) over all points of the source, square metres.
     pub e_m2: f64,
-    /// How far off the truth; the shift is that of the part's middle.
+    /// Pose error, with the shift at the source's centroid.
     pub error: rigid::PoseDelta,
-    /// Iterations, generations included.
+    /// Number of iterations, including generations.
     pub num_iterations: usize,
-    /// How it ended.
+    /// Why the estimation stopped.
     pub stopped: Stopped,
 }
 
 impl Attempt {
-    /// E below the paper's 1e-6 m².
+    /// Returns whether E is below the paper's 1e-6 m².
     pub fn is_below_target(&self) -> bool {
         self.found.as_ref().is_ok_and(|found| found.e_m2 < 1e-6)
     }
 
-    /// Within 0.01° and 0.1 mm of the truth.
+    /// Returns whether the pose is within 0.01° and 0.1 mm of the truth.
     pub fn is_exact(&self) -> bool {
         self.found.as_ref().is_ok_and(|found| {
             found.error.rotation.degrees() < 0.01 && found.error.shift.mm() < 0.1
@@ -83,7 +83,7 @@ impl Attempt {
 #[error("Table I was cancelled")]
 pub struct Cancelled;
 
-/// The parts of a library that have a cloud, in the order of Table I, others behind.
+/// Returns the parts of a library that have a cloud, in the order of Table I, others last.
 pub fn parts(library: &Library) -> Vec<&Reference> {
     let place = |reference: &&Reference| {
         let known = PartKind::ALL.iter();
@@ -101,7 +101,7 @@ pub fn parts(library: &Library) -> Vec<&Reference> {
     parts
 }
 
-/// Makes the table row by row; `on_row` is shown each as it comes. The method of `params` is not looked at.
+/// Computes the table, and calls `on_row` with each row. The method in `params` is ignored.
 pub fn table1(
     library: &Library,
     params: &AlignParams,
@@ -175,7 +175,7 @@ fn attempts(
     Ok(attempts)
 }
 
-/// Eq. (12)
+/// Computes E (eq. 12).
 fn e_m2(source: &PointCloud, target: &Reference, pose: &RigidTransform) -> f64 {
     let moved = pose.cast::<f32>();
     let sum_sq: f64 = source

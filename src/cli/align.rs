@@ -1,4 +1,4 @@
-//! `partsight align`: the rigid transform that lays one cloud over another.
+//! `partsight align`: computes the rigid transform from one cloud onto another.
 
 use std::{path::PathBuf, time::Instant};
 
@@ -51,7 +51,7 @@ pub(super) struct AlignArgs {
     json: bool,
 }
 
-/// The line of `align --json`.
+/// JSON line of `align --json`.
 #[derive(Debug, Serialize)]
 struct AlignLine<'a> {
     schema: u32,
@@ -59,7 +59,7 @@ struct AlignLine<'a> {
     target: &'a str,
     method: &'static str,
     target_from_source: Option<[f64; 16]>,
-    /// Why there is none.
+    /// Why there is no pose, or why not to rely on it.
     reason: Option<String>,
     e_m2: Option<f64>,
     rms_m: Option<f64>,
@@ -130,7 +130,7 @@ pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Out
     })
 }
 
-/// The file that an error speaks of, or both.
+/// Names the file that an error is about, or both.
 fn paths_meant(args: &AlignArgs, error: PoseError) -> String {
     let (source, target) = (args.source.display(), args.target.display());
     match error {

@@ -1,4 +1,4 @@
-//! `partsight bench`: how often right, how far off, how long, on simulated frames.
+//! `partsight bench`: measures recognition rate, pose error and speed on simulated frames.
 
 mod bounds;
 mod calibration;
@@ -154,7 +154,7 @@ enum Bench {
     Soak,
 }
 
-/// Poses of each part, unless asked for otherwise.
+/// Default number of poses per part.
 const NUM_POSES: u64 = 25;
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -178,7 +178,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     }
 }
 
-/// Refuses options that the experiment asked for would pass over.
+/// Refuses options that the chosen experiment would ignore.
 fn check(args: &BenchArgs) -> anyhow::Result<()> {
     let bench = args.bench;
     if bench != Bench::Table1 && (args.csv.is_some() || !args.part.is_empty()) {

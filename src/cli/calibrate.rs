@@ -1,4 +1,4 @@
-//! `partsight calibrate`: where the camera sits in the robot's cell.
+//! `partsight calibrate`: calibrates where the camera sits in the robot's cell.
 
 mod captures;
 mod hand_eye;
@@ -188,7 +188,7 @@ fn question_unit(calibration: &CellCalibration, console: &Console) {
     }
 }
 
-/// The file named, or the user's own.
+/// Returns the named file, or the user's own.
 fn path_of(given: Option<&Path>) -> anyhow::Result<PathBuf> {
     match given {
         Some(path) => Ok(path.to_owned()),
@@ -196,7 +196,7 @@ fn path_of(given: Option<&Path>) -> anyhow::Result<PathBuf> {
     }
 }
 
-/// Loads the calibration named, or the user's own, and where it lies.
+/// Loads the named calibration, or the user's own. Also returns its path.
 fn load(given: Option<&Path>, console: &Console) -> anyhow::Result<(PathBuf, CellCalibration)> {
     let path = path_of(given)?;
     let loaded = CellCalibration::load(&path).advised()?;
@@ -213,8 +213,8 @@ fn note_if_edited(loaded: &Loaded, path: &Path, console: &Console) {
     }
 }
 
-/// Gives a scan the calibration named, which must be there and sound, or the user's own, if there is one: that is read
-/// only once it is asked for.
+/// Returns the calibration for a scan: a named one is loaded at once and must be valid; the user's own, if any, is read
+/// only when needed.
 pub(super) fn scan_calibration(
     given: Option<&Path>,
     console: &Console,
@@ -245,8 +245,8 @@ pub(super) struct CalibrationChoice {
 }
 
 impl CalibrationChoice {
-    /// The robot's frame; `None` without a calibration. One that is named must be there and sound; the user's own is
-    /// used if it can be.
+    /// Returns the robot's frame; `None` without a calibration. A named calibration must exist and be valid; the user's
+    /// own is used if possible, with a warning otherwise.
     pub(super) fn frame(&self, console: &Console) -> anyhow::Result<Option<RobotFrame>> {
         let must_be = self.calibration.is_some() || self.robot_pose.is_some();
         let given = self.robot_pose.as_ref().map(|written| &written.pose);

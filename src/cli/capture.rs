@@ -1,4 +1,4 @@
-//! `partsight capture`: records what a source gives.
+//! `partsight capture`: records the frames of a source.
 
 mod arm;
 
@@ -78,7 +78,7 @@ fn record(
             }
         };
         match arm.pose_for(&captured, source.is_live(), console)? {
-            // What is replayed may bring its own.
+            // A replayed frame may have its own pose.
             FramePoseResult::Record(None) => {}
             FramePoseResult::Record(pose) => captured.robot_from_flange = pose.map(Box::new),
             FramePoseResult::TooEarly => return Ok(ControlFlow::Continue(())),

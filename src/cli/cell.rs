@@ -1,4 +1,4 @@
-//! `partsight cell`: whether camera and cell still stand where they stood.
+//! `partsight cell`: checks that camera and cell have not moved.
 
 use std::{ops::ControlFlow, path::PathBuf};
 
@@ -184,7 +184,7 @@ fn check(
     } else {
         show(&check, &baseline, console);
     }
-    // Reported first: writing the list may fail.
+    // Writing to the list comes last, since it may fail.
     if !args.no_list {
         folder.add(&check).advised()?;
     }
@@ -295,7 +295,7 @@ fn list(
     Ok(Outcome::Accepted)
 }
 
-/// What the frames show.
+/// Reads what the frames show.
 fn views(args: &Views, console: &mut Console) -> anyhow::Result<CellViews> {
     let mut taken = CellViews::new(&args.recipe.recipe()?.segment);
     let mut look = |scene: &SceneCloud, name: &str| {

@@ -1,4 +1,4 @@
-//! Where text goes: answers to standard output, messages to standard error, a progress bar between them.
+//! Console output: answers to standard output, messages to standard error, and a progress bar in between.
 
 use std::{
     fmt::{self, Display},
@@ -11,25 +11,26 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 pub(super) use crate::report::TextTable as Table;
 use crate::{error::Advice, files::visible};
 
-/// Both outputs of a call. Nothing that stands in a file or in its name reaches the terminal as a command to it.
+/// Both outputs of a call. Control characters in files and their names are shown as text, so that the terminal does not
+/// interpret them.
 ///
-/// A reader that goes away (`| head`) does not end the work: the rest is not shown, and the exit code stays true.
+/// A reader that goes away (`| head`) does not stop the work: the rest is not shown, and the exit code stays the same.
 pub(super) struct Console {
     out: io::Stdout,
-    /// The first failure to write an answer, other than a reader that went away.
+    /// The first failure to write an answer, other than a closed pipe.
     failed: Option<io::Error>,
     is_read: bool,
     progress: ProgressBar,
 }
 
-/// An error as clap shows it: what is wrong with an argument, and what to do about it.
+/// Formats an error of an argument for clap, with its advice.
 pub(super) fn with_advice<E: Display + Advice>(error: &E) -> String {
     format!("{error}\n  to do: {}", error.advice())
 }
 
-/// More inputs than this take long enough for a progress bar.
+/// Number of inputs above which a progress bar is shown.
 const MANY: usize = 5;
-/// After this much silence a terminal shows that the command is still working.
+/// Time without output after which a terminal shows that the command is still working.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 impl Console {
@@ -42,12 +43,12 @@ impl Console {
         }
     }
 
-    /// One of several things about the same: what it is and, in a column of its own, how it is.
+    /// Writes a label and, in its own column, a text.
     pub(super) fn entry(&mut self, what: &str, text: &dyn Display) {
         self.line(&format_args!("  {what:<9} {text}"));
     }
 
-    /// One line of the answer, or several.
+    /// Writes one or several lines of the answer.
     pub(super) fn line(&mut self, text: &dyn Display) {
         if !self.is_read {
             return;
@@ -67,21 +68,21 @@ impl Console {
         }
     }
 
-    /// A remark beside the answer, on one line.
+    /// Writes a message next to the answer, on one line.
     pub(super) fn note(&self, text: &dyn Display) {
         let text = text.to_string();
-        // If stderr is gone, there is nobody to tell.
+        // Ignore a closed stderr.
         self.progress
             .suspend(|| drop(writeln!(io::stderr(), "{}", visible(&text))));
     }
 
-    /// Something odd, and what to do about it.
+    /// Writes a warning and its advice.
     pub(super) fn warn(&self, what: &dyn Display, advice: &dyn Advice) {
         self.note(&format_args!("warning: {what}"));
         self.note(&format_args!("  to do: {}", advice.advice()));
     }
 
-    /// Why something could not be done, and what to do about it.
+    /// Writes an error and its advice.
     pub(super) fn error(&self, error: &anyhow::Error) {
         self.note(&format_args!("error: {error:#}"));
         if let Some(advice) = advice_of(error) {
@@ -89,12 +90,12 @@ impl Console {
         }
     }
 
-    /// Shows on a terminal that a call is at work, if it takes long and shows no bar.
+    /// Shows on a terminal that a call is working, if it takes long and has no progress bar.
     pub(super) fn start_waiting(&mut self) {
         if io::stderr().is_terminal() {
             let late = |state: &ProgressState, out: &mut dyn fmt::Write| {
                 let text = waiting(state.elapsed()).unwrap_or_default();
-                // If stderr is gone, there is nobody to tell.
+                // Ignore a closed stderr.
                 let _ = out.write_str(&text);
             };
             let style = ProgressStyle::with_template("{late}");
@@ -105,7 +106,7 @@ impl Console {
         }
     }
 
-    /// Shows how far a long call has come, on a terminal.
+    /// Starts a progress bar, on a terminal.
     pub(super) fn start_progress(&mut self, num_inputs: usize) {
         if num_inputs > MANY && io::stderr().is_terminal() {
             self.progress.finish_and_clear();
@@ -116,7 +117,7 @@ impl Console {
         }
     }
 
-    /// Counts on a terminal what comes, where nobody can say how much that will be.
+    /// Starts a counter on a terminal, for an unknown number of inputs.
     pub(super) fn start_counting(&mut self) {
         if io::stderr().is_terminal() {
             self.progress.finish_and_clear();
@@ -127,35 +128,35 @@ impl Console {
         }
     }
 
-    /// One input more is done; `next` comes now.
+    /// Shows the input that begins now.
     pub(super) fn begin(&self, next: &dyn Display) {
         self.progress
             .set_message(visible(&next.to_string()).into_owned());
     }
 
-    /// The input begun last is done.
+    /// Counts an input as done.
     pub(super) fn done(&self) {
         self.progress.inc(1);
     }
 
-    /// Takes the progress bar away.
+    /// Removes the progress bar.
     pub(super) fn end_progress(&self) {
         self.progress.finish_and_clear();
     }
 
-    /// Ends the progress bar; the first failure to write an answer, if there was one.
+    /// Removes the progress bar. Returns the first failure to write an answer, if any.
     pub(super) fn finish(&mut self) -> io::Result<()> {
         self.progress.finish_and_clear();
         self.failed.take().map_or(Ok(()), Err)
     }
 }
 
-/// What is shown of a call that has been at work for so long; nothing of a short one.
+/// Returns the message for a call that has been working this long; `None` for a short one.
 fn waiting(elapsed: Duration) -> Option<String> {
     (elapsed >= PATIENCE).then(|| format!("Working, {} s", elapsed.as_secs()))
 }
 
-/// An error that brings its advice along.
+/// An error with its advice.
 #[derive(Debug)]
 struct AdvisedError {
     message: String,
@@ -176,7 +177,7 @@ fn advice_of(error: &anyhow::Error) -> Option<&str> {
         .map(|e| e.advice.as_str())
 }
 
-/// Keeps the advice of an error on its way up.
+/// Attaches the advice of an error for its way up.
 pub(super) trait Advised<T> {
     fn advised(self) -> anyhow::Result<T>;
 }
@@ -186,14 +187,14 @@ impl<T, E: std::error::Error + Advice + Send + Sync + 'static> Advised<T> for Re
         self.map_err(|error| {
             anyhow::Error::new(AdvisedError {
                 advice: error.advice(),
-                // Our messages hold their causes in words already.
+                // Our messages already contain their causes.
                 message: error.to_string(),
             })
         })
     }
 }
 
-/// An error of the command line itself, with its advice.
+/// Creates an error of the command line, with its advice.
 pub(super) fn advised_error(
     message: impl Into<String>,
     advice: impl Into<String>,
@@ -204,7 +205,7 @@ pub(super) fn advised_error(
     })
 }
 
-/// The name of a scene, marked if no camera was read and the name does not say so itself.
+/// Returns the name of a scene, marked as simulated if it is and the name does not already say so.
 pub(super) fn marked_simulated(name: &str, is_simulated: bool) -> String {
     if is_simulated && !name.to_lowercase().contains("simulated") {
         format!("{name}, simulated")
@@ -213,9 +214,9 @@ pub(super) fn marked_simulated(name: &str, is_simulated: bool) -> String {
     }
 }
 
-/// Numbers in columns, each to the millionth.
+/// Formats numbers in columns, with six decimals.
 pub(super) fn in_columns(numbers: &[f64]) -> String {
-    // Adding zero takes the sign from a negative zero.
+    // Adding zero removes the sign of a negative zero.
     let cells = numbers.iter().map(|x| format!("{:10.6}", x + 0.0));
     cells.collect::<Vec<_>>().join(" ")
 }

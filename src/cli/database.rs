@@ -1,4 +1,4 @@
-//! The plant's database of histories, as options.
+//! The plant's database of histories, as command line options.
 
 use std::path::PathBuf;
 
@@ -22,13 +22,13 @@ pub(super) struct DatabaseFiles {
 }
 
 impl DatabaseFiles {
-    /// A database at this address, with password and certificates read.
+    /// Creates the access to a database at this address; reads password and certificates.
     pub(super) fn access(
         &self,
         address: &str,
         console: &Console,
     ) -> anyhow::Result<DatabaseAccess> {
-        // Not parsed by clap, whose message would show a password in it.
+        // Not parsed by clap, whose message would show a password contained in it.
         let address = address.parse::<DatabaseAddress>().advised()?;
         let password = self.database_password_file.as_deref();
         let access = DatabaseAccess::new(address, password, self.database_ca.as_deref());
@@ -39,7 +39,7 @@ impl DatabaseFiles {
         Ok(access)
     }
 
-    /// Refuses files for a database that is not named.
+    /// Refuses the files if no database is named.
     pub(super) fn refuse_without(&self, option: &str) -> anyhow::Result<()> {
         if self.database_password_file.is_some() || self.database_ca.is_some() {
             return Err(advised_error(
@@ -51,7 +51,7 @@ impl DatabaseFiles {
     }
 }
 
-/// A cell's name on the command line.
+/// Parses a cell's name for clap.
 pub(super) fn parse_cell(text: &str) -> Result<CellName, String> {
     text.parse::<CellName>()
         .map_err(|error| with_advice(&error))
@@ -75,14 +75,14 @@ pub(super) struct HistoryToChoice {
     files: DatabaseFiles,
 }
 
-/// A database that the history is sent to.
+/// A database to which the history is sent.
 pub(super) struct ChosenDatabase {
     pub(super) access: DatabaseAccess,
     pub(super) cell: CellName,
 }
 
 impl HistoryToChoice {
-    /// What was chosen, with password and certificates read.
+    /// Returns the chosen database; reads password and certificates.
     pub(super) fn chosen(&self, console: &Console) -> anyhow::Result<Option<ChosenDatabase>> {
         let Some((address, cell)) = self.history_to.as_ref().zip(self.cell.clone()) else {
             self.files.refuse_without("--history-to")?;
@@ -93,7 +93,7 @@ impl HistoryToChoice {
     }
 }
 
-/// Shows what happened to the sending; what concerns the history itself goes to `tell`.
+/// Shows the events of the sender; passes those of the history itself to `tell`.
 pub(super) fn show_news(
     sender: &HistorySender,
     console: &Console,
@@ -112,7 +112,7 @@ pub(super) fn show_news(
     }
 }
 
-/// Sends what is not sent, for a few seconds at most, and shows what happened until then.
+/// Sends unsent rows for a few seconds at most, and shows the events until then.
 pub(super) fn end_sender(
     mut sender: HistorySender,
     console: &Console,

@@ -1,4 +1,4 @@
-//! `partsight enrol`: makes a reference part of a file.
+//! `partsight enrol`: makes a reference from a file.
 
 use std::path::{Path, PathBuf};
 
@@ -137,14 +137,15 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
     Ok(Outcome::Accepted)
 }
 
-/// The part that it becomes one more reference of. A name that nobody enrolled would be a part of its own in verdicts.
+/// Returns the part that the new reference belongs to. An unknown name is an error, since verdicts would treat it as a
+/// part of its own.
 fn part_of(args: &EnrolArgs) -> anyhow::Result<Option<PartName>> {
     let Some(named) = &args.part else {
         return Ok(None);
     };
     let folder = match &args.library.library {
         Some(path) => match LibraryFolder::open(path) {
-            // It would be made, and be empty.
+            // Enrolling would create the folder, and it would be empty.
             Err(LibraryError::NotFound { path }) => Err(LibraryError::NoSuchPart {
                 path,
                 name: named.to_string(),
@@ -156,7 +157,7 @@ fn part_of(args: &EnrolArgs) -> anyhow::Result<Option<PartName>> {
         None => args.library.open_to_change()?,
     };
     let part = folder.part_of(named).advised()?;
-    // One that replaces the part's own stays that.
+    // A reference that replaces the part's own is not an additional one.
     Ok(Some(part).filter(|part| *part != args.name))
 }
 
@@ -169,7 +170,7 @@ pub(super) fn parse_title(text: &str) -> Result<String, String> {
     }
 }
 
-/// What is said of a part; `simulated` as its file says.
+/// Creates the description of a part; `simulated` is what its file says.
 fn about(args: &EnrolArgs, from: &Path, simulated: bool) -> anyhow::Result<PartDescription> {
     let file_name = from.file_name().unwrap_or(from.as_os_str());
     Ok(PartDescription {
@@ -241,11 +242,11 @@ fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enro
         }
         FileContent::Cloud(cloud) => enrol_whole(&cloud, &about, &params),
     };
-    // The error speaks of the cloud, not of the file.
+    // The error is about the cloud and does not name the file.
     enrolled.map_err(|error| advised_error(format!("{path}: {error}"), error.advice()))
 }
 
-/// The surfaces to choose from, with what tells them apart on the picture.
+/// Lists the surfaces to choose from, with their positions in the picture.
 fn list_surfaces(scene: &SceneCloud, params: &EnrolParams, console: &Console) {
     let Some(Grid { width, .. }) = scene.cloud.grid else {
         return;

@@ -1,4 +1,4 @@
-//! `partsight evaluate`: how often right, on recorded cases whose truth is known, and what changed since an earlier run.
+//! `partsight evaluate`: accuracy on recorded cases with known truth, and changes since an earlier run.
 
 use std::path::PathBuf;
 
@@ -66,7 +66,7 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
             "Name two",
         ));
     }
-    // Before the work, so that a wrong file does not cost it.
+    // Read first, so that a wrong file does not cost the work.
     let earlier = args.against.as_deref().map(EarlierRun::read);
     let earlier = earlier.transpose().advised()?;
     let recipe = args.recipe.recipe()?;
@@ -156,10 +156,10 @@ fn outcome(evaluation: &Evaluation, changes: Option<&Changes>) -> Outcome {
     }
 }
 
-/// Scores listed; more are counted.
+/// Maximum number of scores listed; all are counted.
 const MOST_LISTED: usize = 20;
 
-/// What differs from an earlier run.
+/// Shows the differences from an earlier run.
 fn show_changes(changes: &Changes, console: &mut Console) {
     let Changes {
         regressions,

@@ -1,4 +1,4 @@
-//! `partsight` alone without a display: one inspection of the simulated cell, so that a first call shows something.
+//! `partsight` alone without a display: inspects a frame of the simulated cell, so that a first call shows something.
 
 use super::{
     LibraryChoice, Outcome,
@@ -11,7 +11,7 @@ use crate::{
     stages::{reference::ReferenceParams, scene::scene_from_frame},
 };
 
-/// The frame's seed.
+/// Seed of the frame.
 const SEED: u64 = 1;
 
 pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -45,6 +45,6 @@ pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Res
         table.row([format!("  {command}"), what.to_owned()]);
     }
     table.show(console);
-    // A look around, not an inspection: whatever the verdict, it ran.
+    // This is only a demonstration: whatever the verdict, it succeeded.
     Ok(Outcome::Accepted)
 }

@@ -1,4 +1,4 @@
-//! Following a source from a command: until it ends, there is enough, or Ctrl-C.
+//! Following a source from a command until it ends, enough frames came, or Ctrl-C.
 
 use std::{ops::ControlFlow, time::Duration};
 
@@ -11,19 +11,20 @@ use crate::{
     error::Advice as _,
 };
 
-/// How long nothing need come before it is looked whether Ctrl-C was pressed.
+/// Interval between checks for Ctrl-C while nothing comes.
 const TURN: Duration = Duration::from_millis(100);
 
-/// A source on the command line.
+/// Parses a source for clap.
 pub(super) fn parse_source(text: &str) -> Result<SourceSpec, String> {
     let spec = text.parse::<SourceSpec>();
-    // A recording gives every frame as fast as it is taken, unless it says its pace: then a replay is exact.
+    // Unless it names a pace, a recording delivers each frame as soon as the last one is taken, so that a replay is
+    // exact.
     spec.map(|spec| spec.paced(Pace::Step))
         .map_err(|error| with_advice(&error))
 }
 
-/// Hands what a source gives to `each` until that breaks off, the source ends, or Ctrl-C; `None` about ten times a second
-/// while nothing comes, and how the feed is then. How it was at the end.
+/// Passes what a source gives to `each` until that breaks, the source ends, or Ctrl-C. While nothing comes, `each` gets
+/// `None` about ten times a second. It always gets the status of the feed too, whose last value is returned.
 pub(super) fn follow(
     spec: &SourceSpec,
     console: &mut Console,
@@ -33,7 +34,7 @@ pub(super) fn follow(
     let feed = Feed::start(spec.clone(), BackpressurePolicy::for_source(spec), || ()).advised()?;
     let mut lost: Option<String> = None;
     while !interrupt.came() {
-        // Asked before: what was put there before the end is taken yet.
+        // Read before waiting, so that items queued before the end are still taken.
         let status = feed.status();
         if let Some(item) = feed.wait(TURN) {
             if lost.take().is_some() {
@@ -52,7 +53,7 @@ pub(super) fn follow(
                 return Err(advised_error(error.to_string(), error.advice()));
             }
             FeedState::Lost { error, .. } => {
-                // Once for each cause, not once for each retry.
+                // Report each cause once, not each retry.
                 let words = error.to_string();
                 if lost.as_ref() != Some(&words) {
                     console.warn(
@@ -69,7 +70,7 @@ pub(super) fn follow(
     Ok(feed.status())
 }
 
-/// What the help says of sources.
+/// Help text on sources.
 pub(super) const SOURCES: &str = "\
 Sources:
   simulated                 the simulated cell, where the eight parts come one after the other

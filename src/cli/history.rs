@@ -1,4 +1,4 @@
-//! `partsight history`: what was inspected, and what would be found today.
+//! `partsight history`: lists, shows and exports past inspections.
 
 mod again;
 mod export;
@@ -266,7 +266,7 @@ pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<O
     }
 }
 
-/// A name may be right that is not enrolled any more, or not yet; more often it is mistyped.
+/// Warns about a name that is not enrolled: it may be right, but is more often mistyped.
 fn note_if_unknown(part: &str, library: &LibraryChoice, console: &mut Console) {
     let Ok(load) = library.load_some(&ReferenceParams::default(), console) else {
         return;
@@ -290,7 +290,7 @@ fn open_to_read(folder: &Path, console: &Console) -> anyhow::Result<History> {
 }
 
 fn open(folder: &Path, console: &Console) -> anyhow::Result<History> {
-    // Nothing is made by a wrong path.
+    // A wrong path must not create a history.
     if !folder.join(crate::history::FILE).is_file() {
         return open_to_read(folder, console);
     }
@@ -319,7 +319,7 @@ fn opened(
     Ok(opened.history)
 }
 
-/// A moment, as the clocks here go.
+/// Formats a time in the local time zone.
 fn here(at: Timestamp) -> String {
     let at = at.to_zoned(TimeZone::system());
     at.strftime("%Y-%m-%d %H:%M:%S").to_string()
@@ -338,7 +338,7 @@ fn list(history: &History, asked: &ListArgs, console: &mut Console) -> anyhow::R
 }
 
 impl ListArgs {
-    /// How many rows are shown at most.
+    /// Returns the maximum number of rows.
     fn most(&self) -> usize {
         if self.limit == 0 {
             i64::MAX as usize
@@ -348,7 +348,7 @@ impl ListArgs {
     }
 }
 
-/// A row, and the name of its cell where it is one of several.
+/// A row, and the name of its cell if there are several cells.
 type CellRow<'a> = (Option<&'a str>, &'a Summary);
 
 fn show_rows(rows: &[CellRow<'_>], asked: &ListArgs, console: &mut Console) {
@@ -384,7 +384,7 @@ fn show_rows(rows: &[CellRow<'_>], asked: &ListArgs, console: &mut Console) {
     table.show(console);
 }
 
-/// How many rows are shown, of how many that match, and how many parts there are.
+/// Notes how many rows are shown, how many match, and how many parts there are.
 fn note_counts(
     rows: &[CellRow<'_>],
     [num_matching, num_all]: [usize; 2],

@@ -1,4 +1,4 @@
-//! What the commands read: scenes and clouds, and what robots say as arguments.
+//! Inputs of the commands: scenes, clouds, and robot poses and conventions as arguments.
 
 use std::{
     ops::RangeInclusive,
@@ -22,7 +22,7 @@ use crate::{
     stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image},
 };
 
-/// Why a file is no input for a command.
+/// Why a command cannot use a file.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum InputError {
     #[error(transparent)]
@@ -61,7 +61,7 @@ fn one_of<const N: usize>(names: [&'static str; N]) -> PossibleValuesParser {
 }
 
 impl ImportChoice {
-    /// Writes it behind the paths, from where it is read.
+    /// Appends the options to the paths, where opening a file reads them.
     pub(super) fn write_behind<'a>(&self, paths: impl IntoIterator<Item = &'a mut PathBuf>) {
         let options = ImportOptions {
             unit: LengthUnit::named(&self.units).unwrap_or_default(),
@@ -73,20 +73,20 @@ impl ImportChoice {
     }
 }
 
-/// A captured scene and what is odd about its file.
+/// A captured scene and the warnings about its file.
 pub(super) type OpenedScene = Result<(SceneCloud, Vec<FileWarning>), InputError>;
 
-/// Scenes with the names of their files, as they are opened.
+/// Scenes as they are opened, with the paths of their files.
 pub(super) type Scenes<'a> = mpsc::IntoIter<(&'a Path, OpenedScene)>;
 
-/// Opens scenes one ahead of whom they are for: the first while `work` still prepares, each next while one is
-/// inspected. The scenes come in the order of their files.
+/// Opens scenes one ahead: the first while `work` still prepares, each next one while one is inspected. They come in
+/// the order of their files.
 pub(super) fn open_ahead<T>(files: &[PathBuf], work: impl FnOnce(Scenes<'_>) -> T) -> T {
     thread::scope(|scope| {
         let (hand_over, opened) = mpsc::sync_channel(0);
         scope.spawn(move || {
             for path in files {
-                // Nobody takes it when the work was given up.
+                // Sending fails once the work was given up.
                 if hand_over.send((&**path, open_scene(path))).is_err() {
                     return;
                 }
@@ -100,7 +100,7 @@ pub(super) fn open_ahead<T>(files: &[PathBuf], work: impl FnOnce(Scenes<'_>) -> 
 pub(super) fn open_scene(path: &Path) -> OpenedScene {
     let opened = match files::open(path) {
         Ok(opened) => opened,
-        // A camera that is covered or looks at nothing: the file is sound, there is just no part to see.
+        // The camera is covered or sees nothing: the file is valid, but contains no part.
         Err(FileError::NoPoints { .. }) => return Ok((SceneCloud::default(), Vec::new())),
         Err(error) => return Err(error.into()),
     };
@@ -117,12 +117,12 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
     Ok((scene, warnings))
 }
 
-/// For clap: a pose of the arm or the camera in a robot's numbers.
+/// Parses a pose in a robot's convention for clap.
 pub(super) fn parse_robot_pose(text: &str) -> Result<WrittenPose, String> {
     parse_written_pose(text).map_err(|error| with_advice(&error))
 }
 
-/// For clap: a convention by its name.
+/// Parses the name of a convention for clap.
 pub(super) fn parse_convention(name: &str) -> Result<Convention, String> {
     Convention::by_name(name).ok_or_else(|| {
         let names: Vec<&str> = Convention::ALL
@@ -133,7 +133,7 @@ pub(super) fn parse_convention(name: &str) -> Result<Convention, String> {
     })
 }
 
-/// Opens what the same camera saw without a part.
+/// Opens a capture of the empty cell by the same camera.
 pub(super) fn open_empty_cell(path: &Path, console: &Console) -> anyhow::Result<Arc<EmptyCell>> {
     let (scene, warnings) = open_scene(path).advised()?;
     for warning in &warnings {
@@ -142,7 +142,7 @@ pub(super) fn open_empty_cell(path: &Path, console: &Console) -> anyhow::Result<
     Ok(Arc::new(EmptyCell::of(&scene).advised()?))
 }
 
-/// Lets a scene know what stood in the empty cell, and says so if it is another camera's.
+/// Attaches the empty cell to a scene, with a warning if it is from another camera.
 pub(super) fn before(
     scene: &mut SceneCloud,
     cell: Option<&Arc<EmptyCell>>,
@@ -156,7 +156,7 @@ pub(super) fn before(
     scene.empty_cell = cell.cloned();
 }
 
-/// Opens anything with points: a mesh is sampled evenly.
+/// Opens any file with points; a mesh is sampled evenly.
 pub(super) fn open_cloud(path: &Path) -> Result<(PointCloud, Vec<FileWarning>), InputError> {
     let opened = files::open(path)?;
     let warnings = opened.warnings();
@@ -166,7 +166,7 @@ pub(super) fn open_cloud(path: &Path) -> Result<(PointCloud, Vec<FileWarning>), 
     Ok((cloud, warnings))
 }
 
-/// For clap: a number within a range.
+/// Parses a number within a range for clap.
 pub(super) fn within(text: &str, range: &RangeInclusive<f64>) -> Result<f64, String> {
     let number = text.parse::<f64>().ok();
     number
@@ -174,7 +174,7 @@ pub(super) fn within(text: &str, range: &RangeInclusive<f64>) -> Result<f64, Str
         .ok_or_else(|| format!("expected a number from {}", from_to(range)))
 }
 
-/// A range in words.
+/// Formats a range.
 pub(super) fn from_to(range: &RangeInclusive<f64>) -> String {
     format!("{} to {}", range.start(), range.end())
 }

@@ -1,4 +1,4 @@
-//! `partsight inspect`: which part is it, and where?
+//! `partsight inspect`: recognises the part and estimates its pose.
 
 pub(in crate::cli) mod hung;
 mod program;
@@ -223,7 +223,7 @@ fn inspect(
     if let Some(kept) = one.followed.take().and_then(FollowedParts::end) {
         one.keep(kept, console);
     }
-    // First, because the broker may be waited for.
+    // Before the publisher, which may wait for the broker.
     if let Some(recording) = one.recording {
         recording.finish(console);
     }
@@ -253,7 +253,7 @@ fn inspect_files(
     Ok(outcome)
 }
 
-/// What stays the same from file to file.
+/// State shared by all files or frames of a call.
 struct InspectSession {
     library: Library,
     recipe: NamedRecipe,
@@ -265,18 +265,18 @@ struct InspectSession {
     format: OutputFormat,
     report: Option<ReportFolder>,
     recording: Option<HistoryRecorder>,
-    /// Of a source whose frames show one part after the other.
+    /// Set for a source whose frames show one part after the other.
     followed: Option<FollowedParts<KeptInspection>>,
     #[cfg(feature = "plant")]
     publisher: Option<publish::Publisher>,
     mirrored: MirrorTally,
 }
 
-/// An inspection as others are told of it, once its verdict counts.
+/// An inspection to store and publish once its verdict counts.
 struct KeptInspection {
-    /// For the history.
+    /// Entry for the history.
     entry: Option<NewEntry>,
-    /// For the broker.
+    /// Result for the broker.
     #[cfg(feature = "plant")]
     found: Option<Found>,
 }
@@ -303,7 +303,8 @@ impl InspectSession {
         }
     }
 
-    /// One frame of many: where the program itself fails at it, that is its error, and the next one comes.
+    /// Inspects one of many frames: a fault of the program there becomes an error of that frame, and the next one
+    /// follows.
     fn frame(
         &mut self,
         path: &Path,
@@ -320,7 +321,7 @@ impl InspectSession {
         })
     }
 
-    /// Something that is no scene, and why; `shown` is the same in words for people.
+    /// Reports an input that is not a scene; `shown` is the error as text for people.
     fn unreadable(
         &mut self,
         path: &Path,
@@ -339,7 +340,7 @@ impl InspectSession {
         Ok(Outcome::CouldNotRun)
     }
 
-    /// A scene, and what is known of it if a source captured it; its report takes its name from the path.
+    /// Inspects a scene; `capture` is known if a source captured it. The report is named after the path.
     fn inspect_scene(
         &mut self,
         path: &Path,
@@ -389,7 +390,7 @@ impl InspectSession {
             line.in_robot(robot, inspection).to_json()
         };
         let line = line_of(&inspection);
-        // The table has no room for it; its reports and the history say it of each.
+        // The table has no room for the mark; reports and history have it.
         let shown = match format {
             OutputFormat::Card => marked_simulated(&name, file_says_simulated),
             _ => name.clone(),
@@ -411,13 +412,13 @@ impl InspectSession {
         if let (Some(spray), Some(robot)) = (spray, robot) {
             outcome = outcome.max(spray.write(&seen, robot, console)?);
         } else if let (Some(program), Some(robot)) = (program, robot) {
-            // A refused part whose program was forced stays refused.
+            // A refused part keeps its outcome even if its program was forced.
             outcome = outcome.max(program.write(&seen, file_says_simulated, robot, console)?);
         } else if let Some(report) = report {
             let pictures = stage_pictures(&scene, &inspection);
             report.write(path, &line, &pictures).advised()?;
         }
-        // Last: it must not keep anybody from the verdict.
+        // Last, so that the verdict does not wait for it.
         let is_kept = recording.is_some();
         #[cfg(feature = "plant")]
         let is_kept = is_kept || publisher.is_some();
@@ -451,7 +452,7 @@ impl InspectSession {
         Ok(outcome)
     }
 
-    /// Hands an inspection to the history and to the broker.
+    /// Passes an inspection to the history and to the publisher.
     fn keep(&mut self, kept: KeptInspection, console: &Console) {
         if let (Some(recording), Some(entry)) = (&mut self.recording, kept.entry) {
             recording.add(entry, console);
@@ -463,7 +464,7 @@ impl InspectSession {
     }
 }
 
-/// Inspects what a source gives, as it comes.
+/// Inspects the captures of a source as they come.
 fn inspect_source(
     source: &SourceSpec,
     frames: Option<u64>,
@@ -515,7 +516,7 @@ fn inspect_source(
     console.note(&format_args!(
         "{num_inspected} inspected, {dropped} dropped, {skipped} could not be read"
     ));
-    // Nothing was accepted, then.
+    // Nothing was inspected, so nothing was accepted.
     Ok(if num_inspected == 0 {
         outcome.max(Outcome::NotAccepted)
     } else {

@@ -1,4 +1,4 @@
-//! Ctrl-C: the first ends the work with what there is, the second ends the program at once.
+//! Ctrl-C: the first one ends the work with the results so far, the second one ends the program at once.
 
 use std::{
     process,
@@ -15,11 +15,11 @@ pub(super) struct Interrupt {
     came: Arc<AtomicBool>,
 }
 
-/// What shells give a program that Ctrl-C ended: 128 and the signal's number.
+/// Exit code that shells use for a program ended by Ctrl-C: 128 plus the signal's number.
 const ENDED_AT_ONCE: i32 = 130;
 
 impl Interrupt {
-    /// From now on Ctrl-C does not end the program by itself. At most once in a program.
+    /// Intercepts Ctrl-C from now on. Call it at most once per process.
     pub(super) fn listen() -> anyhow::Result<Self> {
         let came = Arc::new(AtomicBool::new(false));
         let theirs = Arc::clone(&came);
@@ -32,7 +32,7 @@ impl Interrupt {
         Ok(Self { came })
     }
 
-    /// True once it was pressed.
+    /// Returns whether Ctrl-C was pressed.
     pub(super) fn came(&self) -> bool {
         self.came.load(Ordering::SeqCst)
     }

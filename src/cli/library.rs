@@ -1,4 +1,4 @@
-//! `partsight library`: what is enrolled.
+//! `partsight library`: the enrolled parts.
 
 #[cfg(feature = "plant")]
 mod bundle;
@@ -392,7 +392,7 @@ fn seen_from(coverage: Coverage) -> &'static str {
     }
 }
 
-/// Width, height and depth of the reference as it was enrolled.
+/// Formats width, height and depth of the reference as enrolled, millimetres.
 fn size_of(reference: &Reference) -> String {
     reference.cloud.bounds().map_or_else(
         || "-".into(),

@@ -1,7 +1,7 @@
-//! The command line: one file a subcommand.
+//! The command line, one file per subcommand.
 //!
-//! What was asked for goes to standard output, everything else to standard error. The exit code is part of the
-//! interface: see [`Outcome`].
+//! Results go to standard output, everything else to standard error. The exit code is part of the interface: see
+//! [`Outcome`].
 
 mod align;
 mod bench;
@@ -72,7 +72,7 @@ pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
     /// Without a command: the library's folder; without it your own, which starts with the shipped parts
-    // Named apart from the commands' own: that one is global to them, and would come up here.
+    // A separate id, since the commands' own --library is global and its value would appear here.
     #[arg(id = "bare_library", long = "library", value_name = "DIR")]
     library: Option<PathBuf>,
     /// Without a command: open this captured scene, or the scan in this folder, in the window
@@ -104,14 +104,14 @@ enum Command {
     History(history::HistoryArgs),
 }
 
-/// What a call came to; its exit code.
+/// Result of a call, and its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Outcome {
     /// 0: every input was accepted.
     Accepted,
-    /// 1: it ran, but something was not accepted.
+    /// 1: the call ran, but something was not accepted.
     NotAccepted,
-    /// 2: it, or one of its inputs, could not run.
+    /// 2: the call, or one of its inputs, could not run.
     CouldNotRun,
 }
 
@@ -174,7 +174,7 @@ pub fn run(cli: Cli) -> Outcome {
     }
 }
 
-/// What to do with a scene, or with the folder of a scan, where there is no window.
+/// Returns advice for opening a scene, or the folder of a scan, without a window.
 fn in_the_terminal(path: &Path) -> String {
     let option = if path.is_dir() { "--scan " } else { "" };
     format!(
@@ -183,7 +183,7 @@ fn in_the_terminal(path: &Path) -> String {
     )
 }
 
-/// This build has no window: takes the first look in the terminal instead.
+/// Runs the first look in the terminal, since this build has no window.
 #[cfg(not(feature = "window"))]
 fn window(
     library: &LibraryChoice,
@@ -199,7 +199,7 @@ fn window(
     }
 }
 
-/// Opens the window; where there can be none, says why and takes the first look in the terminal instead.
+/// Opens the window; if that fails, warns and runs the first look in the terminal instead.
 #[cfg(feature = "window")]
 fn window(
     library: &LibraryChoice,
@@ -210,7 +210,7 @@ fn window(
     let options = app::WindowOptions {
         library: library.library.clone(),
         settings: app::shell::settings::users_file(),
-        // Without such a folder the window keeps it in memory.
+        // Without such a folder the window keeps the history in memory.
         history: crate::history::users_folder().ok(),
         recipes: crate::pipeline::RecipeFolder::of_user()
             .ok()
@@ -244,7 +244,7 @@ struct LibraryChoice {
 }
 
 impl LibraryChoice {
-    /// Opens the library; says so where only the parts inside the program are left.
+    /// Opens the library; warns if only the parts inside the program are available.
     fn open(&self, console: &Console) -> anyhow::Result<LibraryPlace> {
         let place = open_library(self.library.as_deref()).advised()?;
         if let LibraryPlace::Program(reason) = &place {
@@ -256,14 +256,14 @@ impl LibraryChoice {
         Ok(place)
     }
 
-    /// Opens the library to change it.
+    /// Opens the library for changes.
     fn open_to_change(&self) -> anyhow::Result<LibraryFolder> {
         open_library(self.library.as_deref())
             .and_then(LibraryPlace::into_folder)
             .advised()
     }
 
-    /// Loads the library, prepared with these parameters, and names what had to be set aside.
+    /// Loads the library, prepared with these parameters; warns of the parts that could not be loaded.
     fn load(
         &self,
         params: &ReferenceParams,
@@ -280,7 +280,7 @@ impl LibraryChoice {
         Ok((place, load))
     }
 
-    /// The parts of a library; one without parts is an error.
+    /// Loads the library; one without parts is an error.
     fn load_some(
         &self,
         params: &ReferenceParams,
@@ -289,7 +289,7 @@ impl LibraryChoice {
         self.load_placed(params, console).map(|(_, load)| load)
     }
 
-    /// As [`Self::load`]; a library without parts is an error.
+    /// As [`Self::load`], but a library without parts is an error.
     fn load_placed(
         &self,
         params: &ReferenceParams,
@@ -310,7 +310,7 @@ impl LibraryChoice {
     }
 }
 
-/// What may be wrong with a folder that holds no parts.
+/// Returns advice on a folder without parts, if it looks like the wrong one.
 fn hint(folder: &LibraryFolder) -> Option<String> {
     let meant = folder.probably_meant()?;
     let meant = meant.display();

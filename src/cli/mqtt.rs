@@ -1,4 +1,4 @@
-//! Verdicts and states over MQTT, as options.
+//! Publishing verdicts and states over MQTT, as command line options.
 
 use std::path::PathBuf;
 
@@ -29,19 +29,19 @@ pub(super) struct MqttChoice {
     mqtt_ca: Option<PathBuf>,
 }
 
-/// A broker that can be connected to.
+/// A broker to connect to.
 pub(super) struct ChosenBroker {
     access: BrokerAccess,
     convention: Convention,
 }
 
 impl MqttChoice {
-    /// True if a broker was given.
+    /// Returns whether a broker is given.
     pub(super) fn is_wanted(&self) -> bool {
         self.mqtt.is_some()
     }
 
-    /// The broker, if one was given, with its password and certificates read.
+    /// Returns the broker, if given; reads password and certificates.
     pub(super) fn access(
         &self,
         convention: Option<Convention>,
@@ -49,7 +49,7 @@ impl MqttChoice {
         let Some(address) = &self.mqtt else {
             return Ok(None);
         };
-        // Not parsed by clap, whose message would show a password in it.
+        // Not parsed by clap, whose message would show a password contained in it.
         let broker = address.parse::<BrokerAddress>().advised()?;
         let Some(convention) = convention else {
             return Err(advised_error(
@@ -67,7 +67,7 @@ impl MqttChoice {
 }
 
 impl ChosenBroker {
-    /// Connects, without waiting for it; `boot` is the number of this start.
+    /// Starts the connection without waiting for the broker; `boot` is the boot number of this start.
     pub(super) fn start(
         &self,
         boot: u32,
@@ -95,7 +95,7 @@ impl ChosenBroker {
     }
 }
 
-/// Shows what happened to the connection.
+/// Shows the events of the connection.
 pub(super) fn show_news(link: &MqttLink, console: &Console) {
     while let Some(news) = link.news() {
         match news {
@@ -110,7 +110,7 @@ pub(super) fn show_news(link: &MqttLink, console: &Console) {
     }
 }
 
-/// Sends what waits, for a few seconds at most, and ends the connection.
+/// Sends what is queued, for a few seconds at most, and ends the connection.
 pub(super) fn end_link(link: MqttLink, console: &Console) {
     if let Err(unsent) = link.end() {
         console.warn(&format_args!("MQTT: {unsent}"), &unsent);

@@ -1,4 +1,4 @@
-//! In which numbers robots and other systems are told of poses and parts, as options.
+//! Conventions of poses and numbers of parts for robots and other systems, as command line options.
 
 use clap::{Args, ValueEnum};
 
@@ -35,7 +35,7 @@ enum PoseArg {
     RobotOffset,
 }
 
-/// A part, and the number by which robots know it.
+/// A part and its number for robots.
 #[derive(Clone, Debug)]
 struct PartNumber {
     name: String,
@@ -53,13 +53,13 @@ fn parse_number(text: &str) -> Result<PartNumber, String> {
 }
 
 impl NumbersChoice {
-    /// True if any option was given.
+    /// Returns whether any of these options is given.
     #[cfg(feature = "plant")]
     pub(super) fn is_given(&self) -> bool {
         self.convention.is_some() || self.transform.is_some() || !self.number.is_empty()
     }
 
-    /// Which pose is given.
+    /// Returns which pose to give.
     pub(super) fn kind(&self) -> PoseKind {
         match self.transform {
             None | Some(PoseArg::RobotFromPart) => PoseKind::RobotFromPart,
@@ -67,7 +67,7 @@ impl NumbersChoice {
         }
     }
 
-    /// What robots are told of each reference, in the order of the library.
+    /// Returns number and path of each reference, in the order of the library.
     pub(super) fn parts(
         &self,
         place: &LibraryPlace,

@@ -1,4 +1,4 @@
-//! How `inspect` tells its results: as JSON, as a card, or as rows under a heading.
+//! Output of `inspect`: JSON, a card, or rows under a heading.
 
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ use crate::{
     pipeline::{Inspection, Verdict},
 };
 
-/// How results are shown.
+/// Form of the results.
 pub(super) enum OutputFormat {
     Json,
     Card,
@@ -50,7 +50,7 @@ impl OutputFormat {
     }
 }
 
-/// Widths of the first two columns; rows are shown as they come, so the widths must be known before.
+/// Widths of the first two columns. Rows are written as they come, so the widths must be known beforehand.
 pub(super) struct Columns {
     scene: usize,
     part: usize,
@@ -68,7 +68,7 @@ impl Columns {
         }
     }
 
-    /// Names of captures are not known before they come: most are as long as this.
+    /// Uses a typical width, since the names of captures are not known beforehand.
     pub(super) fn for_captures(library: &Library) -> Self {
         Self {
             scene: "simulated frame 12345".len(),

@@ -1,4 +1,4 @@
-//! `partsight path`: what can be done with a part's spray path.
+//! `partsight path`: commands on a part's spray path.
 
 mod check;
 mod export;

@@ -1,4 +1,4 @@
-//! Programs for a robot's controller: what `inspect --program` and `path export` share.
+//! Programs for a robot's controller, as written by `inspect --program` and `path export`.
 
 use std::path::{Path, PathBuf};
 
@@ -84,7 +84,7 @@ pub(super) struct CellChoice {
 }
 
 impl CellChoice {
-    /// The arm in it.
+    /// Places an arm in this cell.
     pub(super) fn place(
         &self,
         mut arm: Arm,
@@ -115,7 +115,7 @@ pub(super) fn parse_format(name: &str) -> Result<ProgramFormat, String> {
     })
 }
 
-/// A program that is to be written.
+/// A program to write.
 pub(super) struct ProgramFile {
     file: PathBuf,
     format: ProgramFormat,
@@ -124,19 +124,19 @@ pub(super) struct ProgramFile {
     is_forced: bool,
 }
 
-/// Whose program it is.
+/// The part and capture that a program is for.
 pub(super) struct ProgramSubject<'a> {
     pub(super) part: &'a PartName,
-    /// What it was enrolled with, in its own frame.
+    /// Points of the reference, in part space.
     pub(super) part_points: &'a [Point3<f32>],
-    /// The capture; none for the standard position.
+    /// Name of the capture; `None` for the standard position.
     pub(super) scene: Option<&'a str>,
     pub(super) camera_from_part: RigidTransform,
     pub(super) is_simulated: bool,
 }
 
 impl ProgramOptions {
-    /// The program in a file, of this format or of that which the file's name ends in.
+    /// Prepares writing a program to a file, in this format or in the one of the file's extension.
     pub(super) fn open(
         &self,
         file: &Path,
@@ -171,7 +171,7 @@ impl ProgramOptions {
 }
 
 impl ProgramFile {
-    /// Writes the program of a carried path, unless something speaks against it.
+    /// Writes the program of a carried path, unless there is a reason against it.
     pub(super) fn write(
         &self,
         carried: &CarriedPath,

@@ -1,4 +1,4 @@
-//! The recipe, as options.
+//! The recipe, as command line options.
 
 use std::sync::Arc;
 
@@ -49,12 +49,12 @@ enum PoseArg {
 }
 
 impl RecipeChoice {
-    /// The recipe, with what is asked for.
+    /// Returns the recipe with the requested changes.
     pub(super) fn recipe(&self) -> anyhow::Result<NamedRecipe> {
         Ok(self.changed(&self.from.file()?))
     }
 
-    /// The file that it comes from, and the recipe with what is asked for.
+    /// Returns the recipe's file, and the recipe with the requested changes.
     pub(super) fn file(&self) -> anyhow::Result<(RecipeFile, NamedRecipe)> {
         let file = self.from.file()?;
         let recipe = self.changed(&file);
@@ -93,17 +93,17 @@ const SET_HELP: &str = "Give a parameter another value, in its own unit, such as
     several times. docs/guide/parameters.md lists names, units and ranges";
 
 impl RecipeSource {
-    /// True if something is asked for.
+    /// Returns whether any of these options is given.
     pub(super) fn is_given(&self) -> bool {
         self.recipe.is_some() || !self.set.is_empty()
     }
 
-    /// The recipe; without one the user's default.
+    /// Returns the recipe; by default the user's default one.
     pub(super) fn recipe(&self) -> anyhow::Result<NamedRecipe> {
         Ok(self.changed(&self.file()?, |_| ()))
     }
 
-    /// The recipe; without one the program's own, whatever the user's default is.
+    /// Returns the recipe; by default the built-in one, even if the user has another default.
     pub(super) fn recipe_or_built_in(&self) -> anyhow::Result<NamedRecipe> {
         let file = open_named(Some(self.recipe.as_deref().unwrap_or(BUILT_IN)))?;
         Ok(self.changed(&file, |_| ()))
@@ -113,7 +113,7 @@ impl RecipeSource {
         open_named(self.recipe.as_deref())
     }
 
-    /// With `change`, and then the values of `--set` in the order given.
+    /// Applies `change`, and then the values of `--set` in the given order.
     fn changed(&self, file: &RecipeFile, change: impl FnOnce(&mut Recipe)) -> NamedRecipe {
         let mut recipe = file.recipe.clone();
         change(&mut recipe);
@@ -130,12 +130,12 @@ impl RecipeSource {
     }
 }
 
-/// A recipe by its name or as a file; without one the user's default.
+/// Opens a recipe by its name or as a file; without either, the user's default.
 pub(super) fn open_named(given: Option<&str>) -> anyhow::Result<RecipeFile> {
     open_recipe(RecipeFolder::of_user(), given).advised()
 }
 
-/// Names the recipe, unless it is the program's own.
+/// Shows the name of the recipe, unless it is the built-in one.
 pub(super) fn show_recipe(recipe: &NamedRecipe, console: &mut Console) {
     if recipe.label != RecipeLabel::default() {
         let text = format!("{}, {}", recipe.label, recipe.identity());

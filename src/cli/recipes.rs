@@ -1,4 +1,4 @@
-//! `partsight recipe`: recipes as files.
+//! `partsight recipe`: manages recipes.
 
 use std::path::{Path, PathBuf};
 
@@ -204,7 +204,7 @@ struct ShowLine<'a> {
     changed: Vec<ChangeLine>,
 }
 
-/// A parameter that differs, in words.
+/// A parameter that differs, as text.
 #[derive(Serialize)]
 struct ChangeLine {
     parameter: &'static str,
@@ -266,7 +266,7 @@ fn replacing(replace: bool) -> Replace {
     if replace { Replace::Yes } else { Replace::No }
 }
 
-/// Keeps a recipe, or says how it can be.
+/// Saves a recipe; if the name is taken, the error gives advice.
 fn keep(file: &RecipeFile, replace: bool, console: &mut Console) -> anyhow::Result<()> {
     let folder = folder()?;
     let kept = match folder.save(file, replacing(replace)) {

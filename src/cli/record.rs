@@ -1,4 +1,4 @@
-//! What `inspect` writes into the history, behind every verdict.
+//! Recording of inspections in the history, after every verdict.
 
 use std::{
     collections::BTreeMap,
@@ -37,20 +37,20 @@ pub(super) struct HistoryChoice {
 }
 
 impl HistoryChoice {
-    /// The one in this folder.
+    /// Selects the history in this folder.
     pub(super) fn in_folder(folder: &Path) -> Self {
         Self {
             history: Some(folder.to_owned()),
         }
     }
 
-    /// The folder.
+    /// Returns the folder.
     pub(super) fn folder(&self) -> Result<PathBuf, HistoryError> {
         self.history.clone().map_or_else(users_folder, Ok)
     }
 }
 
-/// Writes inspections into the history, on a thread of its own. Whatever goes wrong is a warning: the verdict counts.
+/// Writes inspections to the history on a separate thread. All failures are only warnings, since the verdict counts.
 pub(super) struct HistoryRecorder {
     keeper: Arc<HistoryBuffer>,
     writer: Writer,
@@ -64,7 +64,7 @@ pub(super) struct HistoryRecorder {
 }
 
 impl HistoryRecorder {
-    /// Into this folder; `None`, and a warning, where it cannot even begin.
+    /// Starts recording; returns `None` after a warning if that fails.
     pub(super) fn start(
         choice: &HistoryChoice,
         library: &LibraryLoad,
@@ -100,7 +100,7 @@ impl HistoryRecorder {
         })
     }
 
-    /// The same, and the history is sent to this database from now on, on a thread of its own.
+    /// Also sends the history to this database from now on, on a separate thread.
     #[cfg(feature = "plant")]
     pub(super) fn sent_to(mut self, database: Option<ChosenDatabase>) -> anyhow::Result<Self> {
         if let Some((folder, database)) = self.keeper.folder().zip(database) {
@@ -111,7 +111,7 @@ impl HistoryRecorder {
         Ok(self)
     }
 
-    /// An inspection to be handed over; `line` is what `--json` shows of it.
+    /// Creates the entry of an inspection; `line` is what `--json` writes.
     pub(super) fn entry(
         &self,
         taken: SceneOrigin<'_>,
@@ -142,14 +142,14 @@ impl HistoryRecorder {
         entry
     }
 
-    /// Hands an inspection over.
+    /// Adds an inspection.
     pub(super) fn add(&mut self, entry: NewEntry, console: &Console) {
         self.num += 1;
         self.writer.add(self.num, entry);
         self.tell(console);
     }
 
-    /// Says what went wrong, once.
+    /// Shows the new events of the history.
     pub(super) fn tell(&self, console: &Console) {
         for news in self.keeper.take_news() {
             tell_of(news, console);
@@ -160,11 +160,11 @@ impl HistoryRecorder {
         }
     }
 
-    /// Waits until everything is written, and says what could not be.
+    /// Waits until everything is written, and reports what could not be.
     pub(super) fn finish(self, console: &Console) {
         self.writer.finish();
         self.tell(console);
-        // All that is sent is written now.
+        // Everything to be sent has been written by now.
         #[cfg(feature = "plant")]
         if let Some(sender) = self.sender {
             end_sender(sender, console, tell_of);
@@ -214,13 +214,13 @@ fn tell_of(news: HistoryEvent, console: &Console) {
     }
 }
 
-/// Where a scene came from.
+/// Origin of a scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneOrigin<'a> {
-    /// Its name.
+    /// Name of the scene.
     pub(super) scene: &'a str,
-    /// A source as it can be opened again, or a file.
+    /// The source in the form that opens it again, or a file.
     pub(super) source: &'a str,
-    /// True if no camera was read.
+    /// True if the scene does not come from a camera.
     pub(super) is_simulated: bool,
 }

@@ -1,4 +1,4 @@
-//! `partsight report`: the pose report of captured scenes, for people, programs and robots.
+//! `partsight report`: writes the pose report of captured scenes for people, programs and robots.
 
 use std::{
     path::{Path, PathBuf},
@@ -167,7 +167,7 @@ fn show_conventions(console: &mut Console) {
     table.show(console);
 }
 
-/// What stays the same from file to file.
+/// State shared by all files of a call.
 struct Reporter<'a> {
     args: &'a ReportArgs,
     load: LibraryLoad,
@@ -219,7 +219,7 @@ impl Reporter<'_> {
                 ));
                 Ok(outcome_of(&inspection))
             }
-            // The next may fit on the disk, or the stick be back.
+            // Go on: the next report may fit on the disk, or the stick may be back.
             Err(error) => {
                 console.error(&error);
                 Ok(Outcome::CouldNotRun)
@@ -257,7 +257,7 @@ impl Reporter<'_> {
         })
     }
 
-    /// Writes all formats; answers with the files.
+    /// Writes all formats, and returns the files.
     fn write(
         &mut self,
         path: &Path,

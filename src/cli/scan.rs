@@ -1,4 +1,4 @@
-//! `partsight scan`: several frames, each with its camera's pose, become one cloud.
+//! `partsight scan`: fuses several frames with known camera poses into one cloud.
 
 mod output;
 mod shots;
@@ -108,7 +108,7 @@ pub(super) fn run(args: &ScanArgs, console: &mut Console) -> anyhow::Result<Outc
     })
 }
 
-/// Names the frames that were left out.
+/// Warns of the frames that were left out.
 pub(super) fn warn_of_excluded(scan: &Scan, console: &Console) {
     for shot in &scan.shots {
         if let Some(why) = &shot.excluded {
@@ -118,7 +118,7 @@ pub(super) fn warn_of_excluded(scan: &Scan, console: &Console) {
     }
 }
 
-/// The low and the high half of each mask.
+/// Splits each mask into its low and its high half.
 fn halves(masks: &[u64]) -> [Vec<u32>; 2] {
     [0, 32].map(|shift| masks.iter().map(|mask| (mask >> shift) as u32).collect())
 }

@@ -1,4 +1,4 @@
-//! `partsight serve`: robots and PLCs ask for an inspection over TCP.
+//! `partsight serve`: lets robots and PLCs request an inspection over TCP.
 
 #[cfg(feature = "plant")]
 mod http;
@@ -119,7 +119,7 @@ fn parse_listen(text: &str) -> Result<ListenAddress, String> {
         .map_err(|error| with_advice(&error))
 }
 
-/// A source whose frames come whether they are asked for or not: after a trigger there is one.
+/// Parses a source that keeps delivering frames, so that there is one after each trigger.
 fn parse_running_source(text: &str) -> Result<SourceSpec, String> {
     let spec = text.parse::<SourceSpec>();
     let spec = spec.map_err(|error| with_advice(&error))?;
@@ -143,7 +143,7 @@ fn parse_running_source(text: &str) -> Result<SourceSpec, String> {
     }
 }
 
-/// Messages about clients that wait to be shown; more of them at once are left out.
+/// Maximum number of messages about clients waiting to be shown; further ones are dropped.
 const MAX_EVENTS: usize = 64;
 
 pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -229,7 +229,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     session.finish()
 }
 
-/// Says where robots find the service, and by which numbers they know the parts.
+/// Shows the addresses of the service, and the part numbers for robots.
 fn announce(
     server: &Server,
     listeners: &[Listener],
@@ -250,7 +250,7 @@ fn announce(
     }
 }
 
-/// A server and what it tells of its clients.
+/// A server and the events of its clients.
 struct StartedServer {
     server: Server,
     events: Receiver<ClientEvent>,
@@ -270,7 +270,7 @@ fn start(
     let (tell, events) = mpsc::sync_channel(MAX_EVENTS);
     let camera = Arc::clone(camera);
     let on_event = move |event| {
-        // With so many at once nobody reads them all.
+        // Drop events while the queue is full; nobody could read so many.
         let _ = tell.try_send(event);
     };
     let server = Server::start(listeners, settings, move || camera.status(), on_event);

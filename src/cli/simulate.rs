@@ -1,4 +1,4 @@
-//! `partsight simulate`: a frame of the simulated cell as a file, or many of them as cases with their truth.
+//! `partsight simulate`: writes a frame of the simulated cell, or many of them as cases with their truth.
 
 mod cases;
 mod scan;
@@ -98,7 +98,7 @@ pub(super) struct SimulateArgs {
     difficulty: Option<String>,
 }
 
-/// Names of what may hang there, then of groups of them.
+/// Returns the names of all objects, then of groups of them.
 fn subject_names() -> Vec<&'static str> {
     let parts = PartKind::ALL.map(PartKind::name);
     let objects = ObjectKind::ALL.map(ObjectKind::name);
@@ -126,7 +126,7 @@ fn parse_noise(text: &str) -> Result<f64, String> {
 }
 
 impl SimulateArgs {
-    /// What hangs there.
+    /// Returns the objects to simulate.
     fn subjects(&self) -> anyhow::Result<Vec<SimulatedObject>> {
         let part = |kind| SimulatedObject::Part {
             kind,
@@ -157,7 +157,7 @@ impl SimulateArgs {
         Ok(subjects)
     }
 
-    /// The cell with this in it; the pose is drawn.
+    /// Creates the cell with this object; the pose is drawn.
     fn cell(&self, subject: SimulatedObject, seed: u64) -> CellSetup {
         if self.booth {
             let mut setup = CellSetup::booth(subject, seed);
@@ -217,7 +217,7 @@ pub(super) enum PlacementChoice {
 }
 
 impl PlacementChoice {
-    /// As it is given.
+    /// Returns the name on the command line.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Facing => "facing",
@@ -290,7 +290,7 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
     Ok(Outcome::Accepted)
 }
 
-/// Below this share "0 %" is shown.
+/// Below this visible share "0 %" is shown.
 const LEAST_VISIBLE: f64 = 0.005;
 
 #[derive(Debug, thiserror::Error)]
@@ -304,7 +304,7 @@ impl Advice for OutOfSight {
     }
 }
 
-/// Refuses a call that would write one of its files over another.
+/// Refuses a call in which one output file would overwrite another.
 fn check_outputs_differ(args: &SimulateArgs, out: &Path) -> anyhow::Result<()> {
     let Some(truth) = &args.truth else {
         return Ok(());
@@ -331,7 +331,7 @@ fn check_outputs_differ(args: &SimulateArgs, out: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// True if two paths, whose files need not exist, name one file.
+/// Returns whether two paths, whose files need not exist, name the same file.
 fn is_same_file(a: &Path, b: &Path) -> bool {
     let full = |path: &Path| {
         let folder = match path.parent() {

@@ -1,4 +1,4 @@
-//! Serial number, order and operator, as options.
+//! Traceability (serial number, order and operator), as command line options.
 
 use clap::Args;
 
@@ -20,7 +20,7 @@ pub(super) struct TraceChoice {
 }
 
 impl TraceChoice {
-    /// What was given, for so many parts; of an endless number `None`.
+    /// Returns the given entries; `num_parts` is `None` if the number of parts is unknown.
     pub(super) fn of_parts(&self, num_parts: Option<usize>) -> anyhow::Result<Traceability> {
         let text = |given: &Option<String>| {
             let given = given.as_deref().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! How an inspection is told to a person: a card or a row.
+//! Verdicts for people: as a card or a row.
 
 use super::{Outcome, console::Console};
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     units::Metres,
 };
 
-/// The exit code that an inspection stands for.
+/// Returns the exit code of an inspection.
 pub(super) fn outcome_of(inspection: &Inspection) -> Outcome {
     match &inspection.verdict {
         Verdict::Part { rejected: None, .. } => Outcome::Accepted,
@@ -18,7 +18,8 @@ pub(super) fn outcome_of(inspection: &Inspection) -> Outcome {
     }
 }
 
-/// Where the part is: the middle of its reference's extent (x, y, z in mm) and its turn (rx, ry, rz in degrees).
+/// Returns the part's position, the middle of its reference's extent (x, y, z in mm), and its rotation (rx, ry, rz in
+/// degrees).
 pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f64; 3], [f64; 3])> {
     let pose = inspection.pose.as_ref()?.as_ref().ok()?.camera_from_part();
     let middle = pose * inspection.best_reference(library)?.middle()?;
@@ -30,7 +31,7 @@ pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f
     ))
 }
 
-/// The middle of a part that was accepted in the robot's base frame.
+/// Shows the middle of an accepted part in the robot's base frame.
 pub(super) fn show_in_robot(
     robot: &RobotFrame,
     inspection: &Inspection,
@@ -50,7 +51,7 @@ pub(super) fn show_in_robot(
     console.entry("robot", &text);
 }
 
-/// All about one inspection, a line for each thing.
+/// Shows everything about one inspection, one line per item.
 pub(super) fn show_card(
     scene: &str,
     inspection: &Inspection,

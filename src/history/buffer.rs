@@ -1,7 +1,7 @@
-//! The history as a program uses it: what cannot be written waits in memory, and is written when that works again.
+//! The history as a program uses it: inspections that cannot be written wait in memory until writing works again.
 //!
-//! Nothing here holds up an inspection: [`Writer`](super::Writer) does all of this on a thread of its own. Readers ask
-//! the keeper too, and see what waits above what is written.
+//! An inspection never waits for any of this: [`Writer`](super::Writer) does it on its own thread. Readers use the same
+//! [`HistoryBuffer`], and see the waiting inspections above the written ones.
 
 use std::{
     collections::VecDeque,
@@ -33,17 +33,17 @@ use crate::{
     library::Truth,
 };
 
-/// After a failure it is tried again this much later.
+/// Delay before a failed write is retried.
 const PAUSE: Duration = Duration::from_secs(20);
-/// Frames are swept away at the beginning and after so many inspections.
+/// Number of inspections between two sweeps of frames; opening sweeps too.
 const SWEEP_EVERY: u32 = 25;
 
-/// The history of one program; shared by whoever writes and whoever reads. The default has no folder.
+/// The history of one program, shared by writers and readers. The default has no folder and stays in memory.
 #[derive(Debug, Default)]
 pub struct HistoryBuffer {
     place: Option<PathBuf>,
     inner: Mutex<Inner>,
-    /// Apart from the rest: who looks for news never waits for the disk.
+    /// Separate from the rest, so that reading events never waits for the disk.
     news: Mutex<Vec<HistoryEvent>>,
     num_events: AtomicU64,
 }
@@ -54,18 +54,18 @@ struct Inner {
     /// True while the history can only be read.
     is_only_read: bool,
     retention: Retention,
-    /// The oldest first.
+    /// Oldest first.
     waiting: VecDeque<NewEntry>,
-    /// The number of the row listed last, waiting or not.
+    /// Number of the newest row, written or waiting; a waiting one is listed with its negative.
     last: i64,
     num_lost: usize,
-    /// Since it failed: when it is tried again.
+    /// After a failure, when to try again.
     next_try: Option<Instant>,
     num_unswept: u32,
 }
 
 impl HistoryBuffer {
-    /// Keeps the history in this folder; without one in memory alone. Opens nothing yet.
+    /// Creates a buffer for the history in this folder; `None` keeps it in memory only. Opens nothing yet.
     pub fn new(place: Option<PathBuf>) -> Self {
         Self {
             place,
@@ -75,45 +75,45 @@ impl HistoryBuffer {
         }
     }
 
-    /// Its folder; `None` in memory alone.
+    /// Returns the folder; `None` in memory only.
     pub fn folder(&self) -> Option<&Path> {
         self.place.as_deref()
     }
 
-    /// Tells that another program may have written.
+    /// Reports that another program may have written to the history.
     pub fn files_changed(&self) {
         self.tell(HistoryEvent::FilesChanged);
     }
 
-    /// How many inspections are not written.
+    /// Returns the number of inspections that are not written yet.
     pub fn num_waiting(&self) -> usize {
         self.lock().waiting.len()
     }
 
-    /// What happened since this was asked last. Never waits for the disk.
+    /// Returns the events since the last call. Never waits for the disk.
     pub fn take_news(&self) -> Vec<HistoryEvent> {
         let mut news = lock(&self.news);
         std::mem::take(&mut *news)
     }
 
-    /// Events so far: what was read when there were fewer may have changed since. Never waits for the disk.
+    /// Returns the number of events so far; data read at a smaller number may be outdated. Never waits for the disk.
     pub fn num_events(&self) -> u64 {
         self.num_events.load(Ordering::Acquire)
     }
 
     fn tell(&self, news: HistoryEvent) {
-        // Before the event itself: whoever has taken that also finds the new number.
+        // Count before adding the event: whoever takes the event also sees the new number.
         self.num_events.fetch_add(1, Ordering::Release);
         let mut all = lock(&self.news);
         all.push(news);
     }
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
-        // A panic while writing leaves at most a transaction that was not committed.
+        // A panic while writing leaves at most an uncommitted transaction.
         lock(&self.inner)
     }
 
-    /// Opens it, if nobody has yet, and sweeps away what is not kept any longer.
+    /// Opens the history unless it is open already, and sweeps frames that are no longer kept.
     pub fn open(&self, now: Instant) {
         let mut inner = self.lock();
         if let Err(error) = self.ensure(&mut inner) {
@@ -121,12 +121,12 @@ impl HistoryBuffer {
         }
     }
 
-    /// When a failed writing is to be tried again.
+    /// Returns when to retry a failed write.
     pub fn next_try(&self) -> Option<Instant> {
         self.lock().next_try
     }
 
-    /// Tries again what failed, if it is time.
+    /// Retries a failed write if it is time.
     pub fn retry(&self, now: Instant) {
         let mut inner = self.lock();
         if inner.next_try.is_some_and(|at| at <= now) {
@@ -134,7 +134,7 @@ impl HistoryBuffer {
         }
     }
 
-    /// Takes an inspection in: into the file, or among those that wait.
+    /// Adds an inspection, to the file or to the waiting ones.
     pub fn add(&self, ticket: u64, entry: NewEntry, now: Instant) {
         let mut inner = self.lock();
         inner.last += 1;
@@ -148,7 +148,7 @@ impl HistoryBuffer {
         self.tell(HistoryEvent::Added { ticket, number });
     }
 
-    /// Writes down what a person remarks.
+    /// Sets the remark on an inspection.
     pub fn set_remark(&self, number: i64, remark: &str) {
         let mut inner = self.lock();
         if let Some(row) = inner.waiting_mut(number) {
@@ -161,7 +161,7 @@ impl HistoryBuffer {
         self.queue_change_event(number, changed);
     }
 
-    /// Writes down what it truly is, or that nobody knows.
+    /// Sets the true label of an inspection; `None` clears it.
     pub fn set_label(&self, number: i64, label: Option<&Truth>) {
         let mut inner = self.lock();
         if let Some(row) = inner.waiting_mut(number) {
@@ -174,8 +174,8 @@ impl HistoryBuffer {
         self.queue_change_event(number, changed);
     }
 
-    /// Writes down what a part truly is, in the row that stands for it, and the remark if that row has none. Returns the
-    /// row as it is then; `None` if the part has no row.
+    /// Sets the true label of a part on the row that stands for it, and the remark if that row has none. Returns the
+    /// changed row; `None` if the part has no row.
     pub fn label_part(
         &self,
         hung: &HungId,
@@ -226,7 +226,7 @@ impl HistoryBuffer {
         });
     }
 
-    /// Keeps frames by this rule from now on, and takes away at once what it does not keep.
+    /// Sets the retention rule, and removes at once the frames that it does not keep.
     pub fn set_retention(&self, retention: Retention) {
         let mut inner = self.lock();
         inner.retention = retention.clamped();
@@ -242,7 +242,7 @@ impl HistoryBuffer {
         self.tell(HistoryEvent::RuleChanged);
     }
 
-    /// The rule by which frames are kept, and how much is.
+    /// Returns the retention rule and the disk usage of the kept frames.
     pub fn kept(&self) -> Result<(Retention, Usage), HistoryError> {
         let inner = self.lock();
         let history = inner.history.as_ref();
@@ -250,14 +250,14 @@ impl HistoryBuffer {
         Ok((inner.retention, usage))
     }
 
-    /// The folder of the kept frames, if there is one.
+    /// Returns the folder of the kept frames, if there is one.
     pub fn frames_folder(&self) -> Option<PathBuf> {
         let inner = self.lock();
         let history = inner.history.as_ref();
         history.map(|history| history.frames_folder().to_owned())
     }
 
-    /// Rows of the list: what waits comes above what is written.
+    /// Returns rows of the list, waiting ones above written ones.
     pub fn page(&self, filter: &Filter, offset: usize, most: usize) -> Result<Page, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
@@ -282,7 +282,7 @@ impl HistoryBuffer {
         })
     }
 
-    /// An inspection in full.
+    /// Returns an inspection in full.
     pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
@@ -300,14 +300,14 @@ impl HistoryBuffer {
         }
     }
 
-    /// The row that stands for a part; `None` if the part has no row.
+    /// Returns the row that stands for a part; `None` if the part has no row.
     pub fn part(&self, hung: &HungId) -> Result<Option<Summary>, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
         inner.part(hung)
     }
 
-    /// The inspections that lie below this one, the oldest first.
+    /// Returns the re-inspections below this inspection, the oldest first.
     pub fn below(&self, number: i64) -> Result<Vec<Record>, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
@@ -327,8 +327,7 @@ impl HistoryBuffer {
         Ok(below)
     }
 
-    /// Goes through all rows that the filter lets through, the oldest first: those that are written, then those that
-    /// wait.
+    /// Calls `each` with all matching rows, the oldest first: the written ones, then the waiting ones.
     pub fn each<E: From<HistoryError>>(
         &self,
         filter: &Filter,
@@ -348,13 +347,13 @@ impl HistoryBuffer {
         Ok(())
     }
 
-    /// How the parts ended that the filter lets through, the oldest first.
+    /// Returns the outcomes of all matching parts, the oldest first.
     pub fn outcomes(&self, filter: &Filter) -> Result<Vec<PartOutcome>, HistoryError> {
         let of_record = |record: &Record| Some(PartOutcome::from(record));
         self.with_waiting(filter, |history| history.outcomes(filter), of_record)
     }
 
-    /// As [`History::poses`], with those that are not written yet.
+    /// As [`History::poses`], including inspections that are not written yet.
     pub fn poses(&self, filter: &Filter) -> Result<Vec<PoseRecord>, HistoryError> {
         let written = |history: &History| history.poses(filter);
         let mut poses = self.with_waiting(filter, written, PoseRecord::of_record)?;
@@ -362,7 +361,7 @@ impl HistoryBuffer {
         Ok(poses)
     }
 
-    /// What is written, then the same of what is waiting and passes the filter.
+    /// Returns the written items, then those of the waiting inspections that match the filter.
     fn with_waiting<T>(
         &self,
         filter: &Filter,
@@ -382,7 +381,7 @@ impl HistoryBuffer {
         Ok(found)
     }
 
-    /// Opens it to be read, if nobody has yet.
+    /// Opens the history for reading, unless it is open already or a retry is pending.
     fn look(&self, inner: &mut Inner) {
         if inner.next_try.is_none()
             && let Err(error) = self.ensure(inner)
@@ -391,7 +390,7 @@ impl HistoryBuffer {
         }
     }
 
-    /// Opens it to be written. Where that fails, what can be read is read until it works.
+    /// Opens the history for writing. If that fails, reads it as far as possible until writing works.
     fn ensure(&self, inner: &mut Inner) -> Result<(), HistoryError> {
         let Some(place) = &self.place else {
             return Ok(());
@@ -422,7 +421,7 @@ impl HistoryBuffer {
         let Some(history) = &mut inner.history else {
             return;
         };
-        // What cannot be swept away now is tried again; what can be written matters more.
+        // A failed sweep is tried again later; it must not stop the writing.
         if let Ok(swept) = history.sweep(&retention, Timestamp::now())
             && swept != PruneResult::default()
         {
@@ -430,7 +429,7 @@ impl HistoryBuffer {
         }
     }
 
-    /// Writes all that waits, the oldest first; the numbers before and now.
+    /// Writes all waiting inspections, the oldest first. Returns each one's number before and after.
     fn write_waiting(&self, inner: &mut Inner, now: Instant) -> Vec<(i64, i64)> {
         let has_failed = inner.next_try.is_some();
         let mut numbers = Vec::new();
@@ -469,7 +468,7 @@ impl HistoryBuffer {
                 break;
             };
             match history.add(entry, &retention) {
-                // Opened again it is looked through, and set aside if that shows it too.
+                // Reopening checks the file, and sets it aside if the check finds damage too.
                 Err(HistoryError::Damaged { .. }) if !is_last => inner.history = None,
                 written => {
                     inner.num_unswept += 1;
@@ -483,7 +482,7 @@ impl HistoryBuffer {
         Err(HistoryError::NoUserFolder)
     }
 
-    /// Says so once, until it works again.
+    /// Schedules a retry, and reports the failure if it is the first since writing last worked.
     fn failed(&self, inner: &mut Inner, error: &HistoryError, now: Instant) {
         if inner.next_try.is_none() {
             self.tell(HistoryEvent::Failed {

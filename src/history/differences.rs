@@ -1,4 +1,4 @@
-//! What changed between an inspection and the same scene inspected again.
+//! Differences between an inspection and a new inspection of the same scene.
 
 use std::sync::Arc;
 
@@ -11,29 +11,29 @@ use crate::{
     stages::pose::PoseEstimate,
 };
 
-/// What an inspection found, as far as it is compared.
+/// The results of an inspection that are compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InspectionSummary {
-    /// How it ended.
+    /// The verdict.
     pub verdict: StoredVerdict,
-    /// The best guess.
+    /// Name of the best guess.
     pub nearest: Option<String>,
-    /// Its score and its lead.
+    /// Score and margin of the best guess.
     pub score: Option<[f64; 2]>,
     /// The pose, if there is one.
     pub camera_from_part: Option<RigidTransform>,
-    /// Tells recipes apart.
+    /// Identity of the recipe.
     pub recipe: String,
     /// All parameters, if this program can read them.
     pub parameters: Option<Arc<Recipe>>,
-    /// Tells libraries apart.
+    /// Identity of the library.
     pub library: String,
     /// Version of the program.
     pub program: String,
 }
 
 impl InspectionSummary {
-    /// Of an inspection of now, with this recipe and library.
+    /// Summarises an inspection by this program with this recipe and library.
     pub fn of(inspection: &Inspection, recipe: &Arc<Recipe>, library: &str) -> Self {
         let (nearest, score) = match &inspection.verdict {
             Verdict::Part {
@@ -73,37 +73,37 @@ impl From<&Record> for InspectionSummary {
     }
 }
 
-/// A parameter that has another value.
+/// A parameter whose value differs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ParameterChange {
-    /// Its path in the recipe.
+    /// Path in the recipe.
     pub key: &'static str,
-    /// What a person calls it.
+    /// Name for people.
     pub name: &'static str,
-    /// The value then, with its unit.
+    /// Former value, with its unit.
     pub before: String,
-    /// The value now.
+    /// Present value, with its unit.
     pub now: String,
 }
 
-/// An inspection and the same scene inspected again.
+/// An inspection and a new inspection of the same scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Differences {
-    /// What was found then.
+    /// The earlier results.
     pub before: InspectionSummary,
-    /// What is found now.
+    /// The new results.
     pub now: InspectionSummary,
-    /// How far the pose is from where it was, if both have one of the same part: at the part's middle.
+    /// Pose change at the part's middle, if both results have a pose of the same part.
     pub pose: Option<PoseDelta>,
 }
 
-/// Two scores nearer than this read the same.
+/// Scores closer than this count as equal.
 const SAME_SCORE: f64 = 5e-4;
-/// Two poses nearer than this, metres and radians, read the same.
+/// Poses closer than this, metres and radians, count as equal.
 const SAME_POSE: f64 = 1e-6;
 
 impl Differences {
-    /// Of what was found then and now; `middle` is the middle of the part's extent, part space, metres.
+    /// Compares two results; `middle` is the middle of the part's extent, in part space, metres.
     pub fn between(
         before: InspectionSummary,
         now: InspectionSummary,
@@ -116,7 +116,7 @@ impl Differences {
         Self { before, now, pose }
     }
 
-    /// True if nothing reads otherwise: verdict, best guess, score and pose.
+    /// Returns whether verdict, best guess, score and pose are all the same.
     pub fn is_same(&self) -> bool {
         let Self { before, now, pose } = self;
         let score =
@@ -130,7 +130,7 @@ impl Differences {
         before.verdict == now.verdict && before.nearest == now.nearest && has_score && has_pose
     }
 
-    /// The parameters that have another value now.
+    /// Returns the parameters whose values differ.
     pub fn changed_parameters(&self) -> Vec<ParameterChange> {
         let (Some(before), Some(now)) = (&self.before.parameters, &self.now.parameters) else {
             return Vec::new();
@@ -145,7 +145,7 @@ impl Differences {
         change.collect()
     }
 
-    /// What else is not as it was, in words; empty if recipe, library and program are the same.
+    /// Names which of recipe, library and program differ.
     pub fn changed_inputs(&self) -> Vec<&'static str> {
         let Self { before, now, .. } = self;
         [

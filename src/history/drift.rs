@@ -1,4 +1,4 @@
-//! Pose and fit of accepted parts over time: how the cell drifts.
+//! Pose and fit of accepted parts over time, which show how the cell drifts.
 
 use jiff::Timestamp;
 use rusqlite::params_from_iter;
@@ -12,25 +12,25 @@ use super::{
 };
 use crate::geometry::rigid::{RigidTransform, from_row_major};
 
-/// The newest accepted parts that a drift is made of, at most: the JSON of each is read.
+/// Maximum number of poses read; each requires parsing the JSON line of its inspection.
 pub const MAX_POSES: usize = 2000;
 
 /// Pose and fit of an accepted part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoseRecord {
-    /// When it was inspected.
+    /// Time of the inspection.
     pub at: Timestamp,
-    /// The score, 0..1.
+    /// Score, 0..1.
     pub score: f64,
-    /// The enrolled reference whose space the pose is from.
+    /// Name of the reference that the pose refers to.
     pub reference: String,
-    /// The pose.
+    /// Pose of the part.
     pub camera_from_part: RigidTransform,
     /// Root mean square distance of the part from the reference, metres.
     pub rms_m: f64,
 }
 
-/// What is read of the line that `inspect --json` writes.
+/// The fields read from the line that `inspect --json` writes.
 #[derive(Deserialize)]
 struct Line {
     pose: Option<Pose>,
@@ -44,7 +44,7 @@ struct Pose {
 }
 
 impl PoseRecord {
-    /// `None` of a line without a pose, or from a program that wrote other ones.
+    /// Parses a line; `None` without a pose, or if another version of the program wrote it in another form.
     fn of_line(at: Timestamp, score: f64, line: &str) -> Option<Self> {
         let pose = serde_json::from_str::<Line>(line).ok()?.pose?;
         Some(Self {
@@ -56,7 +56,7 @@ impl PoseRecord {
         })
     }
 
-    /// Of an inspection that is not in the file yet.
+    /// Reads an inspection that is not in the file yet.
     pub(super) fn of_record(record: &Record) -> Option<Self> {
         let Record { summary, detail } = record;
         let [score, _] = summary.score?;
@@ -66,7 +66,7 @@ impl PoseRecord {
 }
 
 impl History {
-    /// Of the accepted parts that the filter lets through, the newest [`MAX_POSES`], the oldest of them first.
+    /// Returns the poses of the newest [`MAX_POSES`] accepted parts that match the filter, the oldest first.
     pub fn poses(&self, filter: &Filter) -> Result<Vec<PoseRecord>, HistoryError> {
         let (condition, values) = filter.condition();
         let asked = format!(

@@ -1,4 +1,4 @@
-//! An inspection as the history has it: before it is written, as a row of a list, and in full.
+//! An inspection in the history: before it is written, as a row of a list, and in full.
 
 use std::{io::Cursor, sync::Arc};
 
@@ -18,21 +18,21 @@ use crate::{
     stages::{pose::PoseEstimate, scene::SceneCloud},
 };
 
-/// How an inspection ended.
+/// Verdict of an inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StoredVerdict {
-    /// A part, accepted.
+    /// A part was found and accepted.
     Accepted,
-    /// A part, not accepted.
+    /// A part was found and not accepted.
     NotAccepted,
-    /// Something that is nothing enrolled.
+    /// The object is not an enrolled part.
     Unknown,
-    /// No part.
+    /// No part was found.
     NoPart,
 }
 
 impl StoredVerdict {
-    /// Every verdict.
+    /// All verdicts.
     pub const ALL: [Self; 4] = [
         Self::Accepted,
         Self::NotAccepted,
@@ -40,7 +40,7 @@ impl StoredVerdict {
         Self::NoPart,
     ];
 
-    /// What a person calls it.
+    /// Returns the name for people.
     pub fn title(self) -> &'static str {
         match self {
             Self::Accepted => "Accepted",
@@ -50,7 +50,7 @@ impl StoredVerdict {
         }
     }
 
-    /// As it is written.
+    /// Returns the name in the file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Accepted => "accepted",
@@ -60,7 +60,7 @@ impl StoredVerdict {
         }
     }
 
-    /// The verdict that is written so.
+    /// Returns the verdict with this name in the file.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|verdict| verdict.name() == name)
     }
@@ -77,47 +77,47 @@ impl From<&Verdict> for StoredVerdict {
     }
 }
 
-/// A row of a list.
+/// An inspection as a row of a list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// Counted from 1 and never used again; below 0 as long as it is not written.
+    /// Counts from 1 and is never reused; negative while the inspection is not written yet.
     pub number: i64,
-    /// When it was inspected, to the microsecond.
+    /// Time of the inspection, to the microsecond.
     pub at: Timestamp,
-    /// The scene's name for people.
+    /// Name of the scene for people.
     pub scene: String,
-    /// Where the scene came from: a source as it can be opened again, a file, or words.
+    /// Origin of the scene: a source that can be reopened, a file, or a description.
     pub source: String,
-    /// True if no camera was read.
+    /// True if the scene does not come from a camera.
     pub is_simulated: bool,
-    /// How it ended.
+    /// The verdict.
     pub verdict: StoredVerdict,
-    /// What it was recognised as, accepted or not; nothing where it is unknown.
+    /// Name of the part found, accepted or not; `None` if it is unknown or there is none.
     pub part: Option<String>,
-    /// The same for people.
+    /// The result for people: the part's title, or why there is none.
     pub title: String,
-    /// The best guess's score, 0..1, and its lead.
+    /// Score (0..1) and margin of the best guess.
     pub score: Option<[f64; 2]>,
-    /// From points to verdict, milliseconds.
+    /// Time from points to verdict, milliseconds.
     pub total_ms: f64,
-    /// What a person remarks; may be empty.
+    /// Remark by a person; may be empty.
     pub remark: String,
-    /// What it truly is, if somebody said so.
+    /// True label, if one was set.
     pub label: Option<Truth>,
-    /// Size of what is kept of its frames; `None` if nothing is.
+    /// Size of the kept frames; `None` if none are kept.
     pub frame_bytes: Option<u64>,
-    /// Serial number, order and operator; a re-inspection has those of its part.
+    /// Serial number, order and operator; a re-inspection inherits those of its part.
     pub trace: Traceability,
-    /// Which part it is as it hung there.
+    /// The hung part that was inspected.
     pub hung: HungId,
-    /// The inspection that stands for the same part; `None` of the one that does.
+    /// Number of the inspection that stands for the same part; `None` if this one does.
     pub parent: Option<i64>,
-    /// Of the one that stands for the part: how many others there are.
+    /// Number of re-inspections below this one, if it stands for the part.
     pub num_below: usize,
 }
 
 impl Summary {
-    /// What a filter's words are looked for in, in lower case.
+    /// Returns the lower-case text in which a filter looks for its words.
     pub(super) fn search(&self) -> String {
         let Self {
             scene,
@@ -143,12 +143,12 @@ impl Summary {
 /// Why an inspection was not accepted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredRefusal {
-    /// In English, with the titles that the parts had.
+    /// English sentence with the titles of the parts at that time.
     pub reason: String,
-    /// What to do about it, in English.
+    /// English advice on what to do.
     pub advice: String,
-    /// The same with its figures and enrolled names; `None` where an earlier program wrote it, or this one cannot
-    /// read it.
+    /// The refusal with its figures and enrolled names; `None` if an earlier version wrote it, or this one cannot read
+    /// it.
     pub why: Option<Refusal>,
 }
 
@@ -162,92 +162,92 @@ impl StoredRefusal {
         }
     }
 
-    /// What refusals are counted by.
+    /// Returns the kind, by which refusals are counted.
     pub fn kind(&self) -> Option<RefusalKind> {
         self.why.as_ref().map(Refusal::kind)
     }
 }
 
-/// What is known of an inspection beside its row.
+/// The data of an inspection that are not in its row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InspectionDetail {
-    /// The best guess, named or not.
+    /// Name of the best guess, whether or not the verdict names it.
     pub nearest: Option<String>,
-    /// Why it was not accepted, if it was not.
+    /// Why it was not accepted.
     pub refusal: Option<StoredRefusal>,
     /// The pose, if there is one.
     pub camera_from_part: Option<RigidTransform>,
-    /// By which name the recipe went; `None` of an inspection that an earlier program wrote.
+    /// Name of the recipe; `None` if an earlier version wrote the inspection.
     pub recipe_label: Option<RecipeLabel>,
-    /// Tells recipes apart.
+    /// Identity of the recipe.
     pub recipe_identity: String,
-    /// All parameters; `None` if this program cannot read them. Those that it has more are its own.
+    /// All parameters; `None` if this program cannot read them. Parameters missing in the file have their defaults.
     pub recipe: Option<Arc<Recipe>>,
-    /// Tells libraries apart.
+    /// Identity of the library.
     pub library_identity: String,
-    /// Version of the program.
+    /// Version of the program that inspected.
     pub program: String,
-    /// As `inspect --json` writes it, the times of the stages among the rest.
+    /// The line that `inspect --json` writes, including the stage times.
     pub line: String,
-    /// A small picture of the segmentation, PNG; empty for a scene without rows and columns.
+    /// Small picture of the segmentation as PNG; empty for a scene that is not organised.
     pub thumbnail: Vec<u8>,
-    /// How whoever wrote it can have the scene again; for nobody else.
+    /// Where the program that wrote the row finds the scene again; meaningless to other programs.
     pub origin: Option<String>,
-    /// The kept frame.
+    /// The kept frame, if any.
     pub frame: Option<FrameRecord>,
 }
 
 /// An inspection in full.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// What lists show.
+    /// The row for lists.
     pub summary: Summary,
-    /// The rest.
+    /// All other data.
     pub detail: InspectionDetail,
 }
 
-/// Width and height of a thumbnail at most, pixels.
+/// Maximum width and height of a thumbnail, pixels.
 const THUMBNAIL: [u32; 2] = [160, 120];
 
-/// An inspection that is to be written.
+/// An inspection to be written.
 #[derive(Clone, Debug)]
 pub struct NewEntry {
-    /// Without a number, and without what writing finds out.
+    /// The record, without the number and the fields that writing fills in.
     pub record: Record,
-    /// The small picture, before it is a PNG.
+    /// The thumbnail, not yet encoded as PNG.
     pub picture: Option<RgbImage>,
-    /// The scene as it was inspected; `None` if it is not to be kept.
+    /// The inspected scene; `None` if it is not to be kept.
     pub scene: Option<Arc<SceneCloud>>,
-    /// Of a scan: its shots, where the robot says that they were taken; the scene is one of them.
+    /// Shots of a scan with their camera poses from the robot; the scene is one of them. Empty otherwise.
     pub shots: Vec<Shot>,
 }
 
-/// What an inspection itself does not know.
+/// Facts about an inspection that [`Inspection`] does not contain.
 pub struct InspectionContext<'a> {
-    /// When it was inspected.
+    /// Time of the inspection.
     pub at: Timestamp,
-    /// The scene's name for people.
+    /// Name of the scene for people.
     pub scene: String,
-    /// Where the scene came from.
+    /// Origin of the scene.
     pub source: String,
-    /// True if no camera was read.
+    /// True if the scene does not come from a camera.
     pub is_simulated: bool,
-    /// The name for people of the part that is enrolled under this name.
+    /// Returns the title of the part enrolled under a name.
     pub title_of: &'a dyn Fn(&str) -> String,
-    /// As `inspect --json` writes it.
+    /// The line that `inspect --json` writes.
     pub line: String,
-    /// The library's identity.
+    /// Identity of the library.
     pub library: String,
-    /// How whoever writes it can have the scene again.
+    /// Where the program that writes the row finds the scene again.
     pub origin: Option<String>,
-    /// A picture of the segmentation, of any size.
+    /// Picture of the segmentation, of any size.
     pub picture: Option<&'a RgbImage>,
-    /// Which part it is as it hung there.
+    /// The hung part that was inspected.
     pub hung: HungId,
 }
 
 impl NewEntry {
-    /// Of an inspection.
+    /// Creates the entry of an inspection.
     pub fn of(
         about: InspectionContext<'_>,
         scene: &Arc<SceneCloud>,
@@ -269,7 +269,7 @@ impl NewEntry {
         let micro = about.at.as_microsecond();
         let summary = Summary {
             number: 0,
-            // As the file has it, so that a row reads the same before and after.
+            // Rounded as in the file, so that a row is the same before and after writing.
             at: Timestamp::from_microsecond(micro).unwrap_or(about.at),
             scene: about.scene,
             source: about.source,
@@ -312,13 +312,13 @@ impl NewEntry {
         }
     }
 
-    /// The same, of a scan of these shots.
+    /// Adds the shots of a scan.
     #[must_use]
     pub fn of_scan(self, shots: Vec<Shot>) -> Self {
         Self { shots, ..self }
     }
 
-    /// Lets go of what its frames are written from.
+    /// Drops the scenes from which the frames would be written.
     pub(super) fn drop_frames(&mut self) {
         self.scene = None;
         self.shots = Vec::new();
@@ -326,15 +326,15 @@ impl NewEntry {
 }
 
 impl Summary {
-    /// True if an inspection of the same part that is written later stands for it in its place: a part that was refused
-    /// and is accepted as it still hangs there is an accepted part. An acceptance stands for good, since a robot may
-    /// have acted on it. Neither verdict is changed.
+    /// Returns whether `later`, of the same part, replaces this inspection as the one that stands for the part: a
+    /// refused part that is later accepted in the same place counts as accepted. An acceptance is never replaced, since
+    /// a robot may have acted on it. Neither verdict changes.
     pub(super) fn gives_way_to(&self, later: &Self) -> bool {
         self.verdict != StoredVerdict::Accepted && later.verdict == StoredVerdict::Accepted
     }
 }
 
-/// Every so many pixels one: flat colours stay flat, and the PNG small.
+/// Shrinks a picture by nearest neighbour, which keeps flat colours flat and the PNG small.
 fn small(picture: &RgbImage) -> RgbImage {
     let [width, height] = THUMBNAIL;
     let share = (f64::from(width) / f64::from(picture.width().max(1)))
@@ -345,16 +345,16 @@ fn small(picture: &RgbImage) -> RgbImage {
     resize(picture, width, height, FilterType::Nearest)
 }
 
-/// A picture as a PNG.
+/// Encodes a picture as PNG.
 pub(super) fn png_of(picture: &RgbImage) -> Vec<u8> {
     let mut png = Cursor::new(Vec::new());
-    // Into memory, and of a size that every PNG can have.
+    // Writing to memory does not fail, and PNG allows any size that a picture has here.
     let written = picture.write_to(&mut png, ImageFormat::Png);
     written.map_or_else(|_| Vec::new(), |()| png.into_inner())
 }
 
 impl InspectionDetail {
-    /// The recipe, if this program can read it. One whose name was not written down goes by its identity.
+    /// Returns the recipe, if this program can read it. Without a stored name, its identity serves as the name.
     pub fn named_recipe(&self) -> Option<NamedRecipe> {
         let parameters = Arc::clone(self.recipe.as_ref()?);
         let label = self.recipe_label.clone();
@@ -367,7 +367,7 @@ impl InspectionDetail {
         })
     }
 
-    /// The recipe for people: its name, if it is known, and its identity.
+    /// Returns the recipe's name, if known, and its identity.
     pub fn recipe_text(&self) -> String {
         let identity = &self.recipe_identity;
         match &self.recipe_label {
@@ -378,12 +378,12 @@ impl InspectionDetail {
 }
 
 impl Record {
-    /// The pose's 16 numbers, row after row, metres.
+    /// Returns the pose as 16 numbers in row-major order, metres.
     pub fn matrix(&self) -> Option<[f64; 16]> {
         self.detail.camera_from_part.as_ref().map(row_major)
     }
 
-    /// The times of the stages, milliseconds, in the order in which they ran; empty where the line has none.
+    /// Returns the stage times in milliseconds, in the order of the stages; empty if the line has none.
     pub fn timings(&self) -> Vec<(String, f64)> {
         #[derive(serde::Deserialize)]
         struct Timed {
@@ -396,7 +396,7 @@ impl Record {
             .flatten()
             .filter_map(|(stage, ms)| Some((stage, ms.as_f64()?)))
             .collect();
-        // A JSON object has no order of its own.
+        // JSON objects are unordered.
         let place = |stage: &str| ORDER.iter().position(|known| *known == stage);
         times.sort_by_key(|(stage, _)| place(stage).unwrap_or(ORDER.len()));
         times

@@ -1,4 +1,4 @@
-//! Why the history cannot be read or written, and what to do about it.
+//! Errors of the history, with advice.
 
 use std::{
     io,
@@ -16,15 +16,15 @@ use crate::{
 /// Why the history cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum HistoryError {
-    /// Its folder cannot be made or used.
+    /// The folder cannot be created or used.
     #[error("{}: the history cannot be kept there: {}", path.display(), words_of(source))]
     Unwritable {
         /// The folder.
         path: PathBuf,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// The disk has no room.
+    /// The disk is full.
     #[error("{}: the history cannot be written: the disk is full", path.display())]
     DiskFull {
         /// The file.
@@ -36,13 +36,13 @@ pub enum HistoryError {
         /// The file.
         path: PathBuf,
     },
-    /// Another program is writing and does not come to an end.
+    /// Another program kept the file locked for too long.
     #[error("{}: another program is busy with the history", path.display())]
     Busy {
         /// The file.
         path: PathBuf,
     },
-    /// The file is not as it was written.
+    /// The file is damaged.
     #[error("{}: the history is damaged: {what}", path.display())]
     Damaged {
         /// The file.
@@ -50,7 +50,7 @@ pub enum HistoryError {
         /// What is wrong.
         what: String,
     },
-    /// Written by a newer program; nothing of it was touched.
+    /// A newer version of the program wrote the file; it was left untouched.
     #[error(
         "{}: the history was written by a newer version of Partsight (format {found}, this one knows {known})",
         path.display()
@@ -58,12 +58,12 @@ pub enum HistoryError {
     Newer {
         /// The file.
         path: PathBuf,
-        /// Its version.
+        /// Format version of the file.
         found: u32,
-        /// The newest known.
+        /// Newest format version that this program reads.
         known: u32,
     },
-    /// The file is no history; nothing of it was touched.
+    /// The file is not a history; it was left untouched.
     #[error("{}: this is the database of another program, not a history of Partsight", path.display())]
     Foreign {
         /// The file.
@@ -72,15 +72,15 @@ pub enum HistoryError {
     /// There is no history yet.
     #[error("{}: there is no history yet", path.display())]
     NotFound {
-        /// The file looked for.
+        /// The file that was expected.
         path: PathBuf,
     },
-    /// The database says something else.
+    /// Any other error of the database.
     #[error("{}: the history cannot be used: {source}", path.display())]
     Database {
         /// The file.
         path: PathBuf,
-        /// What it says.
+        /// The underlying error.
         source: rusqlite::Error,
     },
     /// A frame cannot be written or read.
@@ -89,19 +89,19 @@ pub enum HistoryError {
     /// The table cannot be written.
     #[error(transparent)]
     Table(#[from] FileError),
-    /// No inspection of that number.
+    /// There is no inspection with this number.
     #[error("there is no inspection {number} in the history")]
     NoSuchInspection {
-        /// The number.
+        /// The number asked for.
         number: i64,
     },
-    /// The system does not say where a user's data belong.
+    /// The system names no folder for user data.
     #[error("this system names no folder for a user's data")]
     NoUserFolder,
 }
 
 impl HistoryError {
-    /// What a failure of the database means.
+    /// Converts an error of the database.
     pub(super) fn of(path: &Path, source: rusqlite::Error) -> Self {
         let path = path.to_owned();
         match source.sqlite_error_code() {
@@ -114,7 +114,7 @@ impl HistoryError {
                 path,
                 what: source.to_string(),
             },
-            // What its version promises is not there.
+            // A table or column that the file's version requires is missing.
             Some(ErrorCode::Unknown) if source.to_string().contains("no such ") => Self::Damaged {
                 path,
                 what: source.to_string(),
@@ -123,7 +123,7 @@ impl HistoryError {
         }
     }
 
-    /// True where the file may be sound and only cannot be written now.
+    /// Returns whether the file may be intact and only cannot be written now.
     pub(super) fn forbids_writing(&self) -> bool {
         match self {
             Self::Unwritable { .. } | Self::DiskFull { .. } | Self::ReadOnly { .. } => true,
@@ -140,7 +140,7 @@ impl HistoryError {
     }
 }
 
-/// What the database says where the system says that the disk is full or fails.
+/// Returns whether the system reported a full or failing disk.
 fn is_disk_error(source: &rusqlite::Error) -> bool {
     source.sqlite_error_code() == Some(ErrorCode::SystemIoFailure)
 }

@@ -1,35 +1,35 @@
-//! Which inspections a list shows.
+//! Filters for lists of inspections.
 
 use jiff::Timestamp;
 use rusqlite::types::Value;
 
 use super::entry::{StoredVerdict, Summary};
 
-/// Which inspections a list shows; the default lets every one through.
+/// Selects the inspections of a list; the default matches all parts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Filter {
-    /// Not before this moment.
+    /// Inspected at or after this time.
     pub since: Option<Timestamp>,
-    /// Before this moment.
+    /// Inspected before this time.
     pub until: Option<Timestamp>,
     /// Recognised as this part, accepted or not.
     pub part: Option<String>,
     /// With this verdict.
     pub verdict: Option<StoredVerdict>,
-    /// Simulated, or not.
+    /// Simulated or not.
     pub is_simulated: Option<bool>,
-    /// Also the inspections that lie below the one which stands for their part: by itself a list is one of parts.
+    /// Includes the re-inspections; otherwise the list has one row per part.
     pub with_below: bool,
-    /// Each of these words is in the name of part, scene or source, in the remark or in the true label; case does not
-    /// matter.
+    /// Words that must each occur in the title, in the name of part, scene or source, in the remark, the true label or
+    /// the traceability; case is ignored.
     pub text: String,
-    /// What is shown instead of stored text: the first of each two for the second, in lower case. A word of what is
-    /// shown also finds what is stored.
+    /// Pairs of displayed and stored text, in lower case. A word that occurs in the displayed text also matches the
+    /// stored one.
     pub shown: Vec<[String; 2]>,
 }
 
 impl Filter {
-    /// True if it asks for words.
+    /// Returns whether the filter contains words.
     pub(super) fn has_words(&self) -> bool {
         self.words().next().is_some()
     }
@@ -38,7 +38,7 @@ impl Filter {
         self.text.split_whitespace().map(str::to_lowercase)
     }
 
-    /// The texts by any of which a word is found.
+    /// Returns the texts of which any one matches the word.
     fn found_by(&self, word: String) -> Vec<String> {
         let shown = self.shown.iter();
         let shown = shown.filter(|[shown, _]| shown.contains(&word));
@@ -47,7 +47,7 @@ impl Filter {
         texts
     }
 
-    /// The condition in SQL, `1` where there is none, and its values.
+    /// Returns the SQL condition, `1` if there is none, and its values.
     pub(crate) fn condition(&self) -> (String, Vec<Value>) {
         let mut parts: Vec<String> = Vec::new();
         let mut values = Vec::new();
@@ -85,7 +85,7 @@ impl Filter {
         (parts.join(" AND "), values)
     }
 
-    /// The same of an inspection that is not in the file yet.
+    /// Applies the filter to an inspection that is not in the file yet.
     pub(super) fn passes(&self, row: &Summary) -> bool {
         let search = row.search();
         (self.with_below || row.parent.is_none())

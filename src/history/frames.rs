@@ -1,9 +1,9 @@
-//! Frames that are kept, beside the file of inspections and in a folder of cases: each as its camera gave it, so that
-//! the same recipe finds the same again.
+//! Kept frames, next to the database and in a folder of cases: each as the camera delivered it, so that the same recipe
+//! reproduces the result.
 //!
-//! A depth image is a 16-bit PNG with its camera in the folder's `intrinsics.json`, as in recordings; whatever is none
-//! (bare points, depth averaged over frames) is a PCD. The row in the file says which, how large, with which checksum,
-//! and what the picture alone does not tell. What the empty cell looked like is kept once for all frames before it.
+//! A depth image is stored as a 16-bit PNG with its camera in the folder's `intrinsics.json`, as in recordings;
+//! anything else (bare points, depth averaged over frames) as a PCD. The database row holds format, size, checksum, and
+//! what the image alone does not contain. The empty cell is stored once for all frames inspected with it.
 
 use std::{
     borrow::Cow,
@@ -35,44 +35,44 @@ use crate::{
     stages::scene::{EmptyCell, PictureEdge, SceneCloud, full_scene, reduced_scene},
 };
 
-/// What is written down of a kept frame.
+/// Database record of a kept frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameRecord {
-    /// Its file in the folder of frames.
+    /// Name of the file in the folder of frames.
     pub file: String,
     /// Size of the file.
     pub bytes: u64,
     /// CRC-32 (IEEE 802.3) of the file.
     pub crc32: u32,
-    /// What the edge of the picture is.
+    /// Meaning of the picture's edge.
     pub edge: PictureEdge,
-    /// The camera, if a pinhole camera explains the scene.
+    /// Intrinsics, if a pinhole camera explains the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<Intrinsics>,
-    /// Of a depth image: metres that one unit stands for.
+    /// For a depth image: metres per unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub metres_per_unit: Option<f64>,
-    /// Of a picture that was reduced: readings along the side of a block.
+    /// For a reduced image: number of readings along the side of a block.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub block_side: Option<usize>,
-    /// True if no camera read it.
+    /// True if the frame does not come from a camera.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_simulated: bool,
-    /// The file of the empty cell, if one was known.
+    /// File of the empty cell, if one was known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub empty_cell: Option<String>,
-    /// CRC-32 of that file; frames of earlier versions have none.
+    /// CRC-32 of that file; `None` for frames written by earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub empty_cell_crc32: Option<u32>,
-    /// Of a scan: all its shots, this frame among them.
+    /// For a scan: all its shots, including this frame.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shots: Vec<ShotRecord>,
 }
 
-/// Units that depth cameras count in, metres.
+/// Depth units of common cameras, metres.
 const UNITS: [f64; 5] = [0.001, 0.0002, 0.0001, 0.00025, 0.000_125];
 
-/// Counts this program's frames, so that two of one moment have two names.
+/// Counts this program's frames, which keeps the names of simultaneous ones distinct.
 static COUNT: AtomicU32 = AtomicU32::new(0);
 
 /// Why a frame cannot be written or read.
@@ -86,10 +86,10 @@ pub enum FrameError {
     Unwritable {
         /// The folder or file.
         path: PathBuf,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// It is not as it was written.
+    /// The kept frame is damaged.
     #[error("{}: the kept frame is damaged: {what}", path.display())]
     Damaged {
         /// The file.
@@ -109,7 +109,7 @@ impl FrameError {
 }
 
 impl From<FrameError> for io::Error {
-    /// What the system says, where it says something.
+    /// Returns the underlying I/O error if there is one.
     fn from(error: FrameError) -> Self {
         match error {
             FrameError::File(FileError::Write { source, .. })
@@ -129,7 +129,7 @@ impl Advice for FrameError {
     }
 }
 
-/// Writes a scene into the folder of frames; `None` for one without a single reading.
+/// Writes a scene into the folder of frames; returns `None` for a scene without a single reading.
 pub(super) fn write(
     folder: &Path,
     scene: &SceneCloud,
@@ -148,7 +148,7 @@ pub(super) fn write(
     write_as(folder, &stem, scene).map(Some)
 }
 
-/// Writes a scene into a folder under this name; the ending says what it is.
+/// Writes a scene into a folder under this stem; the extension depends on the content.
 pub fn write_as(folder: &Path, stem: &str, scene: &SceneCloud) -> Result<FrameRecord, FrameError> {
     let (depth, cloud) = content_of(scene);
     let ending = if depth.is_some() { "png" } else { "pcd" };
@@ -186,8 +186,8 @@ pub fn write_as(folder: &Path, stem: &str, scene: &SceneCloud) -> Result<FrameRe
     })
 }
 
-/// The first camera is that of the folder; a frame of another has its own beside it. For people and other programs: the
-/// row holds it too.
+/// Writes the camera for people and other programs; the row holds it too. The first camera becomes that of the folder,
+/// a different one gets a file next to its frame.
 fn write_its_camera(path: &Path, camera: &DepthCamera) -> Result<(), FrameError> {
     let shared = path.with_file_name(FOLDER_CAMERA);
     match DepthCamera::read(&shared) {
@@ -198,7 +198,7 @@ fn write_its_camera(path: &Path, camera: &DepthCamera) -> Result<(), FrameError>
     Ok(())
 }
 
-/// What the camera gave: a depth image, else a cloud.
+/// Returns the camera's original data: a depth image, or otherwise a cloud.
 fn content_of(scene: &SceneCloud) -> (Option<Cow<'_, DepthFrame>>, &PointCloud) {
     match scene.reduced.as_ref().map(|reduced| &*reduced.original) {
         Some(Image::Depth(frame)) => (Some(Cow::Borrowed(frame)), &scene.cloud),
@@ -207,7 +207,7 @@ fn content_of(scene: &SceneCloud) -> (Option<Cow<'_, DepthFrame>>, &PointCloud) 
     }
 }
 
-/// The depth image that a scene was made of, if it gives the very same points again.
+/// Returns the depth image that a scene was made from, if it reproduces exactly the same points.
 fn as_depth(scene: &SceneCloud) -> Option<DepthFrame> {
     let intrinsics = scene.intrinsics?;
     let Grid { width, height } = scene.cloud.grid?;
@@ -235,7 +235,7 @@ fn as_depth(scene: &SceneCloud) -> Option<DepthFrame> {
     })
 }
 
-/// A point's depth in whole units, 0 without a reading; `None` if it is not a whole number of them.
+/// Returns a point's depth in whole units, 0 without a reading; `None` if it is not a whole number of units.
 fn units_of(point: &Point3<f32>, metres_per_unit: f64) -> Option<u16> {
     if point.z.is_nan() {
         return Some(0);
@@ -251,14 +251,14 @@ fn is_same(a: &Point3<f32>, b: &Point3<f32>) -> bool {
     bits(a) == bits(b) || [a, b].iter().all(|p| p.iter().all(|x| x.is_nan()))
 }
 
-/// Where the empty cell lies; written once for as many frames as there are.
+/// Writes the empty cell unless it is there already. Returns its file name and checksum.
 fn write_cell(folder: &Path, cell: &EmptyCell) -> Result<(String, u32), FrameError> {
     let mut content = Vec::new();
     write_pcd(&mut content, &cell.to_cloud()).map_err(|error| FrameError::io(folder, error))?;
     let checksum = crc32(&content);
     let file = format!("empty-cell-{checksum:08x}.pcd");
     let path = folder.join(&file);
-    // Its name is its checksum.
+    // The name contains the checksum.
     let is_there = fs::metadata(&path).is_ok_and(|found| found.len() == content.len() as u64);
     if !is_there {
         write_atomically(&path, |writer| writer.write_all(&content))?;
@@ -266,12 +266,12 @@ fn write_cell(folder: &Path, cell: &EmptyCell) -> Result<(String, u32), FrameErr
     Ok((file, checksum))
 }
 
-/// The scene of a kept frame, as it was inspected.
+/// Reads the scene of a kept frame, as it was inspected.
 pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, FrameError> {
     read_by(folder, frame, &read_bytes)
 }
 
-/// As [`read`], with the content of each file from `content`. Errors name the files by their paths in `folder`.
+/// As [`read`], with each file's content from `content`. Errors name the files by their paths in `folder`.
 pub fn read_by(
     folder: &Path,
     frame: &FrameRecord,
@@ -337,8 +337,8 @@ fn cell_of(path: &Path, bytes: &[u8], checksum: Option<u32>) -> Result<EmptyCell
     cell.ok_or_else(|| damaged("the empty cell has no rows and columns"))
 }
 
-/// Removes the files of the folder that nothing speaks of, whatever left them; answers with their number. Only while
-/// nobody else writes: a frame is there before its row is.
+/// Removes the files of the folder that no row refers to, and returns their number. Call it only while nobody else
+/// writes: a frame is written before its row.
 pub(super) fn remove_strays(folder: &Path, is_known: &dyn Fn(&str) -> bool) -> io::Result<usize> {
     let entries = match fs::read_dir(folder) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(0),
@@ -358,7 +358,7 @@ pub(super) fn remove_strays(folder: &Path, is_known: &dyn Fn(&str) -> bool) -> i
     Ok(num_removed)
 }
 
-/// True for the names that frames have, and what is being written: a stranger's file is left alone.
+/// Returns whether the name is that of a frame or of a temporary file; any other file is left alone.
 fn is_ours(name: &str) -> bool {
     let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
     let is_frame = stem.split('-').count() == 3
@@ -369,7 +369,7 @@ fn is_ours(name: &str) -> bool {
         || (name.starts_with(".partsight-") && ending == "part")
 }
 
-/// Removes a file that may be gone already.
+/// Removes a file; one that is gone already is no error.
 pub(super) fn remove(path: &Path) -> io::Result<()> {
     match disk::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -469,7 +469,7 @@ mod tests {
         assert_same(&scene, &read(folder.path(), &record).expect("read"));
         let opened = crate::files::open(&folder.path().join(&record.file)).expect("opened");
         assert_eq!(opened, FileContent::Depth(frame.clone()));
-        // As a cloud with rows and columns.
+        // An organised cloud.
         let scene = scene_from_cloud(full_scene(&frame).cloud);
         assert_eq!(scene.cloud.points.len(), 640 * 480);
         let record = write(folder.path(), &scene, Timestamp::UNIX_EPOCH).expect("written");

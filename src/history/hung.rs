@@ -1,4 +1,4 @@
-//! One part as it hung there, and what is written down of it while a source is followed.
+//! Identity of a hung part, and which of its inspections are written while a source is followed.
 
 use std::{
     fmt,
@@ -11,16 +11,16 @@ use serde::{Deserialize, Serialize};
 use super::entry::NewEntry;
 use crate::pipeline::live::{FrameRole, HungFrame, HungParts, Left};
 
-/// Names one part as it hung there once: all inspections of it bear the same.
+/// Identifies a part while it hangs in the cell; all its inspections share the identifier.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct HungId(pub(super) String);
 
-/// Counts this program's parts, so that two of one moment have two names.
+/// Counts this program's parts, which keeps the identifiers of simultaneous ones distinct.
 static COUNT: AtomicU32 = AtomicU32::new(0);
 
 impl HungId {
-    /// Of a part that nobody has inspected before.
+    /// Creates the identifier of a part that has not been inspected before.
     #[expect(clippy::new_without_default, reason = "each is another")]
     pub fn new() -> Self {
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
@@ -35,13 +35,13 @@ impl fmt::Display for HungId {
     }
 }
 
-/// What is written down while a source is followed: an inspection for each part that hung there.
+/// Selects the inspections to write while a source is followed: one for each hung part.
 #[derive(Debug)]
 pub struct HungRows<E = NewEntry> {
     parts: HungParts,
     id: HungId,
     visit: u64,
-    /// Of a part whose verdict does not count yet.
+    /// Best inspection of a part whose verdict does not count yet.
     best: Option<E>,
 }
 
@@ -57,9 +57,9 @@ impl<E> Default for HungRows<E> {
 }
 
 impl<E> HungRows<E> {
-    /// Takes in a frame. Answers with the inspection of a part that left before its verdict counted, and with what the
-    /// frame is for the part that hangs there now: the best goes to [`hold`](Self::hold), the first and another one
-    /// are written, all under [`id`](Self::id).
+    /// Takes in a frame. Returns the best inspection of a part that left before its verdict counted, and the role of
+    /// the frame for the present part: pass the best one to [`hold`](Self::hold); write the first and every further one
+    /// under [`id`](Self::id).
     pub fn see(&mut self, frame: &HungFrame<'_>) -> (Option<E>, FrameRole) {
         let (left, role) = self.parts.see(frame);
         let best = self.best.take_if(|_| left != Left::Nothing);
@@ -74,17 +74,17 @@ impl<E> HungRows<E> {
         (left, role)
     }
 
-    /// The part that hangs there now, or hung there last.
+    /// Returns the identifier of the part that hangs there now, or hung there last.
     pub fn id(&self) -> &HungId {
         &self.id
     }
 
-    /// Keeps the frame that shows the part best, until its verdict counts or it leaves.
+    /// Holds the inspection that shows the part best, until its verdict counts or the part leaves.
     pub fn hold(&mut self, best: E) {
         self.best = Some(best);
     }
 
-    /// The source has ended: the inspection of a part that still hangs there without a verdict that counts.
+    /// Ends the source. Returns the held inspection of a part whose verdict does not count yet.
     pub fn end(&mut self) -> Option<E> {
         self.parts = HungParts::default();
         self.visit = 0;

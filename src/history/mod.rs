@@ -1,18 +1,18 @@
-//! What was inspected, for as long as the shop wants to know: a file of inspections, and their frames beside it.
+//! The history: a database of past inspections, and their kept frames.
 //!
 //! ```text
 //! history.sqlite        every inspection: verdict, pose, times, recipe, library, a small picture, remark, true label
 //! history-frames/       frames that the retention rule keeps: depth PNGs as in recordings, other clouds as PCD
-//! history.lock          held by whoever has the history open
+//! history.lock          held by every program that has the history open
 //! ```
 //!
 //! ```text
 //! NewEntry ─► Writer ─► HistoryBuffer ─► History ─► history.sqlite
-//!             a thread  holds in memory what cannot be written
+//!             a thread  keeps in memory what cannot be written
 //! ```
 //!
-//! A kill at any moment loses at most the inspection that was being written. What cannot be opened is never deleted: a
-//! damaged file is set aside under another name, a newer one is refused and left as it is.
+//! Killing the program loses at most the inspection that was being written. A file that cannot be opened is never
+//! deleted: a damaged one is renamed and set aside, one of a newer version is refused and left as it is.
 
 mod buffer;
 mod differences;

@@ -1,49 +1,49 @@
-//! What happened to the history, for whoever watches it.
+//! Events of the history.
 
 use super::{open::SetAside, retention::PruneResult};
 
-/// What happened to the history.
+/// A change of the history, or a failure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HistoryEvent {
-    /// An inspection is in the list: the number that it was handed over with, and the one that it has now.
+    /// An inspection was added to the list.
     Added {
-        /// As it was handed over.
+        /// The ticket with which it was passed in.
         ticket: u64,
-        /// As it is listed; below 0 as long as it waits.
+        /// Its number in the list; negative while it waits.
         number: i64,
     },
-    /// A damaged file was set aside and a new one begun.
+    /// A damaged file was set aside and a new one created.
     SetAside(SetAside),
-    /// It cannot be written: inspections wait in memory from now on.
+    /// Writing failed: inspections wait in memory from now on.
     Failed {
-        /// Why.
+        /// The error.
         what: String,
-        /// What to do.
+        /// What to do about it.
         advice: String,
     },
-    /// It is written again.
+    /// Writing works again.
     Works {
-        /// The numbers of those that waited, before and now.
+        /// The numbers of the waiting inspections, before and after.
         numbers: Vec<(i64, i64)>,
-        /// Inspections that were too many to wait.
+        /// Number of inspections lost because too many waited.
         num_lost: usize,
     },
-    /// A remark or a true label was written down.
+    /// A remark or a true label was written.
     Changed {
-        /// Of which inspection.
+        /// Number of the inspection.
         number: i64,
     },
-    /// A remark or a true label could not be written down.
+    /// A change (a remark, a true label or the retention rule) could not be written.
     NotChanged {
-        /// Why.
+        /// The error.
         what: String,
-        /// What to do.
+        /// What to do about it.
         advice: String,
     },
-    /// Rows may have changed: perhaps another program wrote, or a part was labelled while a case was kept.
+    /// Rows may have changed: another program may have written, or keeping a case labelled a part.
     FilesChanged,
-    /// Frames are kept by another rule.
+    /// The retention rule changed.
     RuleChanged,
-    /// Frames were taken away.
+    /// Frames were removed.
     Swept(PruneResult),
 }

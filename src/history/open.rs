@@ -1,10 +1,10 @@
-//! Opening the file: a new one is made, an older one brought up to date, a newer one and the database of another program
-//! refused, a damaged one set aside.
+//! Opens the file: creates a missing one, migrates an older one, refuses a newer one and the database of another
+//! program, and sets aside a damaged one.
 //!
-//! Write-ahead logging lets the window and a command write at once. `synchronous = FULL`: an inspection that was
-//! reported as written survives the mains switch, not only a kill; a commit then waits for the disk, which is why a
-//! thread of its own writes. Whoever has the history open holds a shared lock; who gets the exclusive one at the
-//! beginning is alone, and only then are the file looked through and strays removed.
+//! Write-ahead logging lets the window and a command write at the same time. With `synchronous = FULL` an inspection
+//! that was reported as written survives a power failure, not only a kill; a commit then waits for the disk, which is
+//! why a separate thread writes. Every program that has the history open holds a shared lock. A program that gets the
+//! exclusive lock at the beginning is alone; only then is the file checked and are strays removed.
 
 use std::{
     collections::BTreeSet,
@@ -24,23 +24,23 @@ use super::{
     store::History,
 };
 
-/// The database in the history's folder.
+/// File name of the database in the history's folder.
 pub const FILE: &str = "history.sqlite";
-/// The folder of frames beside it.
+/// Name of the folder of frames next to it.
 pub(super) const FRAMES: &str = "history-frames";
 const LOCK: &str = "history.lock";
 /// How long one writer waits for another.
 const PATIENCE: Duration = Duration::from_secs(10);
-/// Up to this size a file is looked through whenever it is opened: it takes some milliseconds. Larger ones are when
-/// whoever had them open last was killed.
+/// Files up to this size, in bytes, are checked whenever they are opened, which takes some milliseconds. Larger ones
+/// are checked only if the last program that had them open was killed.
 const ALWAYS_CHECKED: u64 = 16 << 20;
 
-/// What was set aside, and where it lies now.
+/// A damaged file that was set aside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SetAside {
-    /// In words.
+    /// Description of the damage.
     pub what: String,
-    /// The file; what belongs to it lies beside it under the same name.
+    /// New path of the file; its companions are renamed in the same way.
     pub aside: PathBuf,
 }
 
@@ -49,29 +49,29 @@ pub struct SetAside {
 pub struct OpenedHistory {
     /// The history.
     pub history: History,
-    /// What had to be set aside before, if anything.
+    /// The damaged file that was set aside first, if any.
     pub set_aside: Option<SetAside>,
-    /// Where it could be opened for reading only.
+    /// Set if the history could only be opened for reading.
     pub only_read: Option<OnlyRead>,
 }
 
-/// A history that can be read and not written.
+/// Why a history can be read but not written.
 #[derive(Debug)]
 pub struct OnlyRead {
-    /// Why it cannot be written.
+    /// The error that prevents writing.
     pub error: HistoryError,
-    /// True if the log of its last writes could not be read: the newest inspections are missing.
+    /// True if the log of the last writes could not be read, so that the newest inspections are missing.
     pub lacks_newest: bool,
 }
 
-/// The folder of the user's own history.
+/// Returns the folder of the user's own history.
 pub fn users_folder() -> Result<PathBuf, HistoryError> {
     let folders = user_folders().ok_or(HistoryError::NoUserFolder)?;
     Ok(folders.data_dir().to_owned())
 }
 
 impl History {
-    /// Opens the history in this folder; makes both where they are missing.
+    /// Opens the history in this folder; creates folder and file if missing.
     pub fn open(folder: &Path) -> Result<OpenedHistory, HistoryError> {
         disk::create_dir_all(folder).map_err(|error| HistoryError::io(folder, error))?;
         let path = folder.join(FILE);
@@ -92,8 +92,8 @@ impl History {
         })
     }
 
-    /// Opens a history to look at it alone: also one that cannot be written, because its disk is full, fails or is
-    /// write-protected. Nothing is made.
+    /// Opens a history for reading only, even one that cannot be written because its disk is full, fails or is
+    /// write-protected. Creates nothing.
     pub fn open_to_read(folder: &Path) -> Result<OpenedHistory, HistoryError> {
         let path = folder.join(FILE);
         if !path.is_file() {
@@ -112,8 +112,8 @@ impl History {
         })
     }
 
-    /// The history as far as it can be read without writing anything, where this error forbids to write; true if that
-    /// is without the log of its last writes.
+    /// If `error` is one that forbids writing, opens the history as far as that works without writing. The flag is true
+    /// if the log of the last writes is missing from it.
     pub(super) fn only_read(folder: &Path, error: &HistoryError) -> Option<(Self, bool)> {
         if !error.forbids_writing() {
             return None;
@@ -136,7 +136,7 @@ impl History {
     }
 }
 
-/// The file as an address, to be opened in this way.
+/// Returns the file as a URI with this parameter.
 fn address(path: &Path, how: &str) -> String {
     let escaped = path.to_string_lossy();
     let escaped = escaped.replace('%', "%25");
@@ -144,20 +144,20 @@ fn address(path: &Path, how: &str) -> String {
     format!("file:{escaped}?{how}")
 }
 
-/// Held as long as a history is open.
+/// A lock, held while a history is open.
 #[derive(Debug)]
 pub(super) struct Lock {
     _file: Option<File>,
 }
 
 impl Lock {
-    /// The exclusive one, if nobody has the history open.
+    /// Takes the exclusive lock, if nobody has the history open.
     fn alone(folder: &Path) -> Result<Option<Self>, HistoryError> {
         let file = Self::file(folder)?;
         match file.try_lock() {
             Ok(()) => Ok(Some(Self { _file: Some(file) })),
             Err(TryLockError::WouldBlock) => Ok(None),
-            // Some network file systems have no locks: nobody knows who else is there.
+            // Some network file systems have no locks, so others may have it open.
             Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
                 Ok(None)
             }
@@ -191,10 +191,10 @@ fn refuse_newer(path: &Path, found: u32) -> Result<(), HistoryError> {
     })
 }
 
-/// Opens the file as it is and brings it to the version of today.
+/// Opens the file and migrates it to the current version.
 fn connect(path: &Path) -> Result<Connection, HistoryError> {
     let of = |error| HistoryError::of(path, error);
-    // Before SQLite has it: opening alone may already write.
+    // Check before SQLite opens the file: opening alone may write to it.
     refuse_newer(path, Header::read(path)?.map_or(0, |header| header.version))?;
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
         | OpenFlags::SQLITE_OPEN_CREATE
@@ -202,10 +202,10 @@ fn connect(path: &Path) -> Result<Connection, HistoryError> {
     let mut file = Connection::open_with_flags(path, flags).map_err(of)?;
     file.busy_timeout(PATIENCE).map_err(of)?;
     let found = version(&file).map_err(of)?;
-    // In this order: another program of ours may be making them now.
+    // In this order, since another instance of the program may be creating the tables right now.
     let is_foreign = has_tables(&file).map_err(of)? && !is_ours(&file).map_err(of)?;
     if is_foreign || found > VERSION {
-        // Its newest pages may still lie in the log: they stay there.
+        // The newest pages may still be in the log; leave them there.
         file.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)
             .map_err(of)?;
         if is_foreign {
@@ -240,17 +240,17 @@ fn foreign(path: &Path) -> HistoryError {
     }
 }
 
-/// Refuses the database of another program, before `SQLite` may write to it or anything is made beside it.
+/// Refuses the database of another program before `SQLite` may write to it or create files next to it.
 fn refuse_foreign(path: &Path) -> Result<(), HistoryError> {
     let header = match Header::read(path) {
         Ok(Some(header)) => header,
-        // A file that is no database is one of ours that was damaged.
+        // A file that is not a database is treated as a damaged history.
         Ok(None) | Err(HistoryError::Damaged { .. }) => return Ok(()),
         Err(error) => return Err(error),
     };
     let is_foreign = match (header.application, header.version) {
         (APPLICATION, _) => false,
-        // Ours before its first table, or that of a program that says nothing of itself.
+        // A history before its first table, or a program that sets no application id.
         (0, 0) => {
             let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
             let file = Connection::open_with_flags(address(path, "immutable=1"), flags);
@@ -264,7 +264,7 @@ fn refuse_foreign(path: &Path) -> Result<(), HistoryError> {
     Ok(())
 }
 
-/// The first table or index of ours that the file lacks.
+/// Returns the first of our tables and indexes that is missing in the file.
 fn lacking(file: &Connection) -> rusqlite::Result<Option<String>> {
     let names = |file: &Connection| -> rusqlite::Result<BTreeSet<String>> {
         let mut asked = file.prepare("SELECT type || ' ' || name FROM sqlite_schema")?;
@@ -274,25 +274,25 @@ fn lacking(file: &Connection) -> rusqlite::Result<Option<String>> {
     let mut whole = Connection::open_in_memory()?;
     migrate(&mut whole)?;
     let found = names(file)?;
-    // A table before its indexes.
+    // Tables before their indexes.
     let mut expected = names(&whole)?.into_iter().rev();
     Ok(expected.find(|name| !found.contains(name)))
 }
 
-/// What the first hundred bytes of a database say.
+/// Fields from the first hundred bytes of a database.
 struct Header {
     version: u32,
     application: i32,
     num_bytes: u64,
 }
 
-/// How every database of this kind begins.
+/// First bytes of every `SQLite` database.
 const MAGIC: &[u8; 16] = b"SQLite format 3\0";
-/// How every log begins, but for the last bit.
+/// First bytes of every log, except the last bit.
 const LOG_MAGIC: u32 = 0x377f_0682;
 
 impl Header {
-    /// `None` for a file that is not there or empty.
+    /// Reads the header; `None` if the file is missing or empty.
     fn read(path: &Path) -> Result<Option<Self>, HistoryError> {
         let damaged = |what: &str| HistoryError::Damaged {
             path: path.to_owned(),
@@ -317,13 +317,13 @@ impl Header {
         Ok(Some(Self {
             version,
             application: application as i32,
-            // The size of 65536 bytes is written as 1.
+            // A page size of 65536 bytes is stored as 1.
             num_bytes: u64::from(num_pages) * if page == 1 { 65_536 } else { page },
         }))
     }
 }
 
-/// The beginning of a file; `None` if it is not there or empty.
+/// Reads the beginning of a file; `None` if it is missing or empty.
 fn first_bytes(path: &Path, most: u64) -> Result<Option<Vec<u8>>, HistoryError> {
     let read = || -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
@@ -337,13 +337,13 @@ fn first_bytes(path: &Path, most: u64) -> Result<Option<Vec<u8>>, HistoryError> 
     }
 }
 
-/// Sets aside what cannot be used; afterwards there is a sound file or none. Only while nobody else has it open.
+/// Sets aside a damaged file; afterwards there is an intact one or none. Call it only while nobody else has it open.
 fn set_aside_damaged(path: &Path) -> Result<Option<SetAside>, HistoryError> {
     let log = with_ending(path, "-wal");
     if let Some(bytes) = first_bytes(&log, 4)? {
         let magic = bytes.first_chunk().map_or(0, |b| u32::from_be_bytes(*b));
         if magic & !1 != LOG_MAGIC {
-            // SQLite would read over it in silence. What was written before is whole.
+            // SQLite would silently ignore this log. Everything written before it is intact.
             let aside = aside(&log, "damaged")?;
             disk::rename(&log, &aside).map_err(|error| HistoryError::io(path, error))?;
             let what =
@@ -365,7 +365,7 @@ fn set_aside_damaged(path: &Path) -> Result<Option<SetAside>, HistoryError> {
     }
 }
 
-/// Looks whether the file can be used.
+/// Checks whether the file can be used.
 fn check(path: &Path, was_left_open: bool) -> Result<(), HistoryError> {
     let damaged = |what: String| HistoryError::Damaged {
         path: path.to_owned(),
@@ -397,7 +397,7 @@ fn check(path: &Path, was_left_open: bool) -> Result<(), HistoryError> {
     Ok(())
 }
 
-/// Moves the file, its log and its frames to free names: nothing of it is deleted.
+/// Moves the file, its log and its frames to free names; deletes nothing.
 fn set_aside(path: &Path) -> Result<PathBuf, HistoryError> {
     let aside = aside(path, "damaged")?;
     let frames = path.with_file_name(FRAMES);
@@ -418,7 +418,7 @@ fn set_aside(path: &Path) -> Result<PathBuf, HistoryError> {
     Ok(aside)
 }
 
-/// A free name beside a file.
+/// Returns a free name next to a file.
 fn aside(path: &Path, word: &str) -> Result<PathBuf, HistoryError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let (stem, ending) = name.rsplit_once('.').unwrap_or((&name, ""));
@@ -429,7 +429,7 @@ fn aside(path: &Path, word: &str) -> Result<PathBuf, HistoryError> {
         .ok_or_else(|| HistoryError::io(path, io::ErrorKind::AlreadyExists.into()))
 }
 
-/// The name of what `SQLite` keeps beside a file.
+/// Returns the name of a companion file of `SQLite`.
 fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);

@@ -1,4 +1,4 @@
-//! How parts ended, as statistics need it: a line a part, without what an inspection can be opened with.
+//! Outcomes of parts for statistics: one per part, without the data for opening an inspection.
 
 use jiff::Timestamp;
 use rusqlite::{OptionalExtension as _, params_from_iter, types::Value};
@@ -12,29 +12,29 @@ use super::{
 };
 use crate::pipeline::RefusalKind;
 
-/// How a part ended.
+/// Outcome of one part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartOutcome {
-    /// When it was inspected.
+    /// Time of the inspection.
     pub at: Timestamp,
-    /// How.
+    /// The verdict.
     pub verdict: StoredVerdict,
-    /// What it was recognised as, accepted or not; nothing where it is unknown.
+    /// Name of the part found, accepted or not; `None` if it is unknown or there is none.
     pub part: Option<String>,
-    /// Why it was not accepted, if it was not.
+    /// Why it was not accepted.
     pub reason: Option<RefusalReason>,
 }
 
-/// Why a part was not accepted, as far as refusals are counted by it.
+/// The reason by which refusals are counted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RefusalReason {
     /// The kind of the refusal.
     Kind(RefusalKind),
-    /// An English sentence, where an earlier program wrote it or this one does not know its kind.
+    /// An English sentence, if an earlier version wrote it or this one does not know its kind.
     Sentence {
         /// The sentence.
         text: String,
-        /// The best guess's name.
+        /// Name of the best guess.
         nearest: Option<String>,
     },
 }
@@ -64,7 +64,8 @@ impl From<&Record> for PartOutcome {
     }
 }
 
-/// What a file of this version is asked. The index has all but the kind: only the rows of refusals are read themselves.
+/// Returns the query for a file of this version. The index has all columns but the kind, so only the rows of refusals
+/// themselves are read.
 pub(super) fn outcomes_query(filter: &Filter, version: u32) -> (String, Vec<Value>) {
     let (condition, values) = filter.condition();
     let kind = if version >= WITH_REFUSALS {
@@ -80,7 +81,7 @@ pub(super) fn outcomes_query(filter: &Filter, version: u32) -> (String, Vec<Valu
 }
 
 impl History {
-    /// Of all rows that the filter lets through, the oldest first.
+    /// Returns the outcomes of all matching rows, the oldest first.
     pub fn outcomes(&self, filter: &Filter) -> Result<Vec<PartOutcome>, HistoryError> {
         self.read_outcomes(filter)
             .map_err(|error| self.error(error))

@@ -1,8 +1,8 @@
-//! How long frames are kept. Rows are kept for good: a hundred thousand of them take about as much as a minute of
+//! Retention of frames. Rows are kept forever: a hundred thousand of them take about as much space as a minute of
 //! frames.
 //!
-//! The oldest frames go first, by age and then by size. A frame whose inspection has a remark or a true label was looked
-//! at by somebody: no rule takes it away, it only counts towards the size.
+//! The oldest frames are removed first, by age and then by size. A frame whose inspection has a remark or a true label
+//! has been looked at by a person: no rule removes it, but it counts towards the size.
 
 use std::collections::BTreeSet;
 
@@ -16,15 +16,15 @@ use super::{
     store::History,
 };
 
-/// Which frames are kept, and how long.
+/// Which frames are kept, and for how long.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Retention {
-    /// Of which inspections the frame is kept.
+    /// The inspections whose frames are kept.
     pub keep: KeepFrames,
-    /// Older frames go, days, 1..3650.
+    /// Maximum age of a frame, days, 1..3650.
     pub max_days: u32,
-    /// Beyond this size the oldest frames go, gigabytes (10⁹ bytes), 0.1..10 000.
+    /// Maximum total size, gigabytes (10⁹ bytes), 0.1..10 000; beyond it the oldest frames are removed.
     pub max_gigabytes: f64,
 }
 
@@ -39,7 +39,7 @@ impl Default for Retention {
 }
 
 impl Retention {
-    /// The same within what makes sense.
+    /// Returns the rule with its values clamped to their ranges.
     #[must_use]
     pub fn clamped(self) -> Self {
         let gigabytes = if self.max_gigabytes.is_finite() {
@@ -55,24 +55,24 @@ impl Retention {
     }
 }
 
-/// Of which inspections the frame is kept.
+/// The inspections whose frames are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum KeepFrames {
-    /// Of every one.
+    /// All inspections.
     All,
-    /// Of those that were not accepted: they are the ones that somebody asks about.
+    /// Those not accepted, which are the ones that people ask about.
     #[default]
     NotAccepted,
-    /// Of none.
+    /// No inspection.
     None,
 }
 
 impl KeepFrames {
-    /// Every rule.
+    /// All rules.
     pub const ALL: [Self; 3] = [Self::All, Self::NotAccepted, Self::None];
 
-    /// What a person calls it.
+    /// Returns the name for people.
     pub fn title(self) -> &'static str {
         match self {
             Self::All => "All",
@@ -90,23 +90,23 @@ impl KeepFrames {
     }
 }
 
-/// How much is kept.
+/// Disk usage of the kept frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
-    /// Frames.
+    /// Number of frames.
     pub num_frames: usize,
-    /// Their bytes.
+    /// Total size, bytes.
     pub num_bytes: u64,
-    /// Of those, the bytes of inspections with a remark or a true label.
+    /// Size of the frames whose inspections have a remark or a true label, bytes.
     pub num_bytes_marked: u64,
 }
 
-/// What a sweep took away.
+/// Frames removed by a sweep.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PruneResult {
-    /// Frames.
+    /// Number of frames.
     pub num_frames: usize,
-    /// Their bytes.
+    /// Total size, bytes.
     pub num_bytes: u64,
 }
 
@@ -116,11 +116,11 @@ struct PrunableFrame {
     bytes: u64,
 }
 
-/// Under this name the rule stands in the file: window and commands keep frames by the same.
+/// Name under which the file stores the rule, so that window and commands apply the same.
 const SETTING: &str = "retention";
 
 impl History {
-    /// The rule by which frames are kept.
+    /// Reads the retention rule.
     pub fn retention(&self) -> Result<Retention, HistoryError> {
         let asked = "SELECT json FROM setting WHERE name = ?";
         let found = self
@@ -131,7 +131,7 @@ impl History {
         Ok(rule.unwrap_or_default().clamped())
     }
 
-    /// Keeps frames by this rule from now on; what it does not keep goes with the next sweep.
+    /// Sets the retention rule; frames that it does not keep are removed by the next sweep.
     pub fn set_retention(&mut self, retention: &Retention) -> Result<(), HistoryError> {
         let json = serde_json::to_string(&retention.clamped()).unwrap_or_default();
         let written = self.file.execute(
@@ -142,7 +142,7 @@ impl History {
         written.map(|_| ()).map_err(|error| self.error(error))
     }
 
-    /// How much is kept.
+    /// Returns the disk usage of the kept frames.
     pub fn usage(&self) -> Result<Usage, HistoryError> {
         let asked = "SELECT count(*), total(frame_bytes), total(frame_bytes) FILTER (WHERE remark <> '' OR label IS NOT NULL)
             FROM inspection WHERE frame_bytes IS NOT NULL";
@@ -157,9 +157,9 @@ impl History {
         read.map_err(|error| self.error(error))
     }
 
-    /// Takes away the frames that the rule does not keep any longer. The rows stay.
+    /// Removes the frames that the rule no longer keeps. Their rows stay.
     ///
-    /// First no row speaks of a frame any more, then its file goes: what is killed between the two leaves strays.
+    /// The references in the rows are deleted first, then the files: a kill in between leaves strays.
     pub fn sweep(
         &mut self,
         retention: &Retention,
@@ -184,7 +184,7 @@ impl History {
             }
             goes
         };
-        // The oldest come first: behind the first that stays all stay.
+        // The oldest come first: once one frame stays, all later ones stay.
         let mut goes = goes;
         let leaving: Vec<PrunableFrame> = candidates.into_iter().take_while(|c| goes(c)).collect();
         if leaving.is_empty() {
@@ -199,7 +199,7 @@ impl History {
         })
     }
 
-    /// Frames that a rule may take away, the oldest first.
+    /// Returns the frames that a rule may remove, the oldest first.
     fn candidates(&self) -> rusqlite::Result<Vec<PrunableFrame>> {
         let mut asked = self.file.prepare(
             "SELECT number, at, frame_bytes FROM inspection
@@ -216,7 +216,7 @@ impl History {
         rows.collect()
     }
 
-    /// No row speaks of these frames any more; answers with what they were.
+    /// Deletes the references to these frames, and returns their records.
     fn forget(&mut self, numbers: &[i64]) -> rusqlite::Result<Vec<FrameRecord>> {
         let file = self
             .file
@@ -244,8 +244,8 @@ impl History {
         Ok(())
     }
 
-    /// Makes rows and frames agree again: a frame that no row speaks of is removed, and a row whose frame is gone says so.
-    /// Only while nobody else has the history open.
+    /// Makes rows and frames consistent: removes frames that no row refers to, and references to missing frames. Call
+    /// it only while nobody else has the history open.
     pub(super) fn tidy(mut self) -> Result<(), HistoryError> {
         let kept = self.kept_frames().map_err(|error| self.error(error))?;
         let gone: Vec<i64> = kept

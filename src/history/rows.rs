@@ -1,4 +1,4 @@
-//! An inspection as rows of the tables, and back.
+//! Conversion between an inspection and the rows of the tables.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::{
     pipeline::{Recipe, RecipeLabel},
 };
 
-/// What a row of a list is read from. A file that cannot be written is not brought to the version of today.
+/// Returns the columns of a list row. A file that cannot be written is not migrated, so it may lack some.
 pub(super) fn columns(file: &Connection) -> rusqlite::Result<String> {
     let trace = if version(file)? >= WITH_TRACEABILITY {
         "serial, job_order, operator"
@@ -27,7 +27,7 @@ pub(super) fn columns(file: &Connection) -> rusqlite::Result<String> {
     Ok(format!("{COLUMNS}, {trace}"))
 }
 
-/// What the rest of an inspection is read from, with its recipe.
+/// Returns the columns of the rest of an inspection, with its recipe.
 pub(super) fn detail_columns(file: &Connection) -> rusqlite::Result<String> {
     let found = version(file)?;
     let recipe = if found >= WITH_RECIPE_NAMES {
@@ -50,14 +50,14 @@ const COLUMNS: &str = "number, at, scene, source, simulated, verdict, part, titl
     label, frame_bytes, hung, parent, (SELECT count(*) FROM inspection AS other WHERE other.parent = inspection.number)
     AS num_below";
 
-/// The inspection that stands for a part.
+/// Returns the inspection that stands for a part.
 pub(super) fn head_of(file: &Connection, hung: &HungId) -> rusqlite::Result<Option<Summary>> {
     let columns = columns(file)?;
     let asked = format!("SELECT {columns} FROM inspection WHERE hung = ? AND parent IS NULL");
     file.query_row(&asked, [&hung.0], summary_of).optional()
 }
 
-/// Writes both rows of an inspection.
+/// Writes both rows of an inspection, and returns its number.
 pub(super) fn insert(
     file: &Connection,
     entry: &NewEntry,
@@ -69,13 +69,13 @@ pub(super) fn insert(
         Some(head) if head.gives_way_to(summary) => (None, Some(head)),
         head => (head.as_ref().map(|head| head.number), None),
     };
-    // What was said of the part stays with it, and so does what it is traced by.
+    // Remark, label and traceability of the part stay with it.
     let mut summary = summary.clone();
     if let Some(head) = &head {
         summary.trace = summary.trace.or(&head.trace);
     }
     if let Some(head) = gives_way {
-        // It may have been said while this one waited to be written.
+        // They may have been set while this inspection waited to be written.
         if summary.remark.is_empty() {
             summary.remark.clone_from(&head.remark);
         }
@@ -143,7 +143,8 @@ pub(super) fn insert(
     Ok(number)
 }
 
-/// Where a recipe is written: under its identity, unless another has that by chance.
+/// Stores a recipe under its identity, or under a variant of it if another recipe happens to have the same one. Returns
+/// the key.
 fn recipe_key(
     file: &Connection,
     identity: &str,
@@ -183,7 +184,7 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
         scene: row.get("scene")?,
         source: row.get("source")?,
         is_simulated: row.get("simulated")?,
-        // What nobody knows was certainly not accepted.
+        // An unreadable verdict is not an acceptance.
         verdict: StoredVerdict::named(&verdict).unwrap_or(StoredVerdict::NotAccepted),
         part: row.get("part")?,
         title: row.get("title")?,

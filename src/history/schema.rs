@@ -1,33 +1,33 @@
-//! The tables, and how an older file becomes one of today.
+//! The tables, and the migration of older files.
 
 use rusqlite::{Connection, Transaction, TransactionBehavior};
 
-/// One step from a version to the next.
+/// A step from one version to the next.
 type Migration = fn(&Transaction<'_>) -> rusqlite::Result<()>;
 
-/// Every step, in order; the version of a file counts those that it has seen.
+/// All steps in order; the version of a file is the number of steps applied to it.
 const STEPS: [Migration; 5] = [first, parts, recipe_names, traceability, refusals];
 
-/// The version that is written.
+/// The version that this program writes.
 pub(super) const VERSION: u32 = STEPS.len() as u32;
 
-/// The version from which on inspections of the same hung part belong together; an older file is not listed as it is.
+/// First version in which inspections of the same hung part belong together; older files are never listed unmigrated.
 pub(super) const WITH_PARTS: u32 = 2;
 
-/// The version from which on recipes have names.
+/// First version in which recipes have names.
 pub(super) const WITH_RECIPE_NAMES: u32 = 3;
 
-/// The version from which on inspections have serial numbers.
+/// First version in which inspections have serial numbers.
 pub(super) const WITH_TRACEABILITY: u32 = 4;
 
-/// The version from which on refusals have a kind and figures beside their English sentence.
+/// First version in which refusals have a kind and figures besides the English sentence.
 pub(super) const WITH_REFUSALS: u32 = 5;
 
-/// Tells our files from other programs': `PsHi`.
+/// Application id that distinguishes our files from those of other programs: `PsHi`.
 pub(super) const APPLICATION: i32 = i32::from_be_bytes(*b"PsHi");
 
-/// `inspection` holds what lists show and filters ask for, `detail` the rest: a row of the first is about 200 bytes, so
-/// that looking through a hundred thousand stays quick.
+/// `inspection` holds the columns of lists and filters, `detail` the rest: a row of the first takes about 200 bytes, so
+/// that scanning a hundred thousand stays fast.
 fn first(file: &Transaction<'_>) -> rusqlite::Result<()> {
     file.execute_batch(
         "CREATE TABLE recipe (
@@ -77,8 +77,8 @@ fn first(file: &Transaction<'_>) -> rusqlite::Result<()> {
     )
 }
 
-/// Inspections of the same hung part belong together: one stands for the part, the others lie below it. Before, every
-/// inspection was one of a part of its own.
+/// Groups inspections of the same hung part: one stands for the part, the others lie below it. In older files every
+/// inspection gets a part of its own.
 fn parts(file: &Transaction<'_>) -> rusqlite::Result<()> {
     file.execute_batch(
         "ALTER TABLE inspection ADD COLUMN hung TEXT NOT NULL DEFAULT '';       -- the part as it hung there
@@ -92,7 +92,7 @@ fn parts(file: &Transaction<'_>) -> rusqlite::Result<()> {
     )
 }
 
-/// By which name a recipe went, and whether it was changed since it was kept under it.
+/// Adds the name of the recipe, and whether it was changed since it was saved under that name.
 fn recipe_names(file: &Transaction<'_>) -> rusqlite::Result<()> {
     file.execute_batch(
         "ALTER TABLE detail ADD COLUMN recipe_name TEXT;                           -- NULL: not written down
@@ -100,7 +100,7 @@ fn recipe_names(file: &Transaction<'_>) -> rusqlite::Result<()> {
     )
 }
 
-/// Serial number, order and operator; empty where they are not known.
+/// Adds serial number, order and operator; empty if unknown.
 fn traceability(file: &Transaction<'_>) -> rusqlite::Result<()> {
     file.execute_batch(
         "ALTER TABLE inspection ADD COLUMN serial TEXT NOT NULL DEFAULT '';
@@ -109,8 +109,8 @@ fn traceability(file: &Transaction<'_>) -> rusqlite::Result<()> {
     )
 }
 
-/// Why an inspection was not accepted, for programs; `reason` and `advice` say the same in English. The kind stands with
-/// what lists show, so that statistics leave the long rows of `detail` alone.
+/// Adds the refusal in a form for programs; `reason` and `advice` are the same in English. The kind is in `inspection`,
+/// so that statistics need not read the long rows of `detail`.
 fn refusals(file: &Transaction<'_>) -> rusqlite::Result<()> {
     file.execute_batch(
         "ALTER TABLE inspection ADD COLUMN reason_kind TEXT; -- the kind of refusal; NULL: accepted, or not written down
@@ -118,12 +118,12 @@ fn refusals(file: &Transaction<'_>) -> rusqlite::Result<()> {
     )
 }
 
-/// The version of a file; 0 before it has a table.
+/// Returns the version of a file; 0 before it has a table.
 pub(super) fn version(file: &Connection) -> rusqlite::Result<u32> {
     file.pragma_query_value(None, "user_version", |row| row.get(0))
 }
 
-/// Brings a file to the version of today, all the way or not at all; a newer one is left as it is.
+/// Migrates a file to the current version, completely or not at all; a newer one is left as it is.
 pub(super) fn migrate(file: &mut Connection) -> rusqlite::Result<()> {
     migrate_by(file, &STEPS)
 }
@@ -133,7 +133,7 @@ fn migrate_by(file: &mut Connection, steps: &[Migration]) -> rusqlite::Result<()
         return Ok(());
     }
     let file = file.transaction_with_behavior(TransactionBehavior::Immediate)?;
-    // Another program may have been quicker.
+    // Another program may have migrated it meanwhile.
     let found = version(&file)? as usize;
     for (number, step) in steps.iter().enumerate().skip(found) {
         step(&file)?;
@@ -251,7 +251,7 @@ mod tests {
         migrate_by(&mut file, &[first, second]).expect("made");
         assert_eq!(version(&file).expect("asked"), 2);
         assert!(tables(&file).contains(&"later".to_owned()));
-        // What it has seen it does not see again, and a newer one is left as it is.
+        // Steps already applied are not repeated, and a newer file is left as it is.
         migrate_by(&mut file, &[first, second]).expect("nothing to do");
         migrate_by(&mut file, &[first]).expect("nothing to do");
         assert_eq!(version(&file).expect("asked"), 2);

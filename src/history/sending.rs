@@ -1,8 +1,8 @@
-//! What a database of the plant has not got of this history yet, and the columns that it gets.
+//! The rows that a database of the plant does not have yet, and the columns that it gets.
 //!
-//! From the first sending on, triggers in the file note every inspection that is added or changed, in the same
-//! transaction, whichever program writes. A note goes once the database has committed the row, unless the row has changed
-//! again meanwhile: then there is a newer note.
+//! From the first sending on, triggers in the file record every inspection that is added or changed, in the same
+//! transaction, whichever program writes. Once the database has committed the row, its record is deleted, unless the
+//! row has changed again meanwhile: then there is a newer record.
 
 use std::collections::BTreeSet;
 
@@ -19,25 +19,25 @@ use super::{
     store::History,
 };
 
-/// What a column holds.
+/// Type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnKind {
     /// 0 or 1.
     Boolean,
-    /// 64 bits.
+    /// 64-bit integer.
     Integer,
-    /// 64 bits.
+    /// 64-bit floating point.
     Real,
     /// UTF-8.
     Text,
-    /// A picture.
+    /// Binary data: a picture.
     Bytes,
 }
 
-/// The name of a column, and what it holds.
+/// Name and type of a column.
 pub type Column = (&'static str, ColumnKind);
 
-/// Every column of `inspection`; the first is the key.
+/// All columns of `inspection`; the first is the key.
 pub const INSPECTION_COLUMNS: [Column; 21] = [
     ("number", Integer),
     ("at", Integer),
@@ -62,7 +62,7 @@ pub const INSPECTION_COLUMNS: [Column; 21] = [
     ("reason_kind", Text),
 ];
 
-/// Every column of `detail`; the first is the key.
+/// All columns of `detail`; the first is the key.
 pub const DETAIL_COLUMNS: [Column; 15] = [
     ("number", Integer),
     ("nearest", Text),
@@ -81,31 +81,31 @@ pub const DETAIL_COLUMNS: [Column; 15] = [
     ("refusal", Text),
 ];
 
-/// Every column of `recipe`; the first is the key.
+/// All columns of `recipe`; the first is the key.
 pub const RECIPE_COLUMNS: [Column; 2] = [("identity", Text), ("json", Text)];
 
-/// Rows that a database has not got, or not as they are now.
+/// Rows that a database does not have in their present state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnsentRows {
-    /// Of `inspection`, in the order in which they changed last.
+    /// Rows of `inspection`, in the order of their last change.
     pub inspections: Vec<Vec<Value>>,
-    /// Of `detail`, of the same inspections.
+    /// Rows of `detail` of the same inspections.
     pub details: Vec<Vec<Value>>,
-    /// Of `recipe`, those that the details name.
+    /// Rows of `recipe` that the details refer to.
     pub recipes: Vec<Vec<Value>>,
-    /// The notes.
+    /// Keys of the change records.
     changes: Vec<i64>,
 }
 
 impl UnsentRows {
-    /// Inspections that were noted, also such as are not there any more.
+    /// Returns the number of recorded changes, including those of inspections that no longer exist.
     pub fn num(&self) -> usize {
         self.changes.len()
     }
 }
 
-/// What notes the changes. A statement in a trigger resolves conflicts as the statement that fired it, so `OR REPLACE`
-/// would not be certain.
+/// Table and triggers that record the changes. A statement in a trigger resolves conflicts like the statement that
+/// fired it, so `OR REPLACE` would not be reliable.
 const NOTES: &str = "
     CREATE TABLE IF NOT EXISTS unsent (
         change INTEGER PRIMARY KEY AUTOINCREMENT, -- never used again: a later change has another
@@ -127,13 +127,13 @@ const NOTES: &str = "
         SELECT number FROM inspection WHERE number NOT IN (SELECT number FROM unsent) ORDER BY number;";
 
 impl History {
-    /// Notes from now on which inspections are added or changed, and all that are there if nobody has noted them.
-    /// Answers with the identity of this history, the same for good: another file has another one, its copy the same.
+    /// Starts recording which inspections are added or changed; at the first call also records all that exist. Returns
+    /// the identity of this history, which never changes: another file has another one, a copy of it the same.
     pub fn note_changes(&mut self) -> Result<String, HistoryError> {
         note_changes(&mut self.file).map_err(|error| self.error(error))
     }
 
-    /// How many inspections are noted as not sent.
+    /// Returns the number of inspections that are recorded as not sent.
     pub fn num_unsent(&self) -> Result<usize, HistoryError> {
         let asked = "SELECT count(*) FROM unsent";
         let num = self.file.query_row(asked, [], |row| row.get::<_, i64>(0));
@@ -141,12 +141,12 @@ impl History {
             .map_err(|error| self.error(error))
     }
 
-    /// Inspections that are noted as not sent, those that changed first, at most so many.
+    /// Returns up to `most` unsent inspections, those that changed first at the front.
     pub fn unsent(&mut self, most: usize) -> Result<UnsentRows, HistoryError> {
         unsent(&mut self.file, most).map_err(|error| self.error(error))
     }
 
-    /// Takes the notes of these rows away, which were sent. What has changed since it was read stays noted.
+    /// Deletes the change records of these rows, which were sent. A row changed after it was read stays recorded.
     pub fn note_sent(&mut self, rows: &UnsentRows) -> Result<(), HistoryError> {
         note_sent(&mut self.file, &rows.changes).map_err(|error| self.error(error))
     }
@@ -159,7 +159,7 @@ fn note_changes(file: &mut Connection) -> rusqlite::Result<String> {
         return Ok(known);
     }
     let file = file.transaction_with_behavior(TransactionBehavior::Immediate)?;
-    // A later version may have made a table anew, and its triggers went with the old one: all is noted again.
+    // A later version may have recreated a table, which drops its triggers: record everything again.
     if !is_noting(&file)? {
         file.execute_batch(NOTES)?;
     }
@@ -173,7 +173,7 @@ fn note_changes(file: &mut Connection) -> rusqlite::Result<String> {
     Ok(made.unwrap_or_default())
 }
 
-/// Under this name the identity stands among the settings.
+/// Name under which the settings hold the identity.
 const IDENTITY: &str = "identity";
 
 fn identity(file: &Connection) -> rusqlite::Result<Option<String>> {
@@ -190,7 +190,7 @@ fn is_noting(file: &Connection) -> rusqlite::Result<bool> {
 }
 
 fn unsent(file: &mut Connection, most: usize) -> rusqlite::Result<UnsentRows> {
-    // One transaction: a note and its row belong together.
+    // One transaction keeps each change record consistent with its row.
     let file = file.transaction()?;
     let mut asked = file.prepare("SELECT change, number FROM unsent ORDER BY change LIMIT ?")?;
     let notes = asked.query_map([most as i64], |row| Ok((row.get(0)?, row.get(1)?)))?;
@@ -202,7 +202,7 @@ fn unsent(file: &mut Connection, most: usize) -> rusqlite::Result<UnsentRows> {
         .position(|(name, _)| *name == "recipe");
     for (change, number) in notes {
         rows.changes.push(change);
-        // One that a person removed from the file stays where it was sent.
+        // An inspection that was deleted from the file stays in the database.
         let key = Value::from(number);
         let Some(inspection) = row(&file, "inspection", &INSPECTION_COLUMNS, &key)? else {
             continue;
@@ -223,7 +223,7 @@ fn unsent(file: &mut Connection, most: usize) -> rusqlite::Result<UnsentRows> {
     Ok(rows)
 }
 
-/// The columns of a row by its key.
+/// Reads the columns of a row by its key.
 fn row(
     file: &Connection,
     table: &str,
@@ -243,7 +243,7 @@ fn row(
     read.optional()
 }
 
-/// Text that is no UTF-8 is read as far as it is.
+/// Text that is not valid UTF-8 is read lossily.
 fn value_of(value: ValueRef<'_>) -> Value {
     match value {
         ValueRef::Null => Value::Null,
@@ -262,14 +262,14 @@ fn note_sent(file: &mut Connection, changes: &[i64]) -> rusqlite::Result<()> {
     file.commit()
 }
 
-/// Reads inspections of values that came from elsewhere, as from rows of the file.
+/// Converts values from elsewhere into inspections, as if they were rows of the file.
 pub struct RowReader {
     memory: Connection,
     asked: String,
 }
 
 impl RowReader {
-    /// Of values in the order of these columns.
+    /// Creates a reader of values in the order of these columns.
     pub fn new(names: &[&str]) -> rusqlite::Result<Self> {
         let columns: Vec<String> = names.iter().map(|name| format!("? AS {name}")).collect();
         Ok(Self {
@@ -278,13 +278,13 @@ impl RowReader {
         })
     }
 
-    /// What lists show.
+    /// Reads the row for lists.
     pub fn summary(&self, values: Vec<Value>) -> rusqlite::Result<Summary> {
         self.memory
             .query_row(&self.asked, params_from_iter(values), summary_of)
     }
 
-    /// All of it.
+    /// Reads an inspection in full.
     pub fn record(&self, values: Vec<Value>) -> rusqlite::Result<Record> {
         self.memory
             .query_row(&self.asked, params_from_iter(values), record_of)
@@ -378,7 +378,7 @@ mod tests {
         let again = history.unsent(10).expect("read");
         assert_eq!(numbers(&again), [1]);
         history.note_sent(&again).expect("noted");
-        // The same again by another sender takes nothing away that came later.
+        // Deleting the same records twice does not delete later ones.
         history.set_remark(1, "no dent").expect("written");
         history.note_sent(&read).expect("noted");
         history.note_sent(&again).expect("noted");

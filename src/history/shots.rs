@@ -1,4 +1,4 @@
-//! The shots of a scan among the kept frames.
+//! Kept frames of the shots of a scan.
 
 use std::{
     path::{Path, PathBuf},
@@ -15,27 +15,27 @@ use crate::{
     stages::scene::SceneCloud,
 };
 
-/// What is written down of a kept shot of a scan.
+/// Database record of a kept shot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShotRecord {
-    /// Its name for people.
+    /// Name for people.
     pub name: String,
-    /// The camera's pose by the robot, 16 numbers row after row, metres.
+    /// Camera pose according to the robot, 16 numbers in row-major order, metres.
     #[serde(with = "sixteen_numbers")]
     pub base_from_camera: RigidTransform,
-    /// Its frame.
+    /// Frame of the shot.
     pub frame: FrameRecord,
 }
 
 impl FrameRecord {
-    /// Its file, and those of all shots of a scan.
+    /// Returns the frame's file, and for a scan those of all shots.
     pub(super) fn files(&self) -> impl Iterator<Item = &str> {
         let shots = self.shots.iter().map(|shot| shot.frame.file.as_str());
         let others = shots.filter(|file| *file != self.file);
         std::iter::once(self.file.as_str()).chain(others)
     }
 
-    /// All its files in this folder: frames, and their cameras where they have their own.
+    /// Returns the paths of all files in this folder: frames, and cameras that belong to a single frame.
     pub(super) fn paths(&self, folder: &Path) -> Vec<PathBuf> {
         let paths = self.files().map(|file| folder.join(file));
         paths
@@ -43,7 +43,7 @@ impl FrameRecord {
             .collect()
     }
 
-    /// Size of all its files.
+    /// Returns the total size of all files.
     pub(super) fn all_bytes(&self) -> u64 {
         if self.shots.is_empty() {
             return self.bytes;
@@ -52,7 +52,7 @@ impl FrameRecord {
     }
 }
 
-/// Writes the shots of a scan: all of them or none. The frame of the inspection is the one of `scene`.
+/// Writes the shots of a scan, all of them or none. The inspection's own frame is the one of `scene`.
 pub(super) fn write_shots(
     folder: &Path,
     scene: &Arc<SceneCloud>,
@@ -85,7 +85,7 @@ pub(super) fn write_shots(
     }))
 }
 
-/// The shots of a kept scan, as they were put together.
+/// Reads the shots of a kept scan as they were inspected.
 pub fn read_shots(folder: &Path, frame: &FrameRecord) -> Result<Vec<Shot>, FrameError> {
     let shot = |shot: &ShotRecord| {
         Ok(Shot {

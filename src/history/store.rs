@@ -1,4 +1,4 @@
-//! Writing inspections into the file and asking for them.
+//! Writing and querying inspections.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{library::Truth, scan::Shot, stages::scene::SceneCloud};
 
-/// The history: a file of inspections, and a folder of frames beside it.
+/// The history: a database of inspections and a folder of frames.
 #[derive(Debug)]
 pub struct History {
     pub(super) file: Connection,
@@ -29,14 +29,14 @@ pub struct History {
     lock: Option<Lock>,
 }
 
-/// Some rows of a list, and how many there are in all.
+/// Some rows of a list, with totals.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Page {
-    /// The rows, the newest first.
+    /// The rows, newest first.
     pub rows: Vec<Summary>,
-    /// Rows that the filter lets through: parts, unless it asks for what lies below them too.
+    /// Number of matching rows; they are parts, unless the filter includes re-inspections.
     pub num_matching: usize,
-    /// Parts there are.
+    /// Number of all parts.
     pub num_all: usize,
 }
 
@@ -58,9 +58,9 @@ impl History {
         HistoryError::of(&self.path, source)
     }
 
-    /// Writes an inspection, with its frame if the rule keeps it: all of it or nothing. Answers with its number.
+    /// Writes an inspection, and its frame if the rule keeps it, completely or not at all. Returns its number.
     ///
-    /// The frame is there before the row: what is killed between the two leaves a stray, which the next opening removes.
+    /// The frame is written before the row: a kill in between leaves a stray, which the next opening removes.
     pub fn add(&mut self, entry: &NewEntry, retention: &Retention) -> Result<i64, HistoryError> {
         let summary = &entry.record.summary;
         let scene = entry.scene.as_ref();
@@ -72,8 +72,8 @@ impl History {
             None => None,
         };
         let written = match begin(&mut self.file, entry, frame.as_ref()) {
-            // Where this fails, the row may be in the log all the same and come back with the next opening, which
-            // removes the frame if it does not.
+            // If the commit fails, the row may still be in the log and reappear with the next opening; otherwise that
+            // opening removes the frame.
             Ok((file, number)) => file.commit().map(|()| number),
             Err(error) => {
                 for path in frame.iter().flat_map(|frame| frame.paths(&self.frames)) {
@@ -85,7 +85,7 @@ impl History {
         written.map_err(|error| self.error(error))
     }
 
-    /// Writes many inspections at once, without their frames: all or none.
+    /// Writes many inspections at once, without frames: all or none.
     pub fn add_all(
         &mut self,
         entries: impl IntoIterator<Item = NewEntry>,
@@ -102,12 +102,12 @@ impl History {
         written().map_err(|error| HistoryError::of(&self.path, error))
     }
 
-    /// The rows from this place on that the filter lets through, the newest first, and how many there are in all.
+    /// Returns up to `most` matching rows from this offset on, newest first, and the totals.
     pub fn page(&self, filter: &Filter, offset: usize, most: usize) -> Result<Page, HistoryError> {
         let read = || -> rusqlite::Result<Page> {
             let num_all = self.count_all()?;
             let (numbers, num_matching) = if filter.has_words() {
-                // Words are looked for in every row: once for both.
+                // Words require a scan of every row, so do it once for rows and count.
                 self.numbers_and_count(filter, offset, most)?
             } else if *filter == Filter::default() {
                 (self.numbers(filter, offset, most)?, num_all)
@@ -137,7 +137,7 @@ impl History {
         Ok(num as usize)
     }
 
-    /// Which rows a page shows.
+    /// Returns the numbers of the rows on a page.
     fn numbers(&self, filter: &Filter, offset: usize, most: usize) -> rusqlite::Result<Vec<i64>> {
         let (asked, mut values) = listed_query(filter);
         values.extend([Value::from(most as i64), Value::from(offset as i64)]);
@@ -147,7 +147,7 @@ impl History {
             .collect()
     }
 
-    /// The same, and how many there are in all.
+    /// As [`numbers`](Self::numbers), with the number of all matching rows.
     fn numbers_and_count(
         &self,
         filter: &Filter,
@@ -167,18 +167,18 @@ impl History {
         Ok((numbers, num))
     }
 
-    /// These rows, in their order.
+    /// Reads these rows in this order.
     fn rows(&self, numbers: &[i64]) -> rusqlite::Result<Vec<Summary>> {
         let columns = columns(&self.file)?;
         let asked = format!("SELECT {columns} FROM inspection WHERE number = ?");
         let mut asked = self.file.prepare(&asked)?;
-        // One that somebody else removed meanwhile is none.
+        // Skip rows that another program has deleted meanwhile.
         let rows = numbers.iter();
         let rows = rows.map(|number| asked.query_row([number], summary_of).optional());
         rows.filter_map(Result::transpose).collect()
     }
 
-    /// Goes through all rows that the filter lets through, the oldest first, up to the first error.
+    /// Calls `each` with all matching inspections, oldest first, up to the first error.
     pub fn each<E: From<HistoryError>>(
         &self,
         filter: &Filter,
@@ -192,7 +192,7 @@ impl History {
             numbers.collect()
         };
         for number in numbers().map_err(|error| self.error(error))? {
-            // One that somebody else removed meanwhile is none.
+            // Skip rows that another program has deleted meanwhile.
             if let Some(record) = self.row(number)? {
                 each(record)?;
             }
@@ -200,7 +200,7 @@ impl History {
         Ok(())
     }
 
-    /// An inspection in full.
+    /// Returns an inspection in full; `None` if it does not exist.
     pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
         let read = || -> rusqlite::Result<Option<Record>> {
             let (columns, detail) = (columns(&self.file)?, detail_columns(&self.file)?);
@@ -214,13 +214,13 @@ impl History {
         read().map_err(|error| self.error(error))
     }
 
-    /// The same; one that is not there is an error.
+    /// Returns an inspection in full; it is an error if it does not exist.
     pub fn known(&self, number: i64) -> Result<Record, HistoryError> {
         self.row(number)?
             .ok_or(HistoryError::NoSuchInspection { number })
     }
 
-    /// The scene of an inspection whose frame is kept, as it was inspected; `None` if it is not.
+    /// Reads the scene of an inspection as it was inspected; `None` if its frame is not kept.
     pub fn scene(&self, record: &Record) -> Result<Option<SceneCloud>, HistoryError> {
         let frame = record.detail.frame.as_ref();
         frame
@@ -228,7 +228,7 @@ impl History {
             .transpose()
     }
 
-    /// The shots of a scan whose frames are kept, as they were put together; `None` if they are not, or it was no scan.
+    /// Reads the shots of a scan as they were inspected; `None` if they are not kept, or it was not a scan.
     pub fn shots(&self, record: &Record) -> Result<Option<Vec<Shot>>, HistoryError> {
         let frame = record.detail.frame.as_ref();
         let frame = frame.filter(|frame| !frame.shots.is_empty());
@@ -237,7 +237,7 @@ impl History {
             .transpose()
     }
 
-    /// The inspections that lie below the one of this number, the oldest first.
+    /// Returns the re-inspections below the inspection of this number, oldest first.
     pub fn below(&self, number: i64) -> Result<Vec<Record>, HistoryError> {
         let numbers = || -> rusqlite::Result<Vec<i64>> {
             let asked = "SELECT number FROM inspection WHERE parent = ? ORDER BY at, number";
@@ -252,22 +252,22 @@ impl History {
         Ok(below)
     }
 
-    /// The inspection that stands for a part.
+    /// Returns the inspection that stands for a part.
     pub(super) fn head_of(&self, hung: &HungId) -> Result<Option<Summary>, HistoryError> {
         head_of(&self.file, hung).map_err(|error| self.error(error))
     }
 
-    /// The folder of the kept frames.
+    /// Returns the folder of the kept frames.
     pub fn frames_folder(&self) -> &Path {
         &self.frames
     }
 
-    /// Writes down what a person remarks.
+    /// Sets the remark on an inspection.
     pub fn set_remark(&mut self, number: i64, remark: &str) -> Result<(), HistoryError> {
         self.change(number, |row| remark.trim().clone_into(&mut row.remark))
     }
 
-    /// Writes down what it truly is, or that nobody knows.
+    /// Sets the true label of an inspection; `None` clears it.
     pub fn set_label(&mut self, number: i64, label: Option<&Truth>) -> Result<(), HistoryError> {
         self.change(number, |row| row.label = label.cloned())
     }
@@ -284,7 +284,7 @@ impl History {
             let columns = columns(&file)?;
             let asked = format!("SELECT {columns} FROM inspection WHERE number = ?");
             let row = |number| file.query_row(&asked, [number], summary_of).optional();
-            // What is said of a part is said with the inspection that stands for it.
+            // Remark and label belong to the inspection that stands for the part.
             let row = match row(number)? {
                 Some(below) => below.parent.map_or_else(|| Ok(Some(below.clone())), row)?,
                 None => None,
@@ -313,10 +313,10 @@ impl History {
     }
 }
 
-/// The rows by the index that holds all that a filter asks for.
+/// The table with the index that holds all columns of the filters.
 const LISTED: &str = "inspection INDEXED BY listed";
 
-/// The row of an inspection, written but not yet there, and its number.
+/// Inserts an inspection without committing; returns the transaction and the number.
 fn begin<'a>(
     file: &'a mut Connection,
     entry: &NewEntry,
@@ -327,7 +327,7 @@ fn begin<'a>(
     Ok((begun, number))
 }
 
-/// Which rows the filter lets through, the newest first: the index alone tells.
+/// Returns the query for the matching rows, newest first; the index alone answers it.
 pub(super) fn listed_query(filter: &Filter) -> (String, Vec<Value>) {
     let (condition, values) = filter.condition();
     let asked =

@@ -14,17 +14,17 @@ use crate::{
     library::Truth,
 };
 
-/// The first line.
+/// Header line.
 const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
     label,remark,recipe,library,program,parent,reinspections,\
     m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33,recipe_name,recipe_changed,\
     serial,order,operator,reason_kind";
 
-/// Writes the inspections that `each` goes through into this file, and returns their number. If one cannot be read, the
+/// Writes the inspections that `each` passes on into this file, and returns their number. If one cannot be read, the
 /// file stays as it was.
 ///
-/// Times are UTC; `parent` is the number of the inspection that stands for the same part, `reinspections` how many others
-/// lie below it; m00..m33 are `camera_from_part`, row after row, metres.
+/// Times are UTC; `parent` is the number of the inspection that stands for the same part, `reinspections` the number of
+/// re-inspections below it; m00..m33 are `camera_from_part` in row-major order, metres.
 pub fn write_table(
     path: &Path,
     each: impl FnOnce(&mut dyn FnMut(Record) -> Result<(), HistoryError>) -> Result<(), HistoryError>,
@@ -34,7 +34,7 @@ pub fn write_table(
     table.write(path)
 }
 
-/// The same of inspections of several cells, each with the name of its cell, which is the last column.
+/// As [`write_table`] for several cells, with the name of the cell in the last column.
 #[cfg(feature = "plant")]
 pub fn write_cells_table<E: From<HistoryError>>(
     path: &Path,
@@ -55,7 +55,7 @@ struct Table {
 }
 
 impl Table {
-    /// With further columns, each behind a comma.
+    /// Creates a table with additional columns, each preceded by a comma.
     fn new(columns: &str) -> Self {
         Self {
             text: format!("{HEAD}{columns}\n").into_bytes(),
@@ -63,7 +63,7 @@ impl Table {
         }
     }
 
-    /// Adds a line; `columns` are the further ones, each behind a comma.
+    /// Adds a line; `columns` are the additional fields, each preceded by a comma.
     fn add(&mut self, path: &Path, record: &Record, columns: &str) -> Result<(), HistoryError> {
         self.num += 1;
         let written = write_row(&mut self.text, record, columns);
@@ -123,7 +123,7 @@ fn write_row(writer: &mut dyn Write, record: &Record, columns: &str) -> io::Resu
     )
 }
 
-/// A field as RFC 4180 has it.
+/// Quotes a field according to RFC 4180.
 fn quoted(text: &str) -> String {
     crate::files::csv_text(text).into_owned()
 }

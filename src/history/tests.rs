@@ -1,4 +1,4 @@
-//! Writing, asking, filtering, sweeping.
+//! Writing, querying, filtering and sweeping.
 
 use std::sync::Arc;
 
@@ -228,7 +228,7 @@ fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
         ),
         (
             Filter {
-                // Also 19999, 29999 and so on.
+                // Also matches 19999, 29999 and so on.
                 text: "frame 9999".into(),
                 ..Filter::default()
             },
@@ -258,11 +258,11 @@ fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
         );
         let far = history.page(&filter, num as usize - 1, 50).expect("asked");
         assert_eq!(far.rows.len(), 1);
-        // In the order of the index: nothing is sorted.
+        // In index order, without sorting.
         let plan = plan_of(&history, listed_query(&filter));
         assert!(plan.contains("COVERING INDEX listed"), "{plan}");
         assert!(!plan.contains("TEMP B-TREE"), "{plan}");
-        // Of statistics nothing but the kind of a refusal is read from the rows themselves.
+        // Statistics read only the kind of a refusal from the rows themselves.
         let plan = plan_of(&history, outcomes_query(&filter, VERSION));
         assert!(plan.contains("INDEX listed"), "{plan}");
         assert!(!plan.contains("TEMP B-TREE"), "{plan}");
@@ -271,7 +271,7 @@ fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
     }
 }
 
-/// How the file answers this.
+/// Returns the query plan.
 fn plan_of(history: &History, (asked, values): (String, Vec<rusqlite::types::Value>)) -> String {
     let asked = format!("EXPLAIN QUERY PLAN {asked}");
     let mut plan = history.file.prepare(&asked).expect("asked");
@@ -323,7 +323,7 @@ fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
     let usage = history.usage().expect("asked");
     assert_eq!(usage.num_frames, 3);
     assert!(usage.num_bytes_marked > 0 && usage.num_bytes_marked < usage.num_bytes);
-    // Room for the marked one and one more; less than the least that makes sense is taken for that.
+    // Limits below 0.1 GB are clamped, so pretend 60 MB per frame: the limit then fits the marked one and one more.
     history
         .file
         .execute(
@@ -361,7 +361,7 @@ fn frames_without_a_row_go_and_rows_without_a_frame_say_so() {
     std::fs::remove_file(frames.join(&frame.file)).expect("removed");
     let stray = frames.join("20260301T060000000-1-999.png");
     std::fs::write(&stray, "half a frame").expect("written");
-    // As long as somebody has it open, nothing is a stray: its row may be about to be written.
+    // While another program has it open nothing is a stray, since its row may be about to be written.
     let second = open_history(folder.path());
     assert!(stray.exists());
     drop((history, second));
@@ -414,17 +414,17 @@ fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), 5);
     assert!(lines[1].starts_with("1,2026-03-01T06:00:01Z,frame 1,simulated,true,not_accepted,grille,grille,0.9700,0.2500,too low,31.500,"));
-    // Commas between quotation marks part no fields.
+    // Commas inside quotation marks do not separate fields.
     let num_fields = |line: &str| {
         let bare = line.split('"').step_by(2);
         bare.map(|piece| piece.matches(',').count()).sum::<usize>()
     };
     let wanted = num_fields(lines[0]);
     assert!(lines.iter().all(|line| num_fields(line) == wanted));
-    // Those were written by an earlier program.
+    // The first rows were written by an earlier version.
     assert!(lines[0].ends_with(",reason_kind") && lines[1].ends_with(','));
     assert!(lines[4].ends_with(",low_score"), "{}", lines[4]);
-    // What cannot be read to its end leaves the table that was there.
+    // If reading fails midway, the existing table is kept.
     let failed = write_table(&path, |row| {
         history.each(&Filter::default(), row)?;
         Err(HistoryError::NoSuchInspection { number: 5 })
@@ -433,7 +433,7 @@ fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
     assert_eq!(std::fs::read_to_string(&path).expect("text"), table);
 }
 
-/// One more inspection of the same part.
+/// Creates another inspection of the same part.
 fn again(of: &NewEntry, seconds: i64, verdict: StoredVerdict) -> NewEntry {
     let mut other = history_entry(seconds, verdict, "grille");
     other.record.summary.hung = of.record.summary.hung.clone();
@@ -491,7 +491,7 @@ fn a_part_counts_once_however_often_it_was_inspected_and_nothing_of_it_is_lost()
     });
     counted.expect("listed");
     assert_eq!(exported, 2);
-    // Each keeps its own frame.
+    // Each inspection keeps its own frame.
     assert_eq!(history.usage().expect("asked").num_frames, 4);
     drop(history);
     assert_eq!(
@@ -527,7 +527,7 @@ fn a_refusal_gives_way_to_an_acceptance_and_an_acceptance_stands() {
         (row.number, row.num_below, row.verdict),
         (3, 3, StoredVerdict::Accepted)
     );
-    // What a person said of the part is found with it; what was found first is as it was.
+    // A remark on the part is found with it; the first result is unchanged.
     assert_eq!(row.remark, "a new grille");
     let text = "new".into();
     let found = Filter {
@@ -566,7 +566,7 @@ fn a_file_of_the_first_version_is_brought_up_to_date_with_all_that_was_written()
     assert_eq!(record.summary.label, Some(Truth::Part("fender".into())));
     assert_eq!(record.detail.line, "{\"scene\":\"b\"}");
     assert_eq!(record.detail.recipe_label, None);
-    // Inspected again it is one part.
+    // Inspecting it again still gives one part.
     let mut again = history_entry(9, StoredVerdict::NotAccepted, "fender");
     again.record.summary.hung = record.summary.hung;
     history.add(&again, &ALL).expect("written");
@@ -662,7 +662,7 @@ fn a_refusal_that_is_damaged_or_of_a_later_kind_falls_back_to_its_text() {
         text: text.clone(),
         nearest: Some("fender".into()),
     };
-    // The kind of the first is written apart.
+    // The kind of the first refusal is stored separately.
     let first = RefusalReason::Kind(RefusalKind::LowScore);
     assert_eq!(reasons, [first, sentence(), sentence()]);
 }
@@ -702,7 +702,7 @@ fn the_shots_of_a_scan_are_kept_and_go_together() {
         let files = std::fs::read_dir(history.frames_folder()).expect("listed");
         files.count()
     };
-    // The camera is that of all.
+    // All frames share one camera.
     assert_eq!(files(&history), 5);
     drop(history);
     let mut history = open_history(folder.path());
@@ -738,7 +738,7 @@ fn a_reinspection_is_traced_as_its_part_and_a_serial_number_is_found() {
     assert_eq!((&*traced.serial, &*traced.operator), ("TL-4711", "Lee"));
     let refused = history.known(1).expect("there").summary;
     assert_eq!((refused.parent, &*refused.trace.operator), (Some(2), "Kim"));
-    // Those that wait in memory are listed in the same way.
+    // Inspections waiting in memory are listed in the same way.
     let buffer = HistoryBuffer::default();
     for (ticket, entry) in [again, other].into_iter().enumerate() {
         buffer.add(ticket as u64, entry, std::time::Instant::now());
@@ -771,7 +771,7 @@ fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at
                 let record = history.known(row.number).expect("there");
                 assert!(history.scene(&record).expect("read").is_some());
             }
-            // What no row speaks of was taken away.
+            // Files that no row refers to were removed.
             let frames = std::fs::read_dir(history.frames_folder()).expect("listed");
             assert_eq!(frames.count(), page.rows.len() + 1);
             format!("{} inspections", page.num_all)

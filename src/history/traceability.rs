@@ -1,4 +1,4 @@
-//! What a shop knows of a part besides what the camera sees.
+//! What the plant knows about a part besides the camera's data.
 
 use serde::{Deserialize, Serialize};
 
@@ -19,16 +19,16 @@ pub struct Traceability {
 }
 
 impl Traceability {
-    /// Longest entry, characters.
+    /// Maximum length of an entry, characters.
     pub const MAX_LETTERS: usize = 64;
 
-    /// An entry as it is kept: on one line, without blanks at its ends, and not too long.
+    /// Returns an entry as it is stored: without control characters and surrounding blanks, and truncated.
     pub fn cleaned(text: &str) -> String {
         let letters = text.trim().chars().filter(|c| !c.is_control());
         letters.take(Self::MAX_LETTERS).collect()
     }
 
-    /// What is known, each with its name.
+    /// Returns the entries that are known, each with its name.
     pub fn known(&self) -> impl Iterator<Item = (&'static str, &str)> {
         [
             ("serial", self.serial.as_str()),
@@ -39,7 +39,7 @@ impl Traceability {
         .filter(|(_, text)| !text.is_empty())
     }
 
-    /// The same, and what is not known of it as in another one.
+    /// Returns these entries, with empty ones taken from `other`.
     #[must_use]
     pub fn or(self, other: &Self) -> Self {
         let or = |own: String, other: &String| if own.is_empty() { other.clone() } else { own };

@@ -1,4 +1,4 @@
-//! What waits in memory, and how it is listed.
+//! Inspections waiting in memory, and how they are listed.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -9,12 +9,12 @@ use super::{
     store::History,
 };
 
-/// Inspections that wait at most; the oldest go first.
+/// Maximum number of waiting inspections; beyond it the oldest are dropped.
 pub(super) const MAX_WAITING: usize = 2000;
-/// Of so many of those the scene waits too: 4 MB each.
+/// Number of the newest of them that keep their scenes, 4 MB each.
 const MAX_SCENES: usize = 4;
 
-/// Lets an inspection wait under this number; how many are lost for it.
+/// Adds a waiting inspection under this number. Returns how many were lost for it.
 pub(super) fn wait(waiting: &mut VecDeque<NewEntry>, mut entry: NewEntry, number: i64) -> usize {
     entry.record.summary.number = number;
     waiting.push_back(entry);
@@ -27,8 +27,8 @@ pub(super) fn wait(waiting: &mut VecDeque<NewEntry>, mut entry: NewEntry, number
     num_lost
 }
 
-/// What waits, the oldest first, each with what stands for its part: as it will be once it is written, but for a part
-/// whose refusal is written already.
+/// Returns the waiting rows, oldest first, each with the inspection that stands for its part: as they will be once
+/// written, except for parts whose refusal is already written.
 pub(super) fn waiting_rows(
     waiting: &VecDeque<NewEntry>,
     history: Option<&History>,

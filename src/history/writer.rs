@@ -14,26 +14,26 @@ use std::{
 use super::{buffer::HistoryBuffer, entry::NewEntry, retention::Retention};
 use crate::library::Truth;
 
-/// Inspections whose scenes wait for the thread at most, 4 MB each; beyond that their frames are not kept.
+/// Maximum number of inspections queued with their scenes, 4 MB each; beyond it frames are not kept.
 const MAX_SCENES: usize = 8;
-/// Inspections that wait for the thread at most; beyond that they are lost, and counted.
+/// Maximum number of queued inspections; beyond it they are dropped and counted.
 const MAX_INSPECTIONS: usize = 4096;
 
-/// Something to be written.
+/// A request to the thread.
 #[derive(Debug)]
 enum Job {
     Add(u64, Box<NewEntry>),
     Remark(i64, String),
     Label(i64, Option<Truth>),
     Retention(Retention),
-    /// Answers once all before it is done.
+    /// Answers once all earlier jobs are done.
     Answer(SyncSender<()>),
 }
 
-/// The thread. Dropping it waits until all is written that was handed over.
+/// The writing thread. Dropping it waits until everything passed to it is written.
 #[derive(Debug)]
 pub struct Writer {
-    /// `None` while it is dropped: the thread ends once it has done all that was sent.
+    /// `None` while dropping: the thread ends once it has done all its jobs.
     jobs: Option<Sender<Job>>,
     counts: Arc<Counts>,
     thread: Option<JoinHandle<()>>,
@@ -41,18 +41,18 @@ pub struct Writer {
 
 #[derive(Debug, Default)]
 struct Counts {
-    /// Inspections that wait for the thread.
+    /// Queued inspections.
     waiting: AtomicUsize,
-    /// Those of them whose scene waits with them.
+    /// Queued inspections that still have their scene.
     scenes: AtomicUsize,
-    /// Inspections whose frame was not kept, because the disk is too slow.
+    /// Inspections whose frame was not kept because the disk is too slow.
     bare: AtomicUsize,
-    /// Inspections that were lost for the same reason.
+    /// Inspections that were lost because the disk is too slow.
     lost: AtomicUsize,
 }
 
 impl Writer {
-    /// Starts the thread, which opens the history; `on_news` is called from it whenever the keeper may have news.
+    /// Starts the thread, which opens the history and calls `on_news` whenever the buffer may have new events.
     pub fn start(
         keeper: Arc<HistoryBuffer>,
         on_news: impl Fn() + Send + 'static,
@@ -81,7 +81,7 @@ impl Writer {
         })
     }
 
-    /// Has an inspection written. Never waits.
+    /// Queues an inspection. Never waits.
     pub fn add(&self, ticket: u64, mut entry: NewEntry) {
         let counts = &self.counts;
         if entry.scene.is_some() && counts.scenes.load(Ordering::Relaxed) >= MAX_SCENES {
@@ -98,37 +98,37 @@ impl Writer {
         self.post(Job::Add(ticket, Box::new(entry)));
     }
 
-    /// Has written down what a person remarks.
+    /// Queues a remark.
     pub fn remark(&self, number: i64, remark: String) {
         self.post(Job::Remark(number, remark));
     }
 
-    /// Has written down what it truly is, or that nobody knows.
+    /// Queues a true label; `None` clears it.
     pub fn label(&self, number: i64, label: Option<Truth>) {
         self.post(Job::Label(number, label));
     }
 
-    /// Keeps frames by this rule from now on.
+    /// Queues a new retention rule.
     pub fn retention(&self, retention: Retention) {
         self.post(Job::Retention(retention));
     }
 
     fn post(&self, job: Job) {
         if let Some(jobs) = &self.jobs {
-            // Only a thread that panicked does not receive it.
+            // Sending fails only if the thread has panicked.
             let _ = jobs.send(job);
         }
     }
 
-    /// Waits until all is written that was handed over.
+    /// Waits until everything queued is written.
     pub fn finish(&self) {
         let (answer, answered) = sync_channel(1);
         self.post(Job::Answer(answer));
         let _ = answered.recv();
     }
 
-    /// How many inspections' frames were not kept, and how many inspections were lost, because the disk was too slow;
-    /// counted since this was asked last.
+    /// Returns how many frames were not kept and how many inspections were lost since the last call, because the disk
+    /// was too slow.
     pub fn take_dropped(&self) -> [usize; 2] {
         let Counts { bare, lost, .. } = self.counts.as_ref();
         [bare, lost].map(|count| count.swap(0, Ordering::Relaxed))
@@ -139,13 +139,13 @@ impl Drop for Writer {
     fn drop(&mut self) {
         self.jobs = None;
         if let Some(thread) = self.thread.take() {
-            // What it panicked with was said on its own thread.
+            // A panic has already been reported on its own thread.
             let _ = thread.join();
         }
     }
 }
 
-/// Waits for a job, at most until what failed is to be tried again.
+/// Waits for a job, at most until the next retry is due.
 fn next(received: &Receiver<Job>, keeper: &HistoryBuffer) -> Result<Job, RecvTimeoutError> {
     match keeper.next_try() {
         Some(at) => received.recv_timeout(at.saturating_duration_since(Instant::now())),
@@ -164,7 +164,7 @@ fn work(keeper: &HistoryBuffer, job: Job, counts: &Counts) {
         Job::Remark(number, remark) => keeper.set_remark(number, &remark),
         Job::Label(number, label) => keeper.set_label(number, label.as_ref()),
         Job::Retention(retention) => keeper.set_retention(retention),
-        // Whoever asked may have gone.
+        // The asker may be gone.
         Job::Answer(answer) => drop(answer.send(())),
     }
 }
@@ -181,7 +181,7 @@ mod tests {
     fn what_waits_is_written_and_what_is_too_much_without_its_frame() {
         let keeper = Arc::new(HistoryBuffer::new(None));
         let (go_on, is_held) = channel::<()>();
-        // The thread stops here once it has opened the history: until then everything waits.
+        // The thread stops here after opening the history, so that everything waits.
         let hold = move || {
             let _ = is_held.recv();
         };

@@ -1,7 +1,7 @@
-//! Enrolling: makes a part out of a captured scene, a whole cloud or a mesh.
+//! Enrolling: makes a part from a captured scene, a whole cloud or a mesh.
 //!
-//! The cloud is thinned to one point per cube, which evens it out, averages the sensor's noise and keeps the file
-//! small; normals are estimated on the thinned cloud. Part space is the coordinates as they came.
+//! The cloud is thinned to one point per voxel, which evens it out, averages the sensor's noise and keeps the file
+//! small; normals are estimated on the thinned cloud. Part space is the input's coordinates.
 
 mod cloud;
 mod kept;
@@ -42,14 +42,14 @@ use crate::{
 /// Parameters of enrolling.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnrolParams {
-    /// Edge of the cubes that the cloud is thinned to, 2..20 mm. Raising it blurs the part, lowering it makes files
-    /// large and inspections slow.
+    /// Edge of the voxels for thinning the cloud, 2..20 mm. Larger voxels blur the part, smaller ones make files large
+    /// and inspections slow.
     pub voxel: Metres,
-    /// Most points kept; the cubes grow until it holds. Also the number sampled of a mesh.
+    /// Maximum number of points; the voxels grow until it holds. Also the number sampled from a mesh.
     pub max_points: usize,
-    /// Segmentation of a captured scene.
+    /// Parameters for segmenting a captured scene.
     pub segment: SegmentParams,
-    /// The stages that make the signature; those used on scenes.
+    /// Parameters of the stages that make the signature; the same are used on scenes.
     pub reference: ReferenceParams,
 }
 
@@ -64,39 +64,38 @@ impl Default for EnrolParams {
     }
 }
 
-/// What a person says of a part.
+/// Description of a part by the person who enrols it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartDescription {
-    /// Its name.
+    /// Name of the part.
     pub name: PartName,
-    /// Its name for people; may be empty.
+    /// Title for people; may be empty.
     pub title: String,
     /// Notes; may be empty.
     pub notes: String,
-    /// From what it is enrolled: the name of a file or a source.
+    /// Name of the file or source that it is enrolled from.
     pub from: String,
-    /// When it is enrolled.
+    /// Time of enrolment.
     pub at: Timestamp,
-    /// True if no real camera saw it.
+    /// True if the data do not come from a real camera.
     pub simulated: bool,
 }
 
-/// A part ready to be saved, and what to know about it.
+/// A part ready to be saved.
 #[derive(Clone, Debug)]
 pub struct Enrolled {
     /// The part.
     pub part: Part,
-    /// The same, prepared for ranking and pose.
+    /// The part as a reference, prepared for ranking and pose.
     pub reference: Reference,
-    /// What is odd about it.
+    /// Warnings about the part.
     pub warnings: Vec<EnrolWarning>,
 }
 
-/// Least points of a whole cloud: fewer show no shape.
+/// Minimum number of points of a cloud: fewer show no shape.
 const MIN_POINTS: usize = 100;
 
-/// Enrols the part that stands in a captured scene: from one side, in camera coordinates of that moment. What looks like
-/// background is refused.
+/// Enrols the part found in a captured scene: from one side, in the camera frame. Refuses what looks like background.
 pub fn enrol_captured(
     scene: &SceneCloud,
     about: &PartDescription,
@@ -109,10 +108,10 @@ pub fn enrol_captured(
     enrol_one_side(&found, scene, about, params)
 }
 
-/// Surfaces of a scene that a person may choose from.
+/// Maximum number of surfaces offered for choice.
 const MAX_SURFACES: usize = 8;
 
-/// The surfaces that may be the part of a captured scene, the likeliest first.
+/// Returns the surfaces of a captured scene that may be the part, most likely first.
 pub fn surfaces_to_enrol(
     scene: &SceneCloud,
     params: &EnrolParams,
@@ -122,7 +121,7 @@ pub fn surfaces_to_enrol(
     Ok(std::iter::once(found.part?).chain(others).collect())
 }
 
-/// Enrols one of the [`surfaces_to_enrol`], by its number from 1.
+/// Enrols one of [`surfaces_to_enrol`], by its number from 1.
 pub fn enrol_surface(
     scene: &SceneCloud,
     number: usize,
@@ -138,7 +137,7 @@ pub fn enrol_surface(
     enrol_chosen(chosen, scene, about, params)
 }
 
-/// Enrols what a person chose: signs of background are warnings then.
+/// Enrols a surface chosen by a person: signs of background are only warnings.
 fn enrol_chosen(
     found: &SegmentedPart,
     scene: &SceneCloud,
@@ -151,7 +150,7 @@ fn enrol_chosen(
     Ok(enrolled)
 }
 
-/// Enrols those points of a captured scene, by their places in it, ascending: what a person took for the part.
+/// Enrols the points of a captured scene that a person selected, by their ascending indices.
 pub fn enrol_selected(
     scene: &SceneCloud,
     indices: &[u32],
@@ -183,7 +182,7 @@ pub fn enrol_selected(
     Ok(enrolled)
 }
 
-/// Enrols what was found in a scene, as a camera at the origin saw it.
+/// Enrols a surface found in a scene, as seen by a camera at the origin.
 fn enrol_one_side(
     found: &SegmentedPart,
     scene: &SceneCloud,
@@ -209,9 +208,9 @@ fn enrol_one_side(
 
 /// Enrols all points of a cloud.
 ///
-/// A cloud that lies before the camera, with normals (if any) that look at it, is taken for one capture; any other
-/// for a part seen from all around. Without normals the latter's are estimated and turned away from its middle,
-/// which is right for a part that bulges and a guess for one that does not.
+/// A cloud that lies in front of the camera, with normals (if any) that face it, counts as one capture; any other as a
+/// part seen from all around. For the latter, missing normals are estimated and turned away from the cloud's middle,
+/// which is right for a convex part and a guess otherwise.
 pub fn enrol_whole(
     cloud: &PointCloud,
     about: &PartDescription,
@@ -249,7 +248,7 @@ pub fn enrol_whole(
     assemble(thin, &source, about, params)
 }
 
-/// Enrols a mesh, sampled evenly.
+/// Enrols an evenly sampled mesh.
 pub fn enrol_mesh(
     mesh: &TriangleMesh,
     about: &PartDescription,
@@ -271,7 +270,7 @@ pub fn enrol_mesh(
     assemble(cloud, &source, about, params)
 }
 
-/// What a cloud was made from.
+/// Facts about the origin of a reference's cloud.
 struct ReferenceOrigin {
     coverage: Coverage,
     how: EnrolMethod,
@@ -287,7 +286,7 @@ fn assemble(
     about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
-    // Colours are kept in no library: nothing uses them.
+    // Colours are unused, so the library does not store them.
     cloud.colours = None;
     let reference = Reference::prepare(
         about.name.as_str(),

@@ -1,4 +1,4 @@
-//! One part's folder: its files, and how they are written.
+//! The folder of one part: its files, and writing them.
 
 use std::{
     fs,
@@ -19,20 +19,20 @@ pub(super) const CLOUD: &str = "cloud.ply";
 pub(super) const SIGNATURE: &str = "signature.json";
 pub(super) const THUMBNAIL: &str = "thumbnail.png";
 
-/// How the name of a spray path begins; its checksum follows, so that a new path never stands under an old one's.
+/// Prefix of a spray path's file name. The checksum follows, so that a new path never replaces the file of an old one.
 pub(super) const SPRAY_PREFIX: &str = "spray-";
 
-/// How the folder of a part begins that is being written.
+/// Prefix of the folder of a part that is being written.
 pub(super) const NEW_PREFIX: &str = ".new-";
 
-/// One part's folder in a library, whatever is in it.
+/// The folder of one part in a library, whatever its content.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Entry {
-    /// The name of the part that the folder stands for.
+    /// Name of the part.
     pub(super) name: String,
     /// The folder.
     pub(super) path: PathBuf,
-    /// Its files, if it lies inside the program.
+    /// Its files, if the part is inside the program.
     pub(super) shipped: Option<&'static ShippedFiles>,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Entry {
 pub(super) type ShippedFiles = [(&'static str, &'static [u8]); 4];
 
 impl Entry {
-    /// A file of a part inside the program.
+    /// Returns a file of a part inside the program.
     pub(super) fn shipped_file(&self, name: &str) -> Option<&'static [u8]> {
         let mut files = self.shipped?.iter();
         files.find(|(n, _)| *n == name).map(|(_, bytes)| *bytes)
@@ -55,7 +55,8 @@ impl Entry {
     }
 }
 
-/// A folder counts as a part's if it could be a part's or says that it is one; what else lies on a stick does not.
+/// Returns whether a folder can be a part: it has a valid name or a `part.toml`. Other folders on the medium are
+/// ignored.
 pub(super) fn is_entry(file_name: &str, path: &Path) -> bool {
     path.is_dir() && (PartName::new(file_name).is_ok() || path.join(META).exists())
 }
@@ -92,7 +93,7 @@ pub(super) fn meta_text(meta: &PartMeta) -> io::Result<String> {
     toml::to_string(meta).map_err(io::Error::other)
 }
 
-/// Copies the plain files of a folder, all but its description.
+/// Copies the regular files of a folder except its `part.toml`.
 pub(super) fn copy_files(from: &Path, to: &Path) -> io::Result<()> {
     for found in fs::read_dir(from)? {
         let path = found?.path();
@@ -108,7 +109,7 @@ pub(super) fn copy_files(from: &Path, to: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes another description over the one that is there: at any moment the old one or the new one.
+/// Replaces `part.toml` atomically.
 pub(super) fn rewrite_meta(folder: &Path, meta: &PartMeta) -> io::Result<()> {
     let beside = folder.join(format!(".{META}.new"));
     write_file(&beside, meta_text(meta)?.as_bytes())?;

@@ -1,4 +1,4 @@
-//! Why a library cannot be used or changed.
+//! Errors of a library.
 
 use std::{io, path::PathBuf};
 
@@ -8,65 +8,65 @@ use crate::{
     files::{advice_on, words_of},
 };
 
-/// Why a library cannot be used.
+/// Why a library cannot be used or changed.
 #[derive(Debug, thiserror::Error)]
 pub enum LibraryError {
-    /// No such folder.
+    /// The folder does not exist.
     #[error("{}: no such library folder", path.display())]
     NotFound {
         /// The folder.
         path: PathBuf,
     },
-    /// Something else than a folder.
+    /// The path is not a folder.
     #[error("{}: not a folder", path.display())]
     NotAFolder {
         /// The path.
         path: PathBuf,
     },
-    /// The system could not read.
+    /// The folder cannot be read.
     #[error("{}: cannot read the library: {}", path.display(), words_of(source))]
     Unreadable {
         /// The folder.
         path: PathBuf,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// The system could not write; what was enrolled before still is.
+    /// The folder cannot be written; everything enrolled before is unchanged.
     #[error("{}: cannot write to the library: {}", path.display(), words_of(source))]
     Unwritable {
         /// The folder.
         path: PathBuf,
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// No part of that name.
+    /// There is no part with this name.
     #[error("{}: no part named {name}{}", path.display(), listed(available))]
     NoSuchPart {
         /// The library's folder.
         path: PathBuf,
         /// The name asked for.
         name: String,
-        /// The names there are.
+        /// The names of all parts.
         available: Vec<String>,
     },
-    /// The part cannot be changed because its description cannot be read.
+    /// The part cannot be changed because its `part.toml` cannot be read.
     #[error(transparent)]
     Damaged(#[from] Box<EntryProblem>),
-    /// Another part has that name.
+    /// Another part has this name.
     #[error("{}: there is a part named {name} already", path.display())]
     NameTaken {
         /// The library's folder.
         path: PathBuf,
-        /// The name wanted.
+        /// The name asked for.
         name: PartName,
     },
-    /// The trash holds no such thing.
+    /// The trash has no such entry.
     #[error("{}: nothing that was removed lies there", kept.display())]
     NotInTrash {
-        /// Where it was looked for.
+        /// The path asked for.
         kept: PathBuf,
     },
-    /// The system does not say where a user's data belong.
+    /// The system names no folder for user data.
     #[error("this system names no folder for a user's data")]
     NoUserFolder,
 }

@@ -1,12 +1,12 @@
-//! By what a library is known again.
+//! Identity of a library.
 
 use super::{CloudCheck, LibraryLoad};
 use crate::files::crc32;
 
 impl LibraryLoad {
-    /// Eight hexadecimal digits that are the same for the same parts with the same clouds, wherever they lie and in
-    /// whatever order: the CRC-32 of the names of all loaded parts and the checksums that their clouds were held
-    /// against. Titles and notes do not count.
+    /// Returns eight hexadecimal digits that are the same for the same parts with the same clouds, wherever the library
+    /// is stored and in any order: the CRC-32 of the names of all loaded parts and the checksums of their clouds.
+    /// Titles and notes do not count.
     pub fn identity(&self) -> String {
         let mut parts: Vec<String> = self
             .parts
@@ -45,7 +45,7 @@ mod tests {
         assert_ne!(renamed.identity(), identity);
         let mut moved = load();
         let mut cloud = moved.library.references[0].cloud.clone();
-        // What the file says of the cloud is what the cloud is.
+        // The checksum in the file is that of the cloud.
         assert_eq!(CloudCheck::of_cloud(&cloud), moved.parts[0].cloud);
         cloud.points[7].z += 1e-6;
         moved.parts[0].cloud = CloudCheck::of_cloud(&cloud);

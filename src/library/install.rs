@@ -1,18 +1,18 @@
-//! How a part's folder takes its place in a library such that nothing enrolled is ever lost.
+//! Atomic replacement of a part's folder, so that no enrolled part is ever lost.
 //!
-//! A part is written into a hidden folder beside the others, synced, and renamed into place. One that is there
-//! already is first renamed aside, and moved to the trash once the new one is in place. Whatever moment the power
-//! fails at, the next look finds the old part or the new one:
+//! A part is written into a hidden folder next to the others, synced, and renamed into place. An existing part of that
+//! name is first renamed aside, and moved to the trash once the new one is in place. Whenever the power fails, the next
+//! reader finds either the old part or the new one:
 //!
 //! ```text
-//! .new-door-x7/                 half written: ignored, cleared away by the next save
-//! .old-door/ without door/      stopped between the two renames: .old-door is read, the next save puts it back
-//! .old-door/ beside door/       stopped before the trash: the next save moves it there
-//! .old-door+gate/               the same for a door that becomes a gate: its successor is gate/
+//! .new-door-x7/                 half written: ignored, removed by the next save
+//! .old-door/ without door/      stopped between the two renames: .old-door is read, the next save renames it back
+//! .old-door/ beside door/       stopped before the move to the trash: the next save does it
+//! .old-door+gate/               the same for a door that is renamed to gate: its successor is gate/
 //! ```
 //!
-//! The references of a part that is renamed are carried along before its former folder goes to the trash: the next
-//! save that finds that folder carries those along that an interrupted rename left behind.
+//! References of a renamed part are updated before its former folder goes to the trash: the next save that finds that
+//! folder updates those that an interrupted rename left behind.
 //!
 //! Writers take turns by a lock. How all parts are replaced at once is in `replace_all`.
 
@@ -28,8 +28,8 @@ const OLD_PREFIX: &str = ".old-";
 const LOCK: &str = ".lock";
 
 impl LibraryFolder {
-    /// Puts a folder in place as the part `name`, which succeeds `former`: that one goes to the trash once the new one
-    /// is in place. Says where it lies then.
+    /// Puts a folder in place as the part `name`, which succeeds `former`; `former` then goes to the trash. Returns its
+    /// path there.
     pub(super) fn replace_entry(
         &self,
         coming: &Path,
@@ -40,8 +40,8 @@ impl LibraryFolder {
         self.trash_replaced(aside, former)
     }
 
-    /// As [`Self::replace_entry`], but leaves the former one where it was renamed aside to, and says where, if there is
-    /// one.
+    /// As [`Self::replace_entry`], but leaves the former part where it was renamed aside. Returns that path, if there
+    /// was one.
     pub(super) fn install_entry(
         &self,
         coming: &Path,
@@ -64,7 +64,7 @@ impl LibraryFolder {
         Ok(is_succeeding.then_some(aside))
     }
 
-    /// Moves what was renamed aside to the trash and says where it lies there.
+    /// Moves a part that was renamed aside to the trash. Returns its path there.
     pub(super) fn trash_replaced(
         &self,
         aside: Option<PathBuf>,
@@ -75,7 +75,7 @@ impl LibraryFolder {
             .transpose()
     }
 
-    /// Runs one change while no other writer is at work.
+    /// Runs a change while no other writer is active.
     pub(super) fn writing<T>(
         &self,
         change: impl FnOnce() -> io::Result<T>,
@@ -90,7 +90,8 @@ impl LibraryFolder {
         })
     }
 
-    /// Finishes what an interrupted writer left. Only under the lock: another writer's folders are not leftovers.
+    /// Completes or undoes interrupted writes. Call it only under the lock: the folders of an active writer are not
+    /// leftovers.
     pub(super) fn finish_interrupted_write(&self) -> io::Result<()> {
         self.finish_replacement()?;
         for found in fs::read_dir(self.path())? {
@@ -117,16 +118,16 @@ impl LibraryFolder {
     }
 }
 
-/// A part that was renamed aside, by its folder's name.
+/// A part that was renamed aside, parsed from its folder's name.
 pub(super) struct RenamedFolder<'a> {
-    /// The part.
+    /// Name of the part.
     pub(super) name: &'a str,
-    /// The part that takes its place; as a rule of the same name.
+    /// Name of the part that replaces it; usually the same.
     pub(super) successor: &'a str,
 }
 
 impl<'a> RenamedFolder<'a> {
-    /// Between the two names: cannot stand in one.
+    /// Separates the two names; no name can contain it.
     const SEPARATOR: char = '+';
 
     pub(super) fn of(file_name: &'a str) -> Option<Self> {

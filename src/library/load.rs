@@ -1,4 +1,4 @@
-//! Loading a library: parts in parallel, each on its own, so that a damaged one is named and the others load.
+//! Loading a library: in parallel, each part on its own, so that a damaged one is reported and the others load.
 
 use std::{
     borrow::Cow,
@@ -31,49 +31,49 @@ use crate::{
     units::Metres,
 };
 
-/// What loading a library gave.
+/// Result of loading a library.
 #[derive(Debug, Default)]
 pub struct LibraryLoad {
-    /// The parts that could be loaded, in the order of their names.
+    /// The loaded parts, sorted by name.
     pub library: Library,
-    /// Their `part.toml`, in the same order.
+    /// The `part.toml` of each loaded part, in the same order.
     pub parts: Vec<PartMeta>,
-    /// The parts that could not, each with the reason. They were set aside where they are: nothing was changed.
+    /// The parts that could not be loaded, with reasons. Their files were not changed.
     pub problems: Vec<EntryProblem>,
-    /// What is odd about parts that were loaded.
+    /// Warnings about loaded parts.
     pub warnings: Vec<EntryWarning>,
 }
 
 /// A stored part, read and prepared.
 #[derive(Debug)]
 pub struct StoredPart {
-    /// `part.toml`.
+    /// Content of `part.toml`.
     pub meta: PartMeta,
-    /// Cloud and views.
+    /// The prepared reference, with cloud and views.
     pub reference: Reference,
-    /// What is odd about it.
+    /// Warnings about the part.
     pub warnings: Vec<EntryWarning>,
 }
 
-/// The largest `part.toml` and `signature.json` read, bytes.
+/// Maximum size of a `part.toml` or `signature.json`, bytes.
 const MAX_TEXT: u64 = 8 << 20;
 
-/// How closely a stored part is looked at.
+/// How thoroughly a stored part is checked.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum CloudCheckLevel {
-    /// What an inspection needs.
+    /// Only what an inspection needs.
     Quick,
-    /// All files, against each other.
+    /// All files against each other.
     Thorough,
 }
 
 impl LibraryFolder {
-    /// Loads all parts. Only a folder that cannot be listed is an error; damaged parts are in `problems`.
+    /// Loads all parts. It is an error only if the folder cannot be listed; damaged parts are in `problems`.
     pub fn load(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
         self.load_looking(CloudCheckLevel::Quick, params)
     }
 
-    /// As [`Self::load`], and holds every file of every part against its cloud.
+    /// As [`Self::load`], and checks every file of every part against its cloud.
     pub fn verify(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
         self.load_looking(CloudCheckLevel::Thorough, params)
     }
@@ -91,7 +91,7 @@ impl LibraryFolder {
         ))
     }
 
-    /// The path of a file that people look at, such as the thumbnail, if it is there.
+    /// Returns the path of a part's thumbnail, if it exists.
     pub fn thumbnail(&self, name: &str) -> Option<PathBuf> {
         let path = self.entry(name).ok()?.path.join(THUMBNAIL);
         path.exists().then_some(path)
@@ -106,12 +106,12 @@ impl LibraryFolder {
     }
 }
 
-/// Loads the parts that lie inside the program.
+/// Loads the parts inside the program.
 pub(super) fn load_shipped(params: &ReferenceParams) -> LibraryLoad {
     load_entries(&shipped_entries(), CloudCheckLevel::Quick, params)
 }
 
-/// Loads one of the parts that lie inside the program; `None` if there is none of that name.
+/// Loads one part inside the program; `None` if there is none with this name.
 pub(super) fn read_shipped(
     name: &str,
     params: &ReferenceParams,
@@ -188,7 +188,7 @@ fn read_entry(
     })
 }
 
-/// The description of a stored part.
+/// Reads the `part.toml` of a stored part.
 pub(super) fn meta_of(entry: &Entry) -> Result<PartMeta, EntryProblem> {
     read_meta(entry).map_err(|reason| EntryProblem {
         entry: entry.name.clone(),
@@ -198,7 +198,7 @@ pub(super) fn meta_of(entry: &Entry) -> Result<PartMeta, EntryProblem> {
 }
 
 fn read_meta(entry: &Entry) -> Result<PartMeta, EntryError> {
-    /// The one line that every version has.
+    /// The field that every version has.
     #[derive(Deserialize)]
     struct Versioned {
         schema_version: u32,
@@ -251,7 +251,7 @@ fn read_text(path: &Path) -> io::Result<String> {
     Ok(text)
 }
 
-/// The cloud, held against what `part.toml` says of it.
+/// Reads the cloud and checks it against `part.toml`.
 fn read_cloud(entry: &Entry, expected: &CloudCheck) -> Result<PointCloud, EntryError> {
     let path = entry.path.join(CLOUD);
     let not_a_cloud = |found: &str| EntryError::NotACloud {
@@ -288,7 +288,7 @@ fn read_cloud(entry: &Entry, expected: &CloudCheck) -> Result<PointCloud, EntryE
         .as_ref()
         .is_some_and(|n| n.iter().all(is_unit))
     {
-        // Made by another program: made good as enrolling would.
+        // Written by another program: estimate normals as enrolling does.
         let tree = KdTree::new(&cloud.points);
         cloud.normals = Some(estimate_normals(
             &cloud.points,
@@ -325,7 +325,7 @@ fn troubles(
     troubles
 }
 
-/// True if a file that is made from the cloud is whole and fits the cloud.
+/// Returns whether a file derived from the cloud is intact and matches it.
 fn belongs(file: &Path, reference: &Reference, params: &ReferenceParams) -> bool {
     if file.ends_with(THUMBNAIL) {
         return read_picture(file).is_ok();

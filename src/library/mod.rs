@@ -1,6 +1,6 @@
 //! The library of enrolled parts.
 //!
-//! A library is a folder that can be copied on a stick and read by a person, one folder per part:
+//! A library is a folder that can be copied to a stick and read by people, with one folder per part:
 //!
 //! ```text
 //! reference_parts/
@@ -9,11 +9,11 @@
 //!     cloud.ply       the reference cloud with normals: binary, metres, part space
 //!     signature.json  outline and fan signature of the standard view
 //!     thumbnail.png   for people
-//!     spray-CRC.csv   the nozzle's path over it, if one was stored: part space; part.toml names its checksum
-//!   .trash/           what was removed or replaced; restored, or moved back by hand, it is enrolled again
+//!     spray-CRC.csv   the stored spray path, if any: part space; part.toml has its checksum
+//!   .trash/           removed and replaced parts; restored, or moved back by hand, they are enrolled again
 //! ```
 //!
-//! Cloud and `part.toml` are all that an inspection needs; the other two can be made again from them.
+//! An inspection needs only the cloud and `part.toml`; signature and thumbnail can be made again from them.
 
 mod enrol;
 mod entry;
@@ -68,6 +68,6 @@ pub use self::{
 /// The enrolled parts, prepared for ranking and pose.
 #[derive(Clone, Debug, Default)]
 pub struct Library {
-    /// The references in the order of their names.
+    /// The references, sorted by name.
     pub references: Vec<Reference>,
 }

@@ -1,4 +1,4 @@
-//! The name of a part, which is also the name of its folder. Recipes are named by the same rules.
+//! Names of parts, which are also the names of their folders. Recipe names follow the same rules.
 
 use std::fmt;
 
@@ -6,45 +6,46 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Advice;
 
-/// Lowercase letters, digits, `_` and `-`, 1 to 64 of them, the first a letter or digit; not a device name of Windows.
+/// A name of 1 to 64 lowercase letters, digits, `_` and `-`, beginning with a letter or digit; device names of Windows
+/// are excluded.
 ///
-/// So a name is a folder name on every system, means the same on systems that ignore case, and holds no path.
+/// So it is a valid folder name on every system, also on those that ignore case, and never a path.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct PartName(String);
 
-/// Longest name, in characters.
+/// Maximum length, characters.
 const MAX_LENGTH: usize = 64;
 
-/// Names that Windows keeps for devices, in any folder.
+/// Device names that Windows reserves in every folder.
 const RESERVED: [&str; 22] = [
     "con", "prn", "aux", "nul", "com1", "com2", "com3", "com4", "com5", "com6", "com7", "com8",
     "com9", "lpt1", "lpt2", "lpt3", "lpt4", "lpt5", "lpt6", "lpt7", "lpt8", "lpt9",
 ];
 
-/// Why a text is no name.
+/// Why a text is not a valid name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BadName {
-    /// Nothing at all.
+    /// The name is empty.
     #[error("the name is empty")]
     Empty,
-    /// Too many characters.
+    /// The name is too long.
     #[error("the name has {found} characters, at most {limit} are allowed")]
     TooLong {
-        /// Characters given.
+        /// Number of characters given.
         found: usize,
-        /// Characters allowed.
+        /// Number of characters allowed.
         limit: usize,
     },
-    /// A character that is not allowed.
+    /// The name contains a character that is not allowed.
     #[error("{name:?} is not a valid name: it contains {character:?}")]
     BadCharacter {
         /// The name given.
         name: String,
-        /// The first wrong character.
+        /// The first such character.
         character: char,
     },
-    /// A character that is allowed, but not at the beginning.
+    /// The name begins with a character that is not allowed there.
     #[error("{name:?} is not a valid name: it begins with {character:?}")]
     BadBeginning {
         /// The name given.
@@ -52,7 +53,7 @@ pub enum BadName {
         /// Its first character.
         character: char,
     },
-    /// A device name of Windows.
+    /// The name is a device name of Windows.
     #[error("{name:?} is not a valid name: Windows keeps it for a device")]
     Reserved {
         /// The name given.
@@ -110,13 +111,13 @@ impl PartName {
         Ok(Self(name.to_owned()))
     }
 
-    /// The nearest name to a text such as a title, if anything is left of it.
+    /// Returns the valid name closest to a text such as a title, if any characters remain.
     pub fn proposed(text: &str) -> Option<Self> {
         let mut kept = String::new();
         for c in text.to_lowercase().chars() {
             match c {
                 c if is_allowed(c) => kept.push(c),
-                // One for all that is left out in one place.
+                // One underscore for each run of replaced characters.
                 _ if !kept.ends_with('_') => kept.push('_'),
                 _ => {}
             }
@@ -129,7 +130,7 @@ impl PartName {
         Self::new(kept.trim_end_matches(['_', '-'])).ok()
     }
 
-    /// The name as text.
+    /// Returns the name as text.
     pub fn as_str(&self) -> &str {
         &self.0
     }

@@ -1,4 +1,4 @@
-//! A part as it is stored.
+//! Stored form of a part.
 
 use image::RgbaImage;
 use jiff::Timestamp;
@@ -17,14 +17,14 @@ use crate::{
     },
 };
 
-/// The version of the files that this program writes. It reads this one and older ones.
+/// Newest version of the files; this program also reads older ones.
 pub const SCHEMA_VERSION: u32 = 2;
-/// What a part is written as unless it was scanned: older programs read that too.
+/// Version of parts that were not scanned, which older programs can read too.
 pub(super) const PLAIN_VERSION: u32 = 1;
-/// Of a part that was enrolled from a scan: older programs do not know its coverage.
+/// Version of parts enrolled from a scan: older programs do not know their coverage.
 pub(super) const SCANNED_VERSION: u32 = 2;
 
-/// An enrolled part with everything its folder holds.
+/// An enrolled part with the content of its folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// `part.toml`.
@@ -37,42 +37,42 @@ pub struct Part {
     pub thumbnail: RgbaImage,
 }
 
-/// What `part.toml` says.
+/// Content of `part.toml`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PartMeta {
     /// Version of the folder's files.
     pub schema_version: u32,
-    /// The part's name, which is that of its folder.
+    /// Name of the part and of its folder.
     pub name: PartName,
-    /// The part that this is one more reference of, such as another view or another car model; none if it is the
-    /// part's own. A verdict names the part, whichever of its references was found.
+    /// The part that this is another reference of, such as another view or another car model; `None` if it is the
+    /// part's own. The verdict names that part, whichever of its references was found.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<PartName>,
-    /// The name for people.
+    /// Title for people.
     #[serde(default)]
     pub title: String,
-    /// Whatever the person who enrolled it wants to remember.
+    /// Notes of the person who enrolled it.
     #[serde(default)]
     pub notes: String,
-    /// From where the cloud was seen.
+    /// Directions from which the cloud was seen.
     pub coverage: Coverage,
-    /// True if no real camera saw the part.
+    /// True if the data do not come from a real camera.
     #[serde(default)]
     pub simulated: bool,
-    /// The cloud that belongs to it.
+    /// Size and checksum of the cloud.
     pub cloud: CloudCheck,
-    /// Where the view that it was captured from cut it off; nothing of an entry that says nothing of it.
+    /// Where the field of view of its capture cut the part off; nothing if the file does not say.
     #[serde(default, skip_serializing_if = "ViewCut::is_nothing")]
     pub cut: ViewCut,
-    /// How it came into the library.
+    /// How the part was enrolled.
     pub enrolled: Enrolment,
-    /// The nozzle's path over it, if one was stored.
+    /// The stored spray path, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spray: Option<SprayCheck>,
 }
 
 impl PartMeta {
-    /// What it is called.
+    /// Returns name, title and notes.
     pub fn words(&self) -> PartNaming {
         PartNaming {
             name: self.name.clone(),
@@ -81,17 +81,17 @@ impl PartMeta {
         }
     }
 
-    /// The name of the part that a verdict gives.
+    /// Returns the name of the part that a verdict gives.
     pub fn part_name(&self) -> &PartName {
         self.part.as_ref().unwrap_or(&self.name)
     }
 
-    /// The part that it is one more reference of; none if it is the part's own.
+    /// Returns the part that this is another reference of; `None` if it is the part's own.
     pub fn reference_of(&self) -> Option<&PartName> {
         self.part.as_ref().filter(|part| **part != self.name)
     }
 
-    /// Its title, or its name where it has none.
+    /// Returns the title, or the name if the title is empty.
     pub fn shown_title(&self) -> &str {
         if self.title.is_empty() {
             self.name.as_str()
@@ -101,40 +101,40 @@ impl PartMeta {
     }
 }
 
-/// What a person calls a part, and may call otherwise later.
+/// Name, title and notes of a part, all of which can be changed later.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartNaming {
-    /// Its name.
+    /// Name of the part.
     pub name: PartName,
-    /// Its name for people; may be empty. At most [`MAX_TITLE`] characters.
+    /// Title for people, at most [`MAX_TITLE`] characters; may be empty.
     pub title: String,
     /// Notes; may be empty.
     pub notes: String,
 }
 
-/// The longest title, in characters: one line of a list.
+/// Maximum length of a title, characters: one line of a list.
 pub const MAX_TITLE: usize = 80;
 
-/// By what `cloud.ply` is known to be the one that was enrolled, every byte of it.
+/// Size and checksum that identify the enrolled `cloud.ply`, byte for byte.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CloudCheck {
-    /// Its points.
+    /// Number of points.
     pub num_points: usize,
-    /// The CRC-32 of the file, in eight hexadecimal digits.
+    /// CRC-32 of the file, eight hexadecimal digits.
     pub crc32: String,
 }
 
-/// By what a stored spray path is known to be the one that was stored.
+/// Size and checksum that identify the stored spray path.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SprayCheck {
-    /// Its points.
+    /// Number of points.
     pub num_points: usize,
-    /// The CRC-32 of the file, in eight hexadecimal digits; the file is named after it.
+    /// CRC-32 of the file, eight hexadecimal digits; part of the file name.
     pub crc32: String,
 }
 
 impl SprayCheck {
-    /// Of a path that is written as this text.
+    /// Computes the check of a path that is written as this text.
     pub(super) fn of(text: &str, num_points: usize) -> Self {
         Self {
             num_points,
@@ -142,7 +142,7 @@ impl SprayCheck {
         }
     }
 
-    /// The name of its file in the part's folder; `None` if the checksum is none.
+    /// Returns the file name in the part's folder; `None` if the checksum is malformed.
     pub(super) fn file_name(&self) -> Option<String> {
         let is_checksum =
             self.crc32.len() == 8 && self.crc32.bytes().all(|c| c.is_ascii_hexdigit());
@@ -151,7 +151,7 @@ impl SprayCheck {
 }
 
 impl CloudCheck {
-    /// Of a file with these bytes and so many points.
+    /// Computes the check of a file with these bytes and this number of points.
     pub(super) fn of(bytes: &[u8], num_points: usize) -> Self {
         Self {
             num_points,
@@ -159,47 +159,47 @@ impl CloudCheck {
         }
     }
 
-    /// Of the file that this cloud is written as.
+    /// Computes the check of the file that this cloud is written as.
     pub fn of_cloud(cloud: &PointCloud) -> Self {
         Self::of(&cloud_bytes(cloud), cloud.points.len())
     }
 }
 
-/// How a part came into the library.
+/// How a part was enrolled.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Enrolment {
-    /// When.
+    /// Time of enrolment.
     pub at: Timestamp,
-    /// From what: the name of a file or a source.
+    /// Name of the file or source.
     pub from: String,
-    /// In which way.
+    /// Kind of data it was enrolled from.
     pub how: EnrolMethod,
-    /// Points of the part before thinning; those sampled of a mesh.
+    /// Number of points of the part before thinning, or sampled from a mesh.
     pub num_points: usize,
-    /// Captures that a scan was put together from; none if it was no scan.
+    /// Number of shots used; `None` if it is not a scan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub num_shots: Option<usize>,
-    /// The cloud was thinned to one point per cube with edges of so many millimetres; none if it was not.
+    /// Edge of the voxels used for thinning, millimetres; `None` if the cloud was not thinned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub voxel_mm: Option<f64>,
 }
 
-/// What a part was enrolled from.
+/// The kind of data that a part was enrolled from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EnrolMethod {
     /// The part found in a captured scene.
     Segmented,
-    /// A cloud that holds nothing but the part.
+    /// A cloud that contains only the part.
     WholeCloud,
     /// A triangle mesh.
     Mesh,
-    /// Several captures put together; part space is the camera's frame of the first that was used.
+    /// Several fused captures; part space is the camera frame of the first one used.
     Scan,
 }
 
 impl EnrolMethod {
-    /// In words, for people.
+    /// Describes the kind for people.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Segmented => "the part found in a captured scene",
@@ -210,7 +210,7 @@ impl EnrolMethod {
     }
 }
 
-/// What `signature.json` says: the standard view, to be read by people and other programs. Rounded to 1 µm and µrad.
+/// Content of `signature.json`: the standard view for people and other programs. Rounded to 1 µm and µrad.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StoredSignature {
     /// Version of the file.
@@ -221,7 +221,7 @@ pub struct StoredSignature {
     pub contour: ContourParams,
     /// Parameters of the signature.
     pub signature: SignatureParams,
-    /// Takes part space into the view's plane space: a 4×4 matrix, row after row.
+    /// Transform from part space to the view's plane space: a 4×4 matrix in row-major order.
     pub plane_from_part: [f64; 16],
     /// The outline in plane space, metres, counter-clockwise, closed, first point not repeated.
     pub outline_m: Vec<[f64; 2]>,
@@ -237,7 +237,7 @@ pub struct StoredSignature {
     pub lengths_m: Vec<f64>,
     /// Ray angles Θ over the full circle, radians.
     pub angles_rad: Vec<f64>,
-    /// The signature as the paper writes it.
+    /// The signature in the paper's form.
     pub literal: StoredLiteral,
 }
 
@@ -250,7 +250,7 @@ pub struct StoredLiteral {
     pub angles_rad: Vec<f64>,
 }
 
-/// The bytes of `cloud.ply`.
+/// Returns the bytes of `cloud.ply`.
 pub(super) fn cloud_bytes(cloud: &PointCloud) -> Vec<u8> {
     let mut bytes = Vec::new();
     write_ply(&mut bytes, cloud).expect("memory takes everything");
@@ -258,7 +258,7 @@ pub(super) fn cloud_bytes(cloud: &PointCloud) -> Vec<u8> {
 }
 
 impl StoredSignature {
-    /// The signature of a reference's standard view; `None` if the reference has no view.
+    /// Computes the signature of a reference's standard view; `None` if the reference has no view.
     pub fn of(reference: &Reference, params: &ReferenceParams) -> Option<Self> {
         let view = reference.views.first()?;
         let xy = |p: &Point2<f64>| [rounded(p.x), rounded(p.y)];
@@ -290,7 +290,7 @@ impl StoredSignature {
         })
     }
 
-    /// True if this describes the same outline, to a tenth of a millimetre.
+    /// Returns whether both describe the same outline, to a tenth of a millimetre.
     pub fn agrees_with(&self, other: &Self) -> bool {
         let close = |a: &[f64], b: &[f64]| {
             a.len() == b.len() && a.iter().zip(b).all(|(x, y)| (x - y).abs() <= 1e-4)

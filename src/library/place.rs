@@ -1,4 +1,4 @@
-//! Which library is meant when none is named.
+//! The library to use when none is named.
 
 use std::{
     io,
@@ -21,19 +21,19 @@ use crate::{
     stages::reference::ReferenceParams,
 };
 
-/// A library, and why it is this one.
+/// A library and the reason for choosing it.
 #[derive(Debug)]
 pub enum LibraryPlace {
-    /// Named by the caller.
+    /// The caller named it.
     Given(LibraryFolder),
-    /// The user's own, in the folder that the system keeps for a user's data.
+    /// The user's own, in the system's folder for user data.
     User(LibraryFolder),
-    /// The shipped parts inside the program: there is no folder for the user's own, for this reason.
+    /// The shipped parts inside the program, because this error prevents a folder of the user's own.
     Program(LibraryError),
 }
 
 impl LibraryPlace {
-    /// The library's folder, if it has one.
+    /// Returns the library's folder, if it has one.
     pub fn folder(&self) -> Option<&LibraryFolder> {
         match self {
             Self::Given(folder) | Self::User(folder) => Some(folder),
@@ -41,7 +41,7 @@ impl LibraryPlace {
         }
     }
 
-    /// The folder to change, or why there is none.
+    /// Returns the folder to change, or why there is none.
     pub fn into_folder(self) -> Result<LibraryFolder, LibraryError> {
         match self {
             Self::Given(folder) | Self::User(folder) => Ok(folder),
@@ -49,7 +49,7 @@ impl LibraryPlace {
         }
     }
 
-    /// Where it is, for people.
+    /// Returns where the library is, for people.
     pub fn location(&self) -> String {
         self.folder().map_or_else(
             || "inside the program".into(),
@@ -63,7 +63,7 @@ impl LibraryPlace {
             .map_or_else(|| Ok(load_shipped(params)), |folder| folder.load(params))
     }
 
-    /// As [`Self::load`], and holds every file of every part against its cloud.
+    /// As [`Self::load`], and checks every file of every part against its cloud.
     pub fn verify(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
         self.folder()
             .map_or_else(|| Ok(load_shipped(params)), |folder| folder.verify(params))
@@ -85,7 +85,7 @@ impl LibraryPlace {
         }
     }
 
-    /// The small picture of a part, if it is there and can be read.
+    /// Reads the thumbnail of a part; `None` if it is missing or unreadable.
     pub fn thumbnail(&self, name: &str) -> Option<RgbaImage> {
         let picture = if let Some(folder) = self.folder() {
             read_picture(&folder.thumbnail(name)?).ok()
@@ -96,13 +96,13 @@ impl LibraryPlace {
         Some(picture?.into_rgba8())
     }
 
-    /// The stored spray path of a part; none where none was stored.
+    /// Reads the stored spray path of a part; `None` if none is stored.
     pub fn spray_path(&self, name: &str) -> Result<Option<SprayPath>, SprayPathError> {
         self.folder()
             .map_or(Ok(None), |folder| folder.spray_path(name))
     }
 
-    /// Why it is this one, in words.
+    /// Returns in words why this library was chosen.
     pub fn describe(&self) -> &'static str {
         match self {
             Self::Given(_) => "given",
@@ -112,8 +112,8 @@ impl LibraryPlace {
     }
 }
 
-/// The library at `given`, else the user's own, which is filled with the shipped parts the first time. Where that cannot
-/// be written, the shipped parts inside the program. What lies in the working directory does not count.
+/// Opens the library at `given`, or else the user's own, which is filled with the shipped parts the first time. If that
+/// cannot be written, uses the shipped parts inside the program. The working directory does not matter.
 pub fn open_library(given: Option<&Path>) -> Result<LibraryPlace, LibraryError> {
     if let Some(path) = given {
         return LibraryFolder::open(path).map(LibraryPlace::Given);
@@ -137,7 +137,7 @@ fn user_path() -> Result<PathBuf, LibraryError> {
     Ok(folders.data_dir().join("library"))
 }
 
-/// Makes the user's library, complete or not at all.
+/// Creates the user's library, completely or not at all.
 fn fill(path: &Path) -> io::Result<()> {
     let parent = path.parent().unwrap_or(Path::new("."));
     disk::create_dir_all(parent)?;
@@ -145,11 +145,11 @@ fn fill(path: &Path) -> io::Result<()> {
     write_shipped(building.path())?;
     match disk::rename(building.path(), path) {
         Ok(()) => {
-            // Renamed away: nothing is left to be cleared up.
+            // Renamed away, so there is nothing to clean up.
             let _ = building.keep();
             sync_folder(parent)
         }
-        // Another start was quicker.
+        // Another instance created it first.
         Err(_) if path.is_dir() => Ok(()),
         Err(error) => Err(error),
     }

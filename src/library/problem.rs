@@ -1,4 +1,4 @@
-//! What can be wrong with a stored part.
+//! Problems of stored parts.
 
 use std::{io, path::PathBuf};
 
@@ -9,51 +9,51 @@ use super::{
 };
 use crate::{error::Advice, files::FileError, stages::reference::ReferenceError};
 
-/// The largest cloud taken as a reference: twelve times what enrolling makes.
+/// Maximum number of points of a reference's cloud: twelve times what enrolling makes.
 pub(super) const MAX_POINTS: usize = 200_000;
 
 /// A part that could not be loaded.
 #[derive(Debug, thiserror::Error)]
 #[error("{entry}: {reason}")]
 pub struct EntryProblem {
-    /// The name of its folder.
+    /// Name of its folder.
     pub entry: String,
-    /// The folder.
+    /// Path of its folder.
     pub path: PathBuf,
-    /// Why.
+    /// Why it cannot be loaded.
     pub reason: EntryError,
 }
 
 /// Why a stored part cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum EntryError {
-    /// Made by a newer version of this program.
+    /// A newer version of the program wrote it.
     #[error("made by a newer version of Partsight (schema {found}, this one reads up to {known})")]
     Newer {
-        /// Its version.
+        /// Its schema version.
         found: u32,
-        /// The newest version read.
+        /// The newest version that this program reads.
         known: u32,
     },
-    /// A file that must be there is not.
+    /// A required file is missing.
     #[error("{file} is missing")]
     Missing {
         /// The file.
         file: &'static str,
     },
-    /// `part.toml` cannot be read by the system.
+    /// The system cannot read `part.toml`.
     #[error("{META} cannot be read: {source}")]
     Unreadable {
-        /// What the system says.
+        /// The underlying error.
         source: io::Error,
     },
-    /// `part.toml` cannot be understood.
+    /// `part.toml` cannot be parsed.
     #[error("{META} is damaged: {found}")]
     BadMeta {
-        /// The first thing wrong.
+        /// The first error.
         found: String,
     },
-    /// Folder and `part.toml` do not agree on the name.
+    /// The folder and `part.toml` have different names.
     #[error("the folder is named {folder}, but {META} says {name}")]
     NameMismatch {
         /// Name of the folder.
@@ -64,24 +64,24 @@ pub enum EntryError {
     /// The cloud cannot be read.
     #[error("{CLOUD} cannot be used: {0}")]
     BadCloud(Box<FileError>),
-    /// The file of the cloud holds something else, or too much of it.
+    /// The file of the cloud contains something else, or too many points.
     #[error("{CLOUD} holds {found}, expected a cloud of at most {MAX_POINTS} points")]
     NotACloud {
-        /// What it holds.
+        /// What it contains.
         found: String,
     },
-    /// The cloud can be read, but is not the one that was enrolled.
+    /// The cloud is not the one that was enrolled.
     #[error(
         "{CLOUD} is damaged or was changed: it has {} points and the checksum {}, {META} says {} and {}",
         found.num_points, found.crc32, expected.num_points, expected.crc32
     )]
     ChangedCloud {
-        /// What it is.
+        /// Check of the present file.
         found: CloudCheck,
-        /// What was enrolled.
+        /// Check of the enrolled cloud.
         expected: CloudCheck,
     },
-    /// The cloud is no reference.
+    /// The cloud cannot be used as a reference.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
 }
@@ -103,26 +103,26 @@ impl Advice for EntryProblem {
     }
 }
 
-/// Something odd about a part that could be loaded.
+/// A warning about a loaded part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{entry}: {trouble}")]
 pub struct EntryWarning {
-    /// The part.
+    /// Name of the part's folder.
     pub entry: String,
-    /// What is odd.
+    /// The problem.
     pub trouble: EntryIssue,
 }
 
-/// What can be odd about a stored part.
+/// A problem that does not keep a stored part from being loaded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EntryIssue {
-    /// A file that can be made again from the cloud is not there.
+    /// A file that can be made again from the cloud is missing.
     #[error("{file} is missing; it was made again from the cloud in memory")]
     Missing {
         /// The file.
         file: &'static str,
     },
-    /// A file that can be made again from the cloud is damaged or says something else than the cloud.
+    /// A file that can be made again from the cloud is damaged or does not match it.
     #[error("{file} does not belong to the cloud; the cloud counts")]
     Stale {
         /// The file.
@@ -131,10 +131,10 @@ pub enum EntryIssue {
     /// The stored spray path cannot be used.
     #[error("its spray path cannot be used: {why}")]
     SprayPath {
-        /// Why.
+        /// The reason.
         why: String,
     },
-    /// An interrupted replacement left the part under another name.
+    /// An interrupted replacement left the part under another folder name.
     #[error("an interrupted replacement left it aside; the next enrolment puts it back")]
     LeftAside,
 }

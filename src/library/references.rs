@@ -1,4 +1,4 @@
-//! Several references of one part: which they are, and how they follow it to another name.
+//! Several references of one part: listing them, and updating them when the part is renamed.
 
 use std::io;
 
@@ -12,20 +12,20 @@ use super::{
 };
 
 impl LibraryFolder {
-    /// The part that a verdict names for what is enrolled under `name`: itself, or the one that it is a reference of.
+    /// Returns the part that a verdict names for the entry `name`: itself, or the part that it is a reference of.
     pub fn part_of(&self, name: &PartName) -> Result<PartName, LibraryError> {
         let meta = meta_of(&self.entry(name.as_str())?);
         meta.map(|meta| meta.part_name().clone())
             .map_err(|problem| LibraryError::Damaged(Box::new(problem)))
     }
 
-    /// What is enrolled as one more reference of a part, in order; what cannot be read is none.
+    /// Returns the names of a part's additional references, in order; unreadable entries are skipped.
     pub fn references_of(&self, part: &PartName) -> Result<Vec<PartName>, LibraryError> {
         let references = self.reference_entries(part)?.into_iter();
         Ok(references.map(|(_, meta)| meta.name).collect())
     }
 
-    /// The folders and descriptions of those.
+    /// Returns the folders and descriptions of a part's additional references.
     fn reference_entries(&self, part: &PartName) -> Result<Vec<(Entry, PartMeta)>, LibraryError> {
         let entries = self.entries()?.into_iter();
         let readable = entries.filter_map(|entry| meta_of(&entry).ok().map(|meta| (entry, meta)));
@@ -34,7 +34,7 @@ impl LibraryFolder {
             .collect())
     }
 
-    /// Lets every reference of the part `from` be one of `to`, and says how many those are.
+    /// Makes every additional reference of `from` one of `to`, and returns their number.
     pub(super) fn carry_references(&self, from: &PartName, to: &PartName) -> io::Result<usize> {
         let references = self.reference_entries(from).map_err(io::Error::other)?;
         let num_references = references.len();

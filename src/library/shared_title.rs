@@ -1,4 +1,4 @@
-//! Two parts of one title: people could not tell their verdicts apart.
+//! Duplicate titles: people could not tell the verdicts of two such parts apart.
 
 use super::{name::PartName, part::PartMeta};
 use crate::error::Advice;
@@ -7,9 +7,9 @@ use crate::error::Advice;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{other} has the title \"{title}\" too")]
 pub struct SharedTitle {
-    /// The title.
+    /// The shared title.
     pub title: String,
-    /// The other part.
+    /// Name of the other part.
     pub other: PartName,
 }
 
@@ -20,8 +20,8 @@ impl Advice for SharedTitle {
 }
 
 impl SharedTitle {
-    /// What shares `title` with the reference `name` of `part`. Case does not matter, and references of one part may share
-    /// a title; nothing has an empty one.
+    /// Finds an entry that has the same `title` as the reference `name` of `part`. Case does not matter, references of
+    /// one part may share a title, and an empty title is never shared.
     pub fn among<'a>(
         title: &str,
         name: &str,

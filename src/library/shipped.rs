@@ -1,4 +1,4 @@
-//! The parts that the program brings along: copies of `reference_parts/` inside the binary.
+//! The shipped parts: copies of `reference_parts/` inside the binary.
 
 use std::{
     io,
@@ -14,13 +14,13 @@ use crate::{
     geometry::rigid::RigidTransform,
 };
 
-/// A part's folder.
+/// The folder of one shipped part.
 struct ShippedPart {
     name: &'static str,
     files: ShippedFiles,
 }
 
-/// The files of the named parts, read when the program is built.
+/// Includes the files of the named parts at build time.
 macro_rules! shipped {
     ($($name:literal),* $(,)?) => {
         &[$(ShippedPart {
@@ -69,13 +69,13 @@ pub fn shipped_files(name: &str) -> Option<&'static [(&'static str, &'static [u8
 /// Where a shipped part hung when it was enrolled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnrolledAt {
-    /// Takes the coordinates of the simulated model to the camera's, which are the part's.
+    /// Transform from the simulated model to the camera, whose frame is part space.
     pub part_from_model: RigidTransform,
-    /// By which its cloud is known.
+    /// Size and checksum of its cloud.
     pub cloud: CloudCheck,
 }
 
-/// Where the shipped part of this name hung; `None` if there is none.
+/// Returns the pose at enrolment of the shipped part with this name; `None` if there is none.
 pub fn shipped_enrolled_at(name: &str) -> Option<EnrolledAt> {
     let part = SHIPPED.iter().find(|part| part.name == name)?;
     let (_, bytes) = part.files.iter().find(|(file, _)| *file == CLOUD)?;
@@ -83,13 +83,13 @@ pub fn shipped_enrolled_at(name: &str) -> Option<EnrolledAt> {
         return None;
     };
     Some(EnrolledAt {
-        // All of them square-on, 1.3 m before the camera: see the README of the folder.
+        // Frontal, 1.3 m in front of the camera: see the README of the folder.
         part_from_model: RigidTransform::translation(0.0, 0.0, 1.3),
         cloud: CloudCheck::of(bytes, cloud.points.len()),
     })
 }
 
-/// The shipped parts as they lie in the program.
+/// Returns the shipped parts inside the program.
 pub(super) fn shipped_entries() -> Vec<Entry> {
     let entry = |part: &'static ShippedPart| Entry {
         name: part.name.to_owned(),

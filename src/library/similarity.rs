@@ -1,14 +1,14 @@
-//! Which enrolled part another one is hardest to tell from.
+//! Finds enrolled parts that are hard to tell apart.
 //!
-//! The standard view of the part is ranked like a scene, and the best few are then looked for in it: a door and the
-//! same door enrolled again under another name score nearly 1, and every inspection of either is a near tie.
-//! The score of a pair is the one that an inspection confirms, held down to that of the outlines where those differ.
-//! Any turn in the picture counts, half turns included.
+//! The standard view of the part is ranked like a scene, and the best few are then confirmed in it: a door and the same
+//! door enrolled again under another name score nearly 1, and every inspection of either has almost no margin. The
+//! score of a pair is the confirmed one, limited to that of the outlines where those differ. All rotations in the
+//! picture count, including half turns.
 //!
-//! The mirror image of the part is looked for as well: a right door is no left one, and an inspection tells the two apart
-//! where it sees enough of them, but no other enrolled part is as like it.
+//! The mirror image of the part is tried as well: a right door is not a left one, and an inspection tells the two apart
+//! where it sees enough of them, but no other enrolled part is as similar to it.
 //!
-//! Limit: what a view that shows half of the part would be taken for is not tried.
+//! Limit: views that show only half of the part are not tried.
 
 use super::Library;
 use crate::{
@@ -23,28 +23,28 @@ use crate::{
     },
 };
 
-/// Two parts from this score on cannot be told apart. Two captures of one simulated part reach it, no two shipped parts
-/// do.
+/// Score from which on two parts cannot be told apart. Two captures of one simulated part reach it, no two shipped
+/// parts do.
 const LEAST_SCORE: f64 = 0.9;
 
-/// Enrolled parts that are looked for, the most like by their outlines: each takes about 1.5 ms.
+/// Number of enrolled parts examined, those with the most similar outlines; each takes about 1.5 ms.
 const NUM_EXAMINED: usize = 20;
 
-/// Least score of the outlines, openings included; those of a grille's two captures differ most, at 0.8. Those of
-/// different shipped parts are below 0.5.
+/// Outline score, openings included, below which outlines count as different. Two captures of a grille have the lowest
+/// score of the same part, 0.8; different shipped parts stay below 0.5.
 const LEAST_OUTLINE_SCORE: f64 = 0.7;
 
-/// An enrolled part that looks like another one.
+/// Similarity of one enrolled part to another.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{name} cannot be told from {other} ({:.0} % alike)", score * 100.0)]
 pub struct Similarity {
-    /// The name that it is enrolled under, which need not be the part's.
+    /// Name of the reference's entry, which may differ from the part's name.
     pub name: String,
-    /// The name that the one which it looks like is enrolled under.
+    /// Name of the other reference's entry.
     pub other: String,
-    /// The score with which it would be taken for that, 0..1.
+    /// Score with which it would be taken for the other, 0..1.
     pub score: f64,
-    /// True if its mirror image looks like the other, and it itself does less.
+    /// True if its mirror image is more similar to the other than the part itself.
     pub is_mirrored: bool,
 }
 
@@ -58,12 +58,12 @@ impl Advice for Similarity {
 }
 
 impl Similarity {
-    /// True if inspections tell the two apart.
+    /// Returns whether inspections can tell the two apart.
     pub fn is_distinguishable(&self) -> bool {
         self.is_mirrored || self.score < LEAST_SCORE
     }
 
-    /// How like they are, for people.
+    /// Describes the similarity for people.
     pub fn in_words(&self) -> String {
         let mirrored = if self.is_mirrored {
             "its mirror image "
@@ -74,8 +74,8 @@ impl Similarity {
     }
 }
 
-/// The part of the library that `reference` cannot be told from; `None` if it can from all. A part of the same name, which
-/// it replaces, does not count.
+/// Returns the part of the library that `reference` cannot be told from; `None` if there is none. A part of the same
+/// name, which it would replace, does not count.
 pub fn most_similar(
     reference: &Reference,
     coverage: Coverage,
@@ -85,8 +85,8 @@ pub fn most_similar(
     all.next().filter(|first| !first.is_distinguishable())
 }
 
-/// How like every part of the library `reference` is: those that it cannot be told from first, then the most like. A part
-/// of the same name, which it replaces, does not count.
+/// Returns the similarity of `reference` to every part of the library: first those that it cannot be told from, then by
+/// descending score. A part of the same name, which it would replace, does not count.
 pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) -> Vec<Similarity> {
     let name = reference.name.as_str();
     let others = library.references.iter().filter(|r| r.name != name);
@@ -102,11 +102,11 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
         .iter()
         .zip(pairs)
         .map(|(other, (found, of_mirrored))| {
-            // What cannot be told apart is said, whatever its mirror image is like.
+            // Prefer to report an indistinguishable part over a similar mirror image.
             let is_mirrored = found.score < LEAST_SCORE && of_mirrored.score > found.score;
             let PairScore { score, outline } = if is_mirrored { of_mirrored } else { found };
             let likeness = Similarity {
-                // Only what is enrolled under a name can be removed or replaced.
+                // The name of the entry, since that is what can be removed or replaced.
                 name: reference.enrolled_as.clone(),
                 other: other.enrolled_as.clone(),
                 score,
@@ -124,21 +124,21 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
     all.into_iter().map(|(likeness, _)| likeness).collect()
 }
 
-/// How like two parts are.
+/// Scores of a pair of parts.
 #[derive(Clone, Copy, Debug, Default)]
 struct PairScore {
-    /// The score that an inspection confirms, held down to that of the outlines where those differ, 0..1.
+    /// Score that an inspection confirms, limited to that of the outlines where those differ, 0..1.
     score: f64,
-    /// The score of the outlines alone, 0..1: it still tells parts apart whose scores are both nearly 1.
+    /// Score of the outlines alone, 0..1; it still separates pairs whose scores are both nearly 1.
     outline: f64,
 }
 
-/// As it is shown.
+/// Rounds a score as it is displayed.
 fn per_cent(score: f64) -> u32 {
     (score * 100.0).round() as u32
 }
 
-/// The reference as in a mirror; `None` where that has no outline.
+/// Mirrors a reference; `None` if the result has no outline.
 fn mirrored(reference: &Reference, coverage: Coverage) -> Option<Reference> {
     let mut cloud = PointCloud {
         points: reference.cloud.points.clone(),
@@ -154,7 +154,7 @@ fn mirrored(reference: &Reference, coverage: Coverage) -> Option<Reference> {
     Reference::prepare("", cloud, coverage, &ReferenceParams::default()).ok()
 }
 
-/// The score with which the reference would be taken for each of the others, in their order.
+/// Returns the score with which the reference would be taken for each of the others, in their order.
 fn scores(reference: &Reference, coverage: Coverage, others: &[Reference]) -> Vec<PairScore> {
     let mut scores = vec![PairScore::default(); others.len()];
     let Some(view) = reference.views.first() else {
@@ -185,12 +185,12 @@ fn scores(reference: &Reference, coverage: Coverage, others: &[Reference]) -> Ve
             };
             confirm(&scene, others, &ranking, &params, 0.0).0
         }
-        // Not what a camera sees at once: judged by its outline.
+        // A camera cannot see all of it at once, so only its outline is compared.
         Coverage::AllAround | Coverage::SeveralSides => ConfirmedRanking::unexamined(&ranking),
     };
     for entry in &confirmed.entries {
         let outline = outline_score(entry.reference);
-        // Surfaces alone are blind one way: a small part lies well on any large one.
+        // Surface overlap works in one direction only: a small part fits well onto any large one.
         let score = if outline < LEAST_OUTLINE_SCORE {
             entry.score.min(outline)
         } else {
@@ -246,11 +246,11 @@ mod tests {
         assert!(first.score > 0.7 && first.is_distinguishable(), "{all:?}");
         assert!(first.in_words().starts_with("its mirror image "));
         assert_eq!(most_similar(&door, Coverage::OneSide, &library), None);
-        // The same door again is doubtful, and comes before any mirror image.
+        // The same door again is indistinguishable, and comes before any mirror image.
         let twin = enrolled(PartKind::FrontDoor, Side::Left, 5);
         let again = most_similar(&twin, Coverage::OneSide, &library).expect("alike");
         assert!(!again.is_mirrored && again.other.starts_with("front_door"));
-        // Of two doors that are both nearly the same, the very same one is the most like.
+        // Of two nearly identical doors, the identical one is the most similar.
         let doors = Library {
             references: vec![enrolled(PartKind::FrontDoor, Side::Left, 6), twin.clone()],
         };

@@ -1,20 +1,20 @@
-//! A part's spray path: where the nozzle stands and which way it points, in the part's own frame.
+//! Spray path of a part: positions and directions of the nozzle in part space.
 //!
-//! It is stored in the part's folder and goes with it. A file of it is a table with a heading that names columns and
-//! units; a line is a place of the nozzle, in one of two ways:
+//! It is stored in the part's folder. The file is a table with a heading that names columns and units; each line is a
+//! position of the nozzle, in one of two forms:
 //!
 //! ```text
 //! nozzle_x_mm, nozzle_y_mm, nozzle_z_mm, direction_x, direction_y, direction_z
-//! 12.0, -40.5, 1141.0, 0, 0, 1                 the nozzle, and the way it points: towards the part
+//! 12.0, -40.5, 1141.0, 0, 0, 1                 the nozzle, and its direction: towards the part
 //!
 //! x_mm, y_mm, z_mm, normal_x, normal_y, normal_z, stand_off_mm
-//! 12.0, -40.5, 1291.0, 0, 0, -1, 150           a place of the surface, its normal towards the nozzle, the distance
+//! 12.0, -40.5, 1291.0, 0, 0, -1, 150           a point of the surface, its normal towards the nozzle, the stand-off
 //! ```
 //!
-//! Lengths are in `_mm` or `_m`; the last column may be missing, and is 150 mm then. Two more columns may follow, each
-//! for the way from its point to the next: `gun_on` (1 or 0; 1 where there is no such column) and `speed_mm_s` or
-//! `speed_m_s`. `fan_x`, `fan_y` and `fan_z` point along the long side of a flat jet. Further columns are read over. The
-//! part's frame is that of its reference cloud: the camera's at the moment of enrolling (x right, y down, z forward).
+//! Lengths are in `_mm` or `_m`; without the last column the stand-off is 150 mm. Two more columns may follow, both for
+//! the segment from this point to the next: `gun_on` (1 or 0; 1 without such a column) and `speed_mm_s` or `speed_m_s`.
+//! `fan_x`, `fan_y` and `fan_z` point along the long side of a flat jet. Other columns are ignored. Part space is that
+//! of the reference cloud: the camera frame at enrolment (x right, y down, z forward).
 
 mod error;
 #[cfg(test)]
@@ -31,41 +31,41 @@ use crate::{
 
 pub use self::error::{PathLineProblem, SprayPathError};
 
-/// A nozzle at one point of a path, part space.
+/// A nozzle pose on a path, in part space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathPoint {
-    /// Where the nozzle's mouth is, metres.
+    /// Position of the nozzle tip, metres.
     pub nozzle: Point3<f64>,
-    /// The way it points, towards the part.
+    /// Spray direction, towards the part.
     pub direction: Unit<Vector3<f64>>,
-    /// How far the surface was when the path was taught, where that is known.
+    /// Stand-off when the path was taught, if known.
     pub stand_off: Option<Metres>,
-    /// True if the gun sprays on the way from this point to the next.
+    /// True if the gun sprays from this point to the next.
     pub is_gun_on: bool,
-    /// Speed on the way from this point to the next, m/s, above 0 and at most [`MAX_SPEED`]; where the path sets one.
+    /// Speed from this point to the next, m/s, above 0 and at most [`MAX_SPEED`]; `None` if the path sets none.
     pub speed: Option<f64>,
-    /// Along the long side of the fan, at right angles to `direction`; none for a round jet.
+    /// Direction of the fan's long side, perpendicular to `direction`; `None` for a round jet.
     pub fan: Option<Unit<Vector3<f64>>>,
 }
 
-/// A path of the nozzle, in its order; never empty.
+/// An ordered, non-empty path of the nozzle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SprayPath {
     points: Vec<PathPoint>,
 }
 
-/// More points than any path over one part.
+/// Maximum number of points, more than any path over one part has.
 pub const MAX_PATH_POINTS: usize = 20_000;
-/// A larger file is no path.
+/// Maximum size of a file, bytes.
 pub(super) const MAX_BYTES: u64 = 8 << 20;
-/// Where nothing else is said, a path was taught at the middle of the band.
+/// Default stand-off of a taught path, metres: the middle of the band.
 const TAUGHT: f64 = 0.15;
-/// No part and no arm reaches farther: the numbers are in another unit.
+/// Maximum distance from the origin, metres. Larger than any part or arm: such numbers are in another unit.
 const FARTHEST: f64 = 20.0;
-/// Faster than any robot moves a gun, m/s: the numbers are in another unit.
+/// Maximum speed, m/s. Faster than any robot moves a gun: such numbers are in another unit.
 pub const MAX_SPEED: f64 = 5.0;
 
-/// What a column holds.
+/// Content of a column.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Column {
     Nozzle(usize),
@@ -79,17 +79,18 @@ enum Column {
 }
 
 impl SprayPath {
-    /// A path of these points; `None` without any.
+    /// Creates a path of these points; `None` if there are none.
     pub fn new(points: Vec<PathPoint>) -> Option<Self> {
         (!points.is_empty()).then_some(Self { points })
     }
 
-    /// The points, in the path's order.
+    /// Returns the points in order.
     pub fn points(&self) -> &[PathPoint] {
         &self.points
     }
 
-    /// True if a table of this path reads as the other: places to a micrometre, directions to a millionth.
+    /// Returns whether both paths are the same as a written table: positions to about a micrometre, directions to a
+    /// millionth.
     pub fn is_as_written(&self, other: &Self) -> bool {
         let is_near = |a: &PathPoint, b: &PathPoint| {
             let speeds = [a, b].map(|point| point.speed.unwrap_or(0.0));
@@ -102,7 +103,7 @@ impl SprayPath {
         self.points.len() == other.points.len() && pairs.all(|(a, b)| is_near(a, b))
     }
 
-    /// Strokes: the ways with the gun on without a break, each by its first and last point.
+    /// Returns the strokes, each as the indices of its first and last point.
     pub fn strokes(&self) -> Vec<[usize; 2]> {
         let mut strokes: Vec<[usize; 2]> = Vec::new();
         let sprays = self.points[..self.points.len() - 1].iter().enumerate();
@@ -120,7 +121,7 @@ impl SprayPath {
         Self::parse(&read_text(path, MAX_BYTES)?, path)
     }
 
-    /// The path in a text; errors name it as this file.
+    /// Parses a path; errors name `path` as the file.
     pub(super) fn parse(text: &str, path: &Path) -> Result<Self, SprayPathError> {
         let mut lines = table_rows(text, path)?.into_iter();
         let no_heading = || SprayPathError::NoHeading {
@@ -152,7 +153,7 @@ impl SprayPath {
         })
     }
 
-    /// The table that is stored; it reads back to the same path, to a micrometre.
+    /// Writes the table that is stored; reading it gives the same path, to a micrometre.
     pub fn to_text(&self) -> String {
         let mut text = String::from(
             "# Partsight spray path, in the frame of the part's reference cloud: nozzle positions, and the way it points.\n\
@@ -188,9 +189,9 @@ impl SprayPath {
     }
 }
 
-/// Where each number of a point stands in a line, and in which unit.
+/// Column and unit of each number in a line.
 struct Columns {
-    /// What each column of the heading is, and its factor to metres.
+    /// For each column of the heading its content and factor to metres.
     known: Vec<Option<(Column, f64)>>,
     is_surface: bool,
 }
@@ -277,7 +278,7 @@ impl Columns {
             [Some(x), Some(y), Some(z)] => {
                 let beside = Vector3::new(x, y, z);
                 let across = beside - unit.into_inner() * unit.dot(&beside);
-                // A fan along the jet says nothing; rounded numbers are squared up.
+                // A fan along the jet is invalid; a rounded one is made perpendicular again.
                 let is_across = across.norm() > 0.9 * beside.norm();
                 let fan = Unit::try_new(across, 1e-6).filter(|_| is_across);
                 Some(fan.ok_or(PathLineProblem::Fan)?)
@@ -307,7 +308,7 @@ impl Columns {
     }
 }
 
-/// What the heading calls a column, and the factor to metres.
+/// Parses a column name into its content and factor to metres.
 fn column(cell: &str) -> Option<(Column, f64)> {
     let name = cell.trim_matches(['"', '\'']).trim().to_lowercase();
     match name.as_str() {

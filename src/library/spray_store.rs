@@ -1,7 +1,7 @@
-//! Spray paths in a library's folder.
+//! Storage of spray paths in a library.
 //!
-//! The file of a path is named after its checksum, which `part.toml` holds: a new path is written beside the old one,
-//! counts from the moment that `part.toml` names it, and the old one is then taken away. At any moment one of them is whole.
+//! The file of a path is named after its checksum, which `part.toml` contains: a new path is written next to the old
+//! one and becomes valid when `part.toml` names it; then the old one is deleted. At any moment one of them is complete.
 
 use std::{fs, path::Path};
 
@@ -17,7 +17,7 @@ use super::{
 use crate::files::{disk, read_text, sync_folder, write_file};
 
 impl LibraryFolder {
-    /// The stored spray path of a part; none where none was stored.
+    /// Reads the stored spray path of a part; `None` if none is stored.
     pub fn spray_path(&self, name: &str) -> Result<Option<SprayPath>, SprayPathError> {
         let library = |error: LibraryError| SprayPathError::Library(Box::new(error));
         let entry = self.entry(name).map_err(library)?;
@@ -26,7 +26,7 @@ impl LibraryFolder {
         read_spray_path(&entry.path, &meta)
     }
 
-    /// Stores the spray path of a part, or takes it away.
+    /// Stores the spray path of a part, or deletes it.
     pub fn set_spray_path(
         &self,
         name: &PartName,
@@ -73,7 +73,7 @@ impl LibraryFolder {
     }
 }
 
-/// The spray path in a part's folder, held against what its description says.
+/// Reads the spray path in a part's folder, and checks it against `part.toml`.
 pub(super) fn read_spray_path(
     folder: &Path,
     meta: &PartMeta,
@@ -182,7 +182,7 @@ mod tests {
             library.spray_path("mudguard").expect("read"),
             Some(path(0.1))
         );
-        // Copied as people copy a library.
+        // Copied the way people copy a library.
         let stick = tempfile::tempdir().expect("a stick");
         let copy = stick.path().join("mudguard");
         fs::create_dir(&copy).expect("made");

@@ -1,9 +1,9 @@
-//! The folder of a library: listing and changing its parts such that nothing enrolled is ever lost.
+//! The folder of a library: listing and changing its parts so that no enrolled part is ever lost.
 //!
-//! What was removed or replaced lies whole in `.trash` and can be restored from there.
+//! Removed and replaced parts are kept whole in `.trash` and can be restored.
 //!
-//! Looking never writes: a library can lie on a medium that is write-protected. How a part takes the place of another,
-//! and what an interruption leaves, is in `install`.
+//! Reading never writes: a library may be on a write-protected medium. `install` describes how one part replaces
+//! another, and what an interruption leaves behind.
 
 use std::{
     fs, io,
@@ -24,45 +24,45 @@ use super::{
 };
 use crate::files::{disk, new_folder, sync_folder, write_file};
 
-/// A library's folder.
+/// Folder of a library.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LibraryFolder {
     path: PathBuf,
 }
 
-/// Where a part was saved.
+/// Result of saving a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Saved {
-    /// Its folder.
+    /// Folder of the part.
     pub folder: PathBuf,
-    /// Where the part of the same name that it replaced lies now, if there was one.
+    /// New path of the part of the same name that it replaced, if any.
     pub replaced: Option<PathBuf>,
-    /// True if that one has a spray path, which stays with it: it is in the former one's frame.
+    /// True if the replaced part has a spray path. The path stays with that part, since it is in its frame.
     pub left_path: bool,
 }
 
-/// What became of a part that was renamed.
+/// Result of renaming a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Renamed {
-    /// What it was called before.
+    /// Former name, title and notes.
     pub before: PartNaming,
-    /// Where it lies as it was before, if its name is another one now.
+    /// Path of the former folder in the trash, if the name changed.
     pub former: Option<PathBuf>,
-    /// How many more references of it were carried along to the new name.
+    /// Number of additional references that were updated to the new name.
     pub num_references: usize,
 }
 
-/// What came back from the trash.
+/// Result of restoring a part from the trash.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Restored {
-    /// The part.
+    /// Name of the part.
     pub name: PartName,
-    /// Where the part of the same name that it replaced lies now, if there was one.
+    /// New path of the part of the same name that it replaced, if any.
     pub replaced: Option<PathBuf>,
 }
 
 impl LibraryFolder {
-    /// A library that is there.
+    /// Opens an existing library.
     pub fn open(path: &Path) -> Result<Self, LibraryError> {
         let path = path.to_owned();
         match fs::metadata(&path) {
@@ -75,7 +75,7 @@ impl LibraryFolder {
         }
     }
 
-    /// A library that is there, or a new, empty one.
+    /// Opens an existing library, or creates an empty one.
     pub fn open_or_create(path: &Path) -> Result<Self, LibraryError> {
         match Self::open(path) {
             Err(LibraryError::NotFound { path }) => {
@@ -89,17 +89,17 @@ impl LibraryFolder {
         }
     }
 
-    /// The folder.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The names of all parts, damaged ones included, in order.
+    /// Returns the names of all parts, including damaged ones, in order.
     pub fn names(&self) -> Result<Vec<String>, LibraryError> {
         Ok(self.entries()?.into_iter().map(|e| e.name).collect())
     }
 
-    /// Folders that are not looked into because their name is no part's, in order.
+    /// Returns the folders that are ignored because their names are not valid for a part, in order.
     pub fn skipped(&self) -> Result<Vec<String>, LibraryError> {
         let list = || -> io::Result<Vec<String>> {
             let mut skipped = Vec::new();
@@ -119,13 +119,13 @@ impl LibraryFolder {
         })
     }
 
-    /// True if this is the folder of one part and not of a library.
+    /// Returns whether this is the folder of one part instead of a library.
     pub fn is_itself_a_part(&self) -> bool {
         self.path.join(META).is_file()
     }
 
-    /// The library that was probably meant by this folder without parts: the one that it lies in, if it is a part itself,
-    /// or its `reference_parts`.
+    /// Returns the library that was probably meant by this folder without parts: its parent if it is a part itself,
+    /// otherwise its `reference_parts`.
     pub fn probably_meant(&self) -> Option<PathBuf> {
         if self.is_itself_a_part() {
             let path = self.path.canonicalize().ok()?;
@@ -134,7 +134,7 @@ impl LibraryFolder {
         Some(self.path.join("reference_parts")).filter(|inner| inner.is_dir())
     }
 
-    /// The folders of all parts in the order of their names; one that was renamed aside and never replaced counts.
+    /// Returns the folders of all parts, sorted by name, including parts that were renamed aside and never replaced.
     pub(super) fn entries(&self) -> Result<Vec<Entry>, LibraryError> {
         let list = || -> io::Result<Vec<Entry>> {
             let mut entries: Vec<Entry> = Vec::new();
@@ -179,7 +179,7 @@ impl LibraryFolder {
             })
     }
 
-    /// Saves a part; one of the same name goes to the trash once the new one is in place.
+    /// Saves a part; an existing part of that name goes to the trash once the new one is in place.
     pub fn save(&self, part: &Part) -> Result<Saved, LibraryError> {
         self.writing(|| {
             self.finish_interrupted_write()?;
@@ -188,7 +188,7 @@ impl LibraryFolder {
             let building = new_folder(&self.path, &format!("{NEW_PREFIX}{name}-"))?;
             write_part(building.path(), part)?;
             let replaced = self.replace_entry(building.path(), name, name)?;
-            // Renamed away: nothing is left to be cleared up.
+            // Renamed away, so there is nothing to clean up.
             let _ = building.keep();
             Ok(Saved {
                 folder: self.path.join(name),
@@ -198,7 +198,7 @@ impl LibraryFolder {
         })
     }
 
-    /// Moves a part, damaged or not, to the trash and says where it lies there.
+    /// Moves a part, damaged or not, to the trash. Returns its path there.
     pub fn remove(&self, name: &PartName) -> Result<PathBuf, LibraryError> {
         self.entry(name.as_str())?;
         self.writing(|| {
@@ -209,16 +209,16 @@ impl LibraryFolder {
         })
     }
 
-    /// What a part is called.
+    /// Returns name, title and notes of a part.
     pub fn words(&self, name: &PartName) -> Result<PartNaming, LibraryError> {
         let meta = meta_of(&self.entry(name.as_str())?);
         meta.map(|meta| meta.words())
             .map_err(|problem| LibraryError::Damaged(Box::new(problem)))
     }
 
-    /// Calls a part otherwise. Under another name it is a part built anew of the same files, and the former one goes to
-    /// the trash once the new one is in place and its references name that; otherwise only its description is written
-    /// anew.
+    /// Changes name, title and notes of a part. Under another name, a new folder is built from the same files; the
+    /// former one goes to the trash once the new one is in place and the additional references name it. Otherwise only
+    /// `part.toml` is rewritten.
     pub fn rename(&self, name: &PartName, words: &PartNaming) -> Result<Renamed, LibraryError> {
         self.entry(name.as_str())?;
         self.writing(|| {
@@ -229,7 +229,7 @@ impl LibraryFolder {
             };
             let before = meta.words();
             let folder = self.path.join(name.as_str());
-            // Said to be a reference of itself, it stays one.
+            // A part that names itself as its part keeps doing so.
             let part = meta.part.clone();
             let part = part.map(|part| {
                 if part == *name {
@@ -255,7 +255,7 @@ impl LibraryFolder {
                 sync_folder(building.path())?;
                 let aside =
                     self.install_entry(building.path(), words.name.as_str(), name.as_str())?;
-                // Renamed away: nothing is left to be cleared up.
+                // Renamed away, so there is nothing to clean up.
                 let _ = building.keep();
                 let num_references = self.carry_references(name, &words.name)?;
                 (self.trash_replaced(aside, name.as_str())?, num_references)
@@ -268,7 +268,7 @@ impl LibraryFolder {
         })?
     }
 
-    /// Brings back what lies in the trash; a part of the same name goes there once the former one is in place.
+    /// Restores a part from the trash; an existing part of that name goes there once the restored one is in place.
     pub fn restore(&self, kept: &Path) -> Result<Restored, LibraryError> {
         let not_there = || LibraryError::NotInTrash {
             kept: kept.to_owned(),
@@ -281,7 +281,7 @@ impl LibraryFolder {
         })
     }
 
-    /// The description of a part that is to be renamed to `to`.
+    /// Returns the `part.toml` of a part that is to be renamed to `to`.
     fn renamed_meta(&self, name: &PartName, to: &PartName) -> Result<PartMeta, LibraryError> {
         if to != name && self.path.join(to.as_str()).exists() {
             return Err(LibraryError::NameTaken {

@@ -1,8 +1,9 @@
-//! The small picture of a part that people pick it by: its surface shaded by its normals, on nothing.
+//! Thumbnails of parts: the surface shaded by its normals on a transparent background.
 //!
-//! Points are drawn as discs into a depth buffer of several samples per pixel, lit from the upper left, and darkened
-//! where they lie behind their neighbours on the picture (C. Boucheny, "Visualisation scientifique de grands volumes
-//! de données: pour une approche perceptive", 2009: eye-dome lighting), so that an uncoloured part has shape.
+//! Points are drawn as discs into a depth buffer with several samples per pixel, lit from the upper left, and darkened
+//! where they lie behind their neighbours in the picture (C. Boucheny, "Visualisation scientifique de grands volumes de
+//! données: pour une approche perceptive", 2009: eye-dome lighting), so that the shape of an uncoloured part is
+//! visible.
 
 use image::{Rgba, RgbaImage};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -11,14 +12,14 @@ use crate::stages::reference::{Coverage, Reference};
 
 /// Size of the picture, pixels.
 const SIZE: [usize; 2] = [160, 120];
-/// Unset pixels around the part.
+/// Margin around the part, pixels.
 const MARGIN: f64 = 6.0;
 /// Samples per pixel along each axis.
 const SAMPLES: usize = 3;
-/// Of primer: stands out on a dark and on a light window.
+/// Colour of primer, visible in a dark and in a light window.
 const COLOUR: Vector3<f64> = Vector3::new(0.56, 0.66, 0.76);
 
-/// Draws a prepared reference: from one side as the camera saw it, else in its standard view.
+/// Draws a prepared reference: as the camera saw it if enrolled from one side, else in its standard view.
 pub(super) fn render(reference: &Reference, coverage: Coverage) -> RgbaImage {
     let drawn = SplatBuffer::of(reference, coverage);
     let samples = drawn.map(|s| s.shaded());
@@ -47,8 +48,8 @@ pub(super) fn render(reference: &Reference, coverage: Coverage) -> RgbaImage {
 const WIDTH: usize = SIZE[0] * SAMPLES;
 const HEIGHT: usize = SIZE[1] * SAMPLES;
 
-/// What each sample shows: depth (samples, growing away from the viewer) and normal. Picture space: x right, y down,
-/// z away.
+/// Depth (in samples, increasing away from the viewer) and normal of each sample. Picture space: x right, y down, z
+/// away.
 struct SplatBuffer {
     depths: Vec<f64>,
     normals: Vec<Vector3<f64>>,
@@ -85,7 +86,7 @@ impl SplatBuffer {
         let room = |size: usize| (size * SAMPLES) as f64 - 2.0 * MARGIN * SAMPLES as f64;
         let per_metre = (room(SIZE[0]) / extent.x).min(room(SIZE[1]) / extent.y);
         let centre = (low + high) / 2.0;
-        // Discs that overlap: a point stands for about its share of the part's area.
+        // Overlapping discs: each point covers about its share of the part's area.
         let area_each = view.contour.area * num_sides(coverage) / turned.len() as f64;
         let radius = (1.1 * area_each.sqrt() * per_metre).clamp(1.0, 0.1 * HEIGHT as f64);
         let mut splats = Self {
@@ -111,7 +112,7 @@ impl SplatBuffer {
             for column in span(at.x, WIDTH) {
                 let (dx, dy) = (column as f64 - at.x, row as f64 - at.y);
                 let from_centre = dx.hypot(dy) / radius;
-                // Cones instead of discs: the nearest point wins its surroundings, so borders run half-way.
+                // Cones instead of discs: the nearest point wins, so borders run half-way between points.
                 let depth = at.z + from_centre * radius;
                 let i = row * WIDTH + column;
                 if from_centre <= 1.0 && depth < self.depths[i] {
@@ -122,7 +123,7 @@ impl SplatBuffer {
         }
     }
 
-    /// The colour of every sample that shows the part.
+    /// Returns the colour of every sample that shows the part.
     fn shaded(&self) -> Vec<Option<Vector3<f64>>> {
         let light = Vector3::new(-0.45, -0.65, -0.6).normalize();
         (0..WIDTH * HEIGHT)
@@ -140,7 +141,7 @@ impl SplatBuffer {
             .collect()
     }
 
-    /// The mean normal of a sample and its neighbours at the same depth: hides the borders between discs.
+    /// Averages the normals of a sample and its neighbours at the same depth, which hides the borders between discs.
     fn smooth_normal(&self, i: usize) -> Vector3<f64> {
         let sum: Vector3<f64> = Self::around(i, 4)
             .filter(|&j| (self.depths[j] - self.depths[i]).abs() < 12.0)
@@ -151,7 +152,7 @@ impl SplatBuffer {
             .unwrap_or(self.normals[i])
     }
 
-    /// 1 for a sample with nothing before it on any side, towards 0 in a groove or behind an edge.
+    /// Returns 1 for a sample with nothing in front of it on any side, less in a groove or behind an edge.
     fn openness(&self, i: usize) -> f64 {
         let reach = 6;
         let before: f64 = Self::around(i, reach)
@@ -160,7 +161,7 @@ impl SplatBuffer {
         (-0.12 * before).exp()
     }
 
-    /// The samples at so many steps in eight directions, as far as they are in the picture.
+    /// Returns the samples `reach` steps away in eight directions, as far as they are in the picture.
     fn around(i: usize, reach: i64) -> impl Iterator<Item = usize> {
         let (column, row) = ((i % WIDTH) as i64, (i / WIDTH) as i64);
         (-1..=1_i64)

@@ -1,4 +1,4 @@
-//! The trash of a library: what was removed or replaced, each in a folder named after the part and the moment.
+//! The trash of a library: removed and replaced parts, in folders named after part and time.
 
 use std::{
     fs, io,
@@ -8,22 +8,22 @@ use std::{
 use super::{error::LibraryError, name::PartName, store::LibraryFolder};
 use crate::files::disk;
 
-/// Its folder within the library.
+/// Name of the trash folder within the library.
 pub(super) const TRASH: &str = ".trash";
 
-/// Something that lies in the trash.
+/// A part in the trash.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TrashEntry {
-    /// The part's name.
+    /// Name of the part.
     pub name: PartName,
-    /// Where it lies; [`LibraryFolder::restore`] brings it back.
+    /// Path in the trash; [`LibraryFolder::restore`] restores it.
     pub kept: PathBuf,
-    /// When it came here, to the second, and which of that second.
+    /// Timestamp to the second, and a counter within that second.
     order: (String, u32),
 }
 
 impl LibraryFolder {
-    /// Everything in the trash that can be restored, newest first. Without a trash there is nothing in it.
+    /// Returns all parts that can be restored, newest first; empty if there is no trash.
     pub fn trashed(&self) -> Result<Vec<TrashEntry>, LibraryError> {
         let list = || -> io::Result<Vec<TrashEntry>> {
             let found = match fs::read_dir(self.path().join(TRASH)) {
@@ -44,7 +44,7 @@ impl LibraryFolder {
     }
 }
 
-/// Moves a folder of the library into the trash and says where it lies there.
+/// Moves a folder of the library into the trash. Returns its path there.
 pub(super) fn move_in(library: &Path, folder: &Path, name: &str) -> io::Result<PathBuf> {
     let trash = library.join(TRASH);
     disk::create_dir_all(&trash)?;
@@ -60,7 +60,7 @@ pub(super) fn move_in(library: &Path, folder: &Path, name: &str) -> io::Result<P
     Ok(place)
 }
 
-/// The name of the part that lies in the trash there; `None` if none does.
+/// Returns the name of the part at this path in the trash; `None` if there is none.
 pub(super) fn name_of(library: &Path, kept: &Path) -> Option<PartName> {
     let is_inside = kept.parent() == Some(library.join(TRASH).as_path());
     let found = trashed(kept.to_owned()).filter(|_| is_inside)?;
@@ -69,7 +69,7 @@ pub(super) fn name_of(library: &Path, kept: &Path) -> Option<PartName> {
 
 fn trashed(kept: PathBuf) -> Option<TrashEntry> {
     let file_name = kept.file_name()?.to_str()?;
-    // No name of a part holds the capitals of a moment.
+    // Names of parts have no capitals, so this separates the timestamp from the name.
     let (name, stamp, count) = file_name.match_indices('-').find_map(|(at, _)| {
         let mut rest = file_name[at + 1..].splitn(2, '-');
         let stamp = rest.next().filter(|stamp| is_stamp(stamp))?;
@@ -80,7 +80,7 @@ fn trashed(kept: PathBuf) -> Option<TrashEntry> {
     kept.is_dir().then_some(TrashEntry { name, kept, order })
 }
 
-/// True for a moment such as `20260102T030405Z`.
+/// Returns whether a text is a timestamp such as `20260102T030405Z`.
 fn is_stamp(text: &str) -> bool {
     text.len() == 16
         && text.bytes().enumerate().all(|(i, byte)| match i {

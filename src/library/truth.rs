@@ -1,21 +1,21 @@
-//! What truly hangs before a camera, as far as somebody knows.
+//! True label of a scene.
 
 use serde::{Deserialize, Serialize};
 
-/// What truly hung before the camera.
+/// What truly hung in front of the camera.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(tag = "is", content = "part", rename_all = "snake_case")]
 pub enum Truth {
     /// The enrolled part of this name.
     Part(String),
-    /// Something that is not enrolled.
+    /// An object that is not enrolled.
     NotEnrolled,
-    /// Nothing.
+    /// No object: an empty cell.
     Nothing,
 }
 
 impl Truth {
-    /// The part's name, if it is one.
+    /// Returns the name of the part, if it is one.
     pub fn part(&self) -> Option<&str> {
         match self {
             Self::Part(name) => Some(name),
@@ -23,7 +23,7 @@ impl Truth {
         }
     }
 
-    /// As in reports: the part's name, `not_enrolled` or `nothing`.
+    /// Returns the name used in reports: the part's name, `not_enrolled` or `nothing`.
     pub fn name(&self) -> &str {
         match self {
             Self::Part(name) => name,

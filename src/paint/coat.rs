@@ -1,7 +1,7 @@
-//! A coat: all that a spray path and its film depend on beside the part. Lengths in metres, angles in radians.
+//! A coat: everything besides the part that a spray path and its film depend on. Lengths in metres, angles in radians.
 //!
-//! The table in `coat/table.rs` declares every parameter once, as the recipe of an inspection does; settings (`--set`),
-//! files and the guide follow from it.
+//! The table in `coat/table.rs` declares each parameter once, as for the recipe of an inspection; settings (`--set`),
+//! files and the guide are derived from it.
 
 mod folder;
 mod table;
@@ -18,11 +18,11 @@ pub use self::{
     table::CoatGroup,
 };
 
-/// How the rows of a path run.
+/// Arrangement of a path's rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Pattern {
-    /// Rows side by side, there and back.
+    /// Parallel rows, there and back.
     Raster,
     /// Two rasters, the second across the first.
     CrossHatch,
@@ -30,7 +30,7 @@ pub enum Pattern {
     Contour,
 }
 
-/// Which way the rows of a raster run.
+/// Direction of a raster's rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RowDirection {
@@ -40,7 +40,7 @@ pub enum RowDirection {
     Angle,
 }
 
-/// How the paint is spread over the jet of a gun.
+/// Distribution of the paint over the jet of a gun.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Profile {
@@ -50,63 +50,64 @@ pub enum Profile {
     Beta,
 }
 
-/// A spray gun; what it deposits is in `gun.rs`.
+/// A spray gun; `gun.rs` computes what it deposits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Gun {
-    /// How the paint is spread over the jet.
+    /// Distribution of the paint over the jet.
     pub profile: Profile,
-    /// Length of the pattern across the way of travel, metres, at `distance`: 4σ of a Gaussian, all of a beta profile.
+    /// Length of the pattern across the direction of travel, metres, at `distance`: 4σ of a Gaussian, all of a beta
+    /// profile.
     pub width: f64,
-    /// Length of the pattern along the way of travel, likewise.
+    /// Length of the pattern along the direction of travel, likewise.
     pub depth: f64,
-    /// β, the exponent of a beta profile plus one.
+    /// β of a beta profile: its exponent plus one.
     pub beta: f64,
-    /// At which distance from the mouth width and depth were measured, metres.
+    /// Distance from the mouth at which width and depth were measured, metres.
     pub distance: f64,
-    /// Paint, cubic metres a second.
+    /// Flow of paint, cubic metres per second.
     pub flow: f64,
-    /// Share of the paint that flies to the part.
+    /// Share of the paint that reaches the part.
     pub transfer: f64,
-    /// Share of the paint's volume that stays as film.
+    /// Share of the paint's volume that remains as film.
     pub solids: f64,
 }
 
-/// A coat, by its parameters.
+/// The parameters of a coat.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Coat {
     /// The gun.
     pub gun: Gun,
-    /// How the rows run.
+    /// Arrangement of the rows.
     pub pattern: Pattern,
-    /// Which way they run.
+    /// Direction of the rows.
     pub direction: RowDirection,
     /// Angle of the rows from the part's x axis, used with [`RowDirection::Angle`].
     pub angle: f64,
     /// Distance between rows along the surface.
     pub spacing: f64,
-    /// From the mouth to the surface along the jet.
+    /// Distance from the mouth to the surface along the jet.
     pub stand_off: f64,
     /// Speed of the jet over the surface, m/s.
     pub speed: f64,
-    /// How far beyond the edge the gun still sprays.
+    /// Distance beyond the edge up to which the gun sprays.
     pub overrun: f64,
-    /// Further way with the gun off at both ends of a row.
+    /// Way with the gun off at both ends of a row, beyond the overrun.
     pub lead: f64,
     /// Openings narrower than this are crossed with the gun on.
     pub opening: f64,
-    /// How far around a keep-out region the gun is off.
+    /// Distance around a keep-out region within which the gun is off.
     pub margin: f64,
     /// Width over which the surface is smoothed before the gun follows it.
     pub smoothing: f64,
-    /// Furthest that the gun leans from the direction that the part is painted from.
+    /// Largest angle of the gun from the direction that the part is painted from.
     pub tilt_limit: f64,
     /// Distance between the points of the path.
     pub point_spacing: f64,
-    /// Wanted thickness of the dry film, metres.
+    /// Target thickness of the dry film, metres.
     pub target: f64,
-    /// How far from it is still right, as a share of it.
+    /// Accepted deviation from the target, as a share of it.
     pub tolerance: f64,
 }
 
@@ -149,7 +150,7 @@ impl Default for Coat {
 }
 
 impl Coat {
-    /// Refuses a coat that deposits nothing, or that a path cannot be made of; files and settings check the ranges.
+    /// Refuses a coat with a parameter out of its range; files and settings are checked when they are read.
     pub(super) fn check(&self) -> Result<(), PaintError> {
         for parameter in Self::ALL {
             if let Kind::Number(number) = &parameter.kind {
@@ -165,7 +166,8 @@ impl Coat {
         Ok(())
     }
 
-    /// Thickness far from every edge of a flat plate, metres: what lands on a strip as wide as the spacing.
+    /// Thickness on a flat plate far from its edges, metres: the volume sprayed on a strip as wide as the spacing, over
+    /// its area.
     pub fn flat_thickness(&self) -> f64 {
         let passes = if self.pattern == Pattern::CrossHatch {
             2.0
@@ -175,7 +177,7 @@ impl Coat {
         passes * self.gun.film_rate() / (self.spacing * self.speed)
     }
 
-    /// Share of the pattern's width that two rows have in common.
+    /// Overlap of two neighbouring rows, as a share of the pattern's width.
     pub fn overlap(&self) -> f64 {
         1.0 - self.spacing / (self.gun.width * self.stand_off / self.gun.distance)
     }

@@ -1,42 +1,42 @@
-//! Corrections of a path by hand: a stroke or a point moved, the gun turned.
+//! Manual corrections of a path: a stroke or a point moved, or the gun turned.
 //!
-//! What is moved at one point fades out over its neighbours on the same stroke, so that the gun does not jerk.
+//! A correction at one point fades out over its neighbours on the same stroke, so that the gun does not jerk.
 
 use nalgebra::{Unit, Vector3};
 
 use crate::library::{PathPoint, SprayPath};
 
-/// Points on both sides of a corrected one that move along, less and less.
+/// Points on each side of a corrected one that move along, less with distance.
 const FADES_OVER: usize = 3;
 
-/// A correction of a path by hand; strokes and points by their place in the path.
+/// A manual correction of a path. Strokes and points are given by their index.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PathEdit {
     /// Moves a stroke with its lead-in and lead-out.
     Stroke {
-        /// Which.
+        /// Index of the stroke.
         stroke: usize,
-        /// By how much, metres; what of it is along the jet does not count.
+        /// Shift, metres; its component along the jet is ignored.
         by: Vector3<f64>,
     },
     /// Moves a point of a stroke.
     Point {
-        /// Which.
+        /// Index of the point.
         point: usize,
-        /// By how much, metres; what of it is along the jet does not count.
+        /// Shift, metres; its component along the jet is ignored.
         by: Vector3<f64>,
     },
-    /// Turns the gun about where it aims.
+    /// Turns the gun about the point at which it aims.
     Turn {
-        /// At which point.
+        /// Index of the point.
         point: usize,
-        /// How the nozzle moves by it, metres.
+        /// Shift of the nozzle, metres.
         by: Vector3<f64>,
     },
 }
 
-/// The path with these corrections, one after the other; one of a stroke or point that is not there changes nothing.
-/// `stand_off` is where the gun aims at a point that names no distance, metres.
+/// Applies corrections one after the other; those of a stroke or point that does not exist are ignored. `stand_off`, in
+/// metres, is the distance of the aim for points without one of their own.
 #[must_use]
 pub fn edited(path: SprayPath, edits: &[PathEdit], stand_off: f64) -> SprayPath {
     let strokes = path.strokes();
@@ -63,7 +63,7 @@ pub fn edited(path: SprayPath, edits: &[PathEdit], stand_off: f64) -> SprayPath 
     SprayPath::new(points).unwrap_or(path)
 }
 
-/// The points of a stroke, and of the ways with the gun off beside it the nearer halves.
+/// The points of a stroke, and the nearer halves of the ways with the gun off on both sides.
 fn with_leads(strokes: &[[usize; 2]], stroke: usize, num: usize) -> std::ops::Range<usize> {
     let Some([first, last]) = strokes.get(stroke).copied() else {
         return 0..0;
@@ -75,7 +75,7 @@ fn with_leads(strokes: &[[usize; 2]], stroke: usize, num: usize) -> std::ops::Ra
     from.min(first)..to.max(last + 1).min(num)
 }
 
-/// A point and its neighbours on its stroke, each with its share of the correction.
+/// A point and its neighbours on the stroke, each with its weight.
 fn faded(strokes: &[[usize; 2]], point: usize) -> Vec<(usize, f64)> {
     let own = strokes
         .iter()
@@ -97,7 +97,7 @@ fn shift(point: &mut PathPoint, by: Vector3<f64>) {
     point.nozzle += by - jet * jet.dot(&by);
 }
 
-/// The nozzle moves on a sphere about where it aims.
+/// Moves the nozzle on a sphere around the point at which it aims.
 fn turn(point: &mut PathPoint, by: Vector3<f64>, stand_off: f64) {
     let distance = point.stand_off.map_or(stand_off, |d| d.0);
     let aim = point.nozzle + point.direction.into_inner() * distance;
@@ -119,7 +119,7 @@ mod tests {
     use super::*;
     use crate::units::Metres;
 
-    /// Two rows of nine points along x, the gun on between the second and the last but one, 150 mm above z = 0.
+    /// Two rows of nine points along x, 150 mm above z = 0, with the gun on between the second and the last but one.
     fn path() -> SprayPath {
         let rows = [0.0, 0.1].into_iter().flat_map(|y| {
             (0..9).map(move |i| PathPoint {

@@ -1,58 +1,58 @@
-//! Why no path can be planned or no film computed.
+//! Errors of planning a path or computing a film.
 
 use crate::{error::Advice, library::MAX_PATH_POINTS};
 
-/// Why no path can be planned or no film computed.
+/// Why a path cannot be planned, or a film not be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PaintError {
     /// The enrolled part has no normals.
     #[error("the enrolled part has no surface with normals")]
     NoNormals,
-    /// Points or normals that are no numbers.
+    /// Some points are not finite, or have no unit normal.
     #[error("{num_bad} points of the surface have no finite place and unit normal")]
     NotFinite {
-        /// How many.
+        /// Number of such points.
         num_bad: usize,
     },
-    /// Too few points to follow.
+    /// Too few points face the side to be painted.
     #[error("the surface has {found} points, too few to lay rows on")]
     TooFew {
-        /// Points that face the side to be painted.
+        /// Number of points that do.
         found: usize,
     },
-    /// No part has this size.
+    /// The surface is smaller or larger than any part.
     #[error("the surface spans {:.0} mm, expected 30 mm to 10 m", metres * 1000.0)]
     Extent {
-        /// Its largest extent.
+        /// Largest extent, metres.
         metres: f64,
     },
-    /// Normals that cancel out, or points above each other.
+    /// The normals cancel out, so there is no side to be painted.
     #[error("the surface has no side that faces one way: it is folded or closed")]
     Folded,
-    /// A coat that deposits nothing or divides by nothing.
+    /// A parameter of the coat is out of its range.
     #[error("the coat's {name} is {value}, which no path can be made of")]
     BadCoat {
-        /// The parameter.
+        /// Key of the parameter.
         name: &'static str,
-        /// Its value.
+        /// Its value, in the unit in which it is shown.
         value: f64,
     },
     /// No row meets the surface outside the keep-out regions.
     #[error("no row lies over the surface")]
     NoRows,
-    /// More points than a stored path holds.
+    /// The path has more points than can be stored.
     #[error("the path would have {found} points, at most {MAX_PATH_POINTS} are stored")]
     TooLong {
-        /// How many.
+        /// Number of points.
         found: usize,
     },
-    /// A region that encloses nothing.
+    /// A keep-out region, or area to be painted, encloses nothing.
     #[error("a keep-out region is empty: {what}")]
     BadRegion {
-        /// Why.
+        /// What is wrong with it.
         what: &'static str,
     },
-    /// A path that never sprays.
+    /// The gun is never on along the path.
     #[error("the path never sprays")]
     NeverSprays,
 }

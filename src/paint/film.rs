@@ -1,10 +1,10 @@
-//! The film that a path leaves on a surface.
+//! Computes the film that a path leaves on a surface.
 //!
-//! Each way with the gun on is cut into steps of an eighth of the jet's depth. A step lays down what the gun at its middle
-//! lays down in the time that it takes (midpoint sums of the film growth in `gun.rs`), with the distance and the angle of
-//! every point. What another part of the surface hides from the mouth gets nothing (`shadow.rs`).
+//! Each way with the gun on is cut into steps of an eighth of the jet's depth. A step deposits for its duration what
+//! the gun at its middle deposits (midpoint sums of the film growth in `gun.rs`), with the distance and the angle of
+//! every point. Points that another part of the surface hides from the mouth get nothing (`shadow.rs`).
 //!
-//! Known limits: of the part, only the side that is painted casts shadows.
+//! Known limits: only the side that is painted casts shadows.
 
 use nalgebra::{Point3, Unit, Vector3};
 use serde::Serialize;
@@ -24,17 +24,17 @@ use crate::{
     library::{PathPoint, SprayPath},
 };
 
-/// Steps over the depth of the jet.
+/// Number of steps in the depth of the jet.
 const STEPS_OVER_DEPTH: f64 = 8.0;
-/// Steps that are summed together; the sums do not depend on the number of workers.
+/// Steps that are summed together; fixed, so that the sums do not depend on the number of workers.
 const STEPS_PER_SUM: usize = 256;
-/// Below this share of the target a place is missed.
+/// Below this share of the target a point is missed.
 const MISSED_BELOW: f64 = 0.1;
-/// Above this share of the target it is painted twice.
+/// Above this share of the target a point is painted twice.
 const DOUBLE_ABOVE: f64 = 1.8;
-/// Bars of the histogram, a tenth of the target each; the last takes all that is thicker.
+/// Bars of the histogram, a tenth of the target each; the last includes all that is thicker.
 const NUM_BARS: usize = 20;
-/// A gun that leans as far as it may still paints what turns this much further away: cos 30° is 0.87 of the film.
+/// Angle beyond the tilt limit up to which a surface still counts as reachable: cos 30° is 0.87 of the film.
 const FACED_WITHIN: f64 = std::f64::consts::FRAC_PI_6;
 
 /// The film on a surface.
@@ -42,18 +42,18 @@ const FACED_WITHIN: f64 = std::f64::consts::FRAC_PI_6;
 pub struct Film {
     /// Thickness at each point of the surface, metres.
     pub thickness: Vec<f64>,
-    /// True for points that the gun can face and that are not kept out of the paint.
+    /// True for points that the gun can face and that are not kept out.
     pub is_reachable: Vec<bool>,
-    /// What it comes to.
+    /// Figures of the film.
     pub figures: FilmFigures,
-    /// What it takes.
+    /// Figures of the path.
     pub path: PathFigures,
 }
 
-/// The film in figures. Shares are of the reachable area.
+/// Figures of a film. Shares are of the reachable area.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FilmFigures {
-    /// Share of the surface's area that the gun can face and that is not kept out of the paint.
+    /// Share of the surface's area that the gun can face and that is not kept out.
     pub reachable: f64,
     /// Share within the tolerance of the target.
     pub within: f64,
@@ -67,33 +67,33 @@ pub struct FilmFigures {
     pub min: f64,
     /// Greatest thickness, metres.
     pub max: f64,
-    /// Shares by thickness, a tenth of the target each.
+    /// Shares by thickness, a tenth of the target each; the last includes all that is thicker.
     pub histogram: [f64; NUM_BARS],
 }
 
-/// What a path takes.
+/// Figures of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PathFigures {
-    /// Paint through the gun, cubic metres.
+    /// Volume of paint sprayed, cubic metres.
     pub paint: f64,
     /// Share of the sprayed solids that stay on the surface.
     pub landed: f64,
-    /// Seconds, at the path's speeds.
+    /// Duration at the path's speeds, seconds.
     pub time: f64,
-    /// Way of the nozzle, metres.
+    /// Length of the nozzle's way, metres.
     pub length: f64,
 }
 
 /// A short way with the gun on.
 struct Step {
     nozzle: Point3<f64>,
-    /// Along the fan, across it and along the jet.
+    /// Axes of the jet: along the fan, across it and along the jet.
     axes: [Vector3<f64>; 3],
     seconds: f64,
 }
 
-/// The film that a path leaves on a surface by the gun of a coat, and how near it comes to the coat's target where paint
-/// is wanted.
+/// Computes the film that the gun of a coat leaves on a surface along a path, and compares it with the coat's target
+/// where paint is wanted.
 pub fn simulate(
     surface: &PaintSurface,
     path: &SprayPath,
@@ -155,7 +155,7 @@ pub fn simulate(
     })
 }
 
-/// Steps with the gun on, seconds and metres of the whole path.
+/// Steps with the gun on; seconds and metres of the whole path.
 fn steps_of(path: &SprayPath, coat: &Coat) -> (Vec<Step>, f64, f64) {
     let (mut steps, mut time, mut length) = (Vec::new(), 0.0, 0.0);
     for pair in path.points().windows(2) {
@@ -183,7 +183,7 @@ fn step_at(a: &PathPoint, b: &PathPoint, share: f64, seconds: f64) -> Step {
     let jet = between(&a.direction, &b.direction);
     let jet = Unit::try_new(jet, 1e-9).unwrap_or(a.direction).into_inner();
     let fan = match (a.fan, b.fan) {
-        // The sign of a fan is free.
+        // The sign of a fan is arbitrary.
         (Some(a), Some(b)) => between(&a, &(b.into_inner() * a.dot(&b).signum())),
         (Some(fan), None) | (None, Some(fan)) => fan.into_inner(),
         (None, None) => jet.cross(&(b.nozzle - a.nozzle)),
@@ -197,7 +197,7 @@ fn step_at(a: &PathPoint, b: &PathPoint, share: f64, seconds: f64) -> Step {
     }
 }
 
-/// Adds what one step lays down; `buffer` and `seen` are scratch.
+/// Adds the paint of one step; `buffer` and `seen` are scratch.
 fn spray(
     surface: &PaintSurface,
     tree: &KdTree,
@@ -207,13 +207,13 @@ fn spray(
     sum: &mut [f64],
 ) {
     let spread = coat.gun.spread();
-    // Twice the stand-off away the jet is thin, and what lies there is another part of the surface.
+    // At twice the stand-off the jet is thin, and the surface there is another part.
     let reach = 2.0 * coat.stand_off;
     let aim = step.nozzle + step.axes[2] * coat.stand_off;
     let radius = reach
         .min(coat.stand_off * spread[0].max(0.5) * 1.5)
         .max(coat.stand_off * spread[0]);
-    // Discs may reach into the jet from beside it.
+    // Discs beside the jet may reach into it.
     let beside = DISC * surface.spacing;
     let in_jet = |v: &Vector3<f64>| Vector3::from(step.axes.map(|axis| axis.dot(v)));
     seen.clear();

@@ -1,20 +1,22 @@
-//! The gun fitted to a measured stripe.
+//! Fits the gun to a measured stripe.
 //!
-//! One straight stripe, sprayed at a known speed v square to a plate, leaves across it the density of the jet summed along the
-//! way of travel. With Q the volume that is laid down in a second and x from the middle of the stripe:
+//! A straight stripe, sprayed at a known speed v perpendicular to a plate, shows across it the density of the jet
+//! summed along the direction of travel. With Q the volume deposited per second and x measured from the middle of the
+//! stripe:
 //!
 //! ```text
 //! Gaussian   t(x) = Q/v · exp(-x²/2σ²) / (σ√2π)                     4σ = width of the pattern
 //! beta       t(x) = Q/v · β B(½, β)/(π a) · (1 - x²/a²)^(β-½)       2a = width of the pattern
 //! ```
 //!
-//! B is Euler's beta function; the second is the integral of the elliptic density in `gun.rs`. Q, width, middle and β are found by
-//! Levenberg's and Marquardt's method (D. W. Marquardt, "An algorithm for least-squares estimation of nonlinear
-//! parameters", Journal of the Society for Industrial and Applied Mathematics 11(2), 1963). Of both profiles that is
-//! taken which leaves less, weighed by the number of its parameters (G. Schwarz, "Estimating the dimension of a model", The
-//! Annals of Statistics 6(2), 1978): a beta profile has one more and follows noise better. Flow and solids are as in the coat, so that Q gives the transfer efficiency.
+//! B is Euler's beta function; the second is the integral of the elliptic density in `gun.rs`. Q, width, middle and β
+//! are found by Levenberg's and Marquardt's method (D. W. Marquardt, "An algorithm for least-squares estimation of
+//! nonlinear parameters", Journal of the Society for Industrial and Applied Mathematics 11(2), 1963). The profile with
+//! the smaller residual is taken, with a penalty for the number of its parameters (G. Schwarz, "Estimating the
+//! dimension of a model", The Annals of Statistics 6(2), 1978): a beta profile has one more and follows noise better.
+//! Flow and solids are those of the coat, so Q gives the transfer efficiency.
 //!
-//! Known limits: the pattern's depth does not show in a stripe; it keeps its share of the distance.
+//! Known limits: a stripe does not show the pattern's depth, which is scaled with the distance.
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -27,45 +29,45 @@ use crate::{
     files::{FileError, read_text, table_rows},
 };
 
-/// Places that a stripe needs at least: twice the parameters.
+/// Fewest places of a stripe: twice the parameters.
 const LEAST_SAMPLES: usize = 8;
-/// Places that are above half of the thickest at least.
+/// Fewest places thicker than half of the thickest.
 const LEAST_INSIDE: usize = 3;
-/// More are no measurements of one stripe.
+/// Most places of a stripe; more are probably something else.
 const MOST_SAMPLES: usize = 10_000;
-/// A longer file is no stripe.
+/// Largest file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 20;
-/// Readings below zero by more than this share of the thickest are no noise.
+/// Noise may be below zero by at most this share of the thickest place.
 const MOST_NEGATIVE: f64 = 0.1;
-/// Residual over the thickest above which the readings are no stripe.
+/// Largest residual of a stripe, as a share of the thickest place.
 const MOST_RESIDUAL: f64 = 0.25;
 const NUM_ROUNDS: usize = 200;
-/// β of a profile, as the coat takes it.
+/// Range of a coat's β.
 const BETAS: [f64; 2] = [1.0, 10.0];
-/// Widths that a coat may have, metres.
+/// Range of a coat's width, metres.
 const WIDTHS: [f64; 2] = [0.01, 1.0];
-/// Transfer efficiencies that a coat may have.
+/// Range of a coat's transfer efficiency.
 const TRANSFERS: [f64; 2] = [0.01, 1.0];
 
-/// A measured place across a stripe.
+/// One measurement across a stripe.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StripeSample {
-    /// Across the stripe, metres, from anywhere.
+    /// Position across the stripe, metres, from any origin.
     pub offset: f64,
     /// Thickness of the dry film there, metres.
     pub thickness: f64,
 }
 
-/// A gun by a stripe.
+/// A gun fitted to a stripe.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StripeFit {
-    /// The gun; measured at the stripe's distance.
+    /// The gun; its pattern is that at the stripe's distance.
     pub gun: Gun,
-    /// Middle of the stripe, metres.
+    /// Position of the stripe's middle, metres.
     pub middle: f64,
-    /// Root mean square of what is left, metres.
+    /// Root mean square residual, metres.
     pub residual: f64,
-    /// What the other profile leaves.
+    /// Root mean square residual of the other profile, metres.
     pub other_residual: f64,
 }
 
@@ -81,7 +83,7 @@ pub enum StripeError {
         /// The file.
         path: PathBuf,
     },
-    /// A line without two numbers.
+    /// A line has no offset or no thickness.
     #[error("{}, line {line}: expected an offset and a thickness", path.display())]
     NoNumbers {
         /// The file.
@@ -89,48 +91,48 @@ pub enum StripeError {
         /// The line, from 1.
         line: usize,
     },
-    /// Too few or too many places.
+    /// The stripe has too few or too many places.
     #[error("the stripe has {found} places, expected {LEAST_SAMPLES} to {MOST_SAMPLES}")]
     Count {
-        /// How many.
+        /// Number of places.
         found: usize,
     },
-    /// Offsets or thicknesses that are no finite numbers.
+    /// Some offsets or thicknesses are not finite.
     #[error("{found} places of the stripe are not finite")]
     NotFinite {
-        /// How many.
+        /// Number of such places.
         found: usize,
     },
-    /// Below zero by more than noise.
+    /// A thickness is below zero by more than noise.
     #[error("a thickness of {micrometres:.1} µm is below 0 by more than noise")]
     Negative {
-        /// The least thickness.
+        /// The least thickness, µm.
         micrometres: f64,
     },
-    /// Nothing there, even all over, or not shaped like a stripe.
+    /// The places show no paint, an even film, or another shape than a stripe.
     #[error("the places show no stripe: {what}")]
     NoStripe {
-        /// Why.
+        /// What is wrong with them.
         what: &'static str,
     },
-    /// A speed or a distance that no gun has.
+    /// The speed or the distance is not above 0.
     #[error("{name} must be above 0 and finite")]
     BadSetting {
-        /// Which.
+        /// Name of the value.
         name: &'static str,
     },
-    /// A gun beyond the ranges of a coat.
+    /// A parameter of the fitted gun is out of a coat's range.
     #[error("the stripe would need {what} of {value:.1} {unit}, expected {low:.0} to {high:.0}")]
     OutOfRange {
-        /// Which parameter.
+        /// Name of the parameter.
         what: &'static str,
-        /// Its value.
+        /// Value of the parameter, in `unit`.
         value: f64,
-        /// Its unit.
+        /// Unit of the value and its limits.
         unit: &'static str,
-        /// Least.
+        /// Least value.
         low: f64,
-        /// Most.
+        /// Greatest value.
         high: f64,
     },
 }
@@ -160,7 +162,7 @@ impl Advice for StripeError {
     }
 }
 
-/// Reads a stripe: a table with a heading, of which `offset_mm` and `thickness_um` count.
+/// Reads a stripe: a table whose heading names the columns `offset_mm` and `thickness_um`.
 pub fn read_stripe(path: &Path) -> Result<Vec<StripeSample>, StripeError> {
     let text = read_text(path, MAX_BYTES)?;
     let mut lines = table_rows(&text, path)?.into_iter();
@@ -190,7 +192,8 @@ pub fn read_stripe(path: &Path) -> Result<Vec<StripeSample>, StripeError> {
     Ok(samples)
 }
 
-/// The gun that leaves this stripe at a speed in m/s and a distance in metres; paint and pattern depth are the coat's.
+/// Finds the gun that leaves this stripe at a speed in m/s and a distance in metres; paint and pattern depth are the
+/// coat's.
 pub fn fit_stripe(
     samples: &[StripeSample],
     coat: &Coat,
@@ -265,7 +268,7 @@ pub fn fit_stripe(
     })
 }
 
-/// Volume over the length, width and middle by the moments of the readings.
+/// Estimates volume per length, width and middle from the moments of the readings.
 fn first_guess(samples: &[StripeSample]) -> Result<[f64; 3], StripeError> {
     let found = samples.len();
     if !(LEAST_SAMPLES..=MOST_SAMPLES).contains(&found) {
@@ -312,7 +315,7 @@ fn first_guess(samples: &[StripeSample]) -> Result<[f64; 3], StripeError> {
     Ok([sum, 4.0 * sigma, middle])
 }
 
-/// Thickness at an offset, of parameters: volume over the length, width, middle, and β of a beta profile.
+/// Thickness at an offset; the parameters are volume per length, width, middle and, for a beta profile, β.
 fn thickness(profile: Profile, parameters: &[f64], offset: f64) -> f64 {
     let [volume, width, middle] = [parameters[0], parameters[1].abs(), parameters[2]];
     match profile {
@@ -334,7 +337,7 @@ fn thickness(profile: Profile, parameters: &[f64], offset: f64) -> f64 {
 
 /// B(½, β), the integral of (1 - s²)^(β-1) over -1..1, by s = sin φ.
 fn beta_half(beta: f64) -> f64 {
-    /// Midpoints; the integrand is smooth and ends at zero slope or flat, so few are needed.
+    /// Number of midpoints; the integrand is smooth, so few are enough.
     const NUM: i32 = 400;
     let step = PI / f64::from(NUM);
     let each = (0..NUM).map(|k| {
@@ -351,7 +354,7 @@ fn residuals(samples: &[StripeSample], profile: Profile, parameters: &[f64]) -> 
     DVector::from_iterator(samples.len(), each)
 }
 
-/// Levenberg's and Marquardt's method from a first guess; derivatives are differences.
+/// Levenberg's and Marquardt's method from a first guess; derivatives are finite differences.
 fn least_squares(samples: &[StripeSample], profile: Profile, start: &[f64]) -> Vec<f64> {
     let mut best = start.to_vec();
     if profile == Profile::Beta {
@@ -414,7 +417,7 @@ mod tests {
     };
     use nalgebra::{Point3, Unit, Vector3};
 
-    /// What `simulate` lays down across one stripe along y, every 5 mm.
+    /// The film that `simulate` gives across one stripe along y, every 5 mm.
     fn stripe(coat: &Coat, noise: f64, seed: u64) -> Vec<StripeSample> {
         let surface: PaintSurface = grid(101, 61, Coverage::OneSide, |i, j| {
             (
@@ -470,7 +473,7 @@ mod tests {
             };
             for seed in 1..6 {
                 let noisy = fit(0.05, seed);
-                // Width and β of a beta profile trade against each other; its volume does not.
+                // Width and β of a beta profile compensate each other; its volume is well determined.
                 if profile == Profile::Gaussian {
                     assert_eq!(noisy.gun.profile, profile);
                     assert!((noisy.gun.width / 0.24 - 1.0).abs() < 0.02, "{noisy:?}");

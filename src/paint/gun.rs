@@ -1,23 +1,23 @@
-//! What a gun deposits: a jet of straight rays from its mouth, spread over an ellipse.
+//! The deposition of a gun: a jet of straight rays from its mouth, spread over an ellipse.
 //!
-//! At the distance d₀ at which the pattern was measured, the density of the paint over a plate square to the jet is g(x, y),
-//! with ∫g = 1: an elliptical Gaussian, or a beta profile over an ellipse. A point p of a surface with normal n, seen from
-//! the mouth as r with its part z along the jet, receives
+//! At the distance d₀ at which the pattern was measured, the density of the paint over a plate perpendicular to the jet
+//! is g(x, y), with ∫g = 1: an elliptical Gaussian, or a beta profile over an ellipse. For a point of a surface with
+//! normal n, let r be the vector from the mouth to it, and z its component along the jet. The point receives
 //!
 //! ```text
 //! film rate = V · g(x d₀/z, y d₀/z) · (d₀/z)² · (-r·n)/z        V = flow · transfer efficiency · solids
 //! ```
 //!
-//! which keeps the volume: what leaves the mouth lands on whatever the rays meet, at any distance and slope.
+//! This preserves volume: all paint that leaves the mouth lands on whatever the rays meet, at any distance and slope.
 //!
-//! Sources: M. A. S. Arikan and T. Balkan, "Process modeling, simulation, and paint thickness measurement for robotic spray
-//! painting", Journal of Robotic Systems 17(9), 2000 (beta profile of a stripe); D. C. Conner, A. Greenfield, P. N. Atkar,
-//! A. A. Rizzi and H. Choset, "Paint deposition modeling for trajectory planning on automotive surfaces", IEEE Transactions
-//! on Automation Science and Engineering 2(4), 2005 (Gaussian film on a plane, projected onto the surface). Both let the
-//! profile be fitted to measured stripes. Ours is one Gaussian or beta over the whole jet; Conner et al. add an offset
-//! second Gaussian for rotary bells.
+//! Sources: M. A. S. Arikan and T. Balkan, "Process modeling, simulation, and paint thickness measurement for robotic
+//! spray painting", Journal of Robotic Systems 17(9), 2000 (beta profile of a stripe); D. C. Conner, A. Greenfield, P.
+//! N. Atkar, A. A. Rizzi and H. Choset, "Paint deposition modeling for trajectory planning on automotive surfaces",
+//! IEEE Transactions on Automation Science and Engineering 2(4), 2005 (Gaussian film on a plane, projected onto the
+//! surface). Both fit the profile to measured stripes. Ours is one Gaussian or beta profile over the whole jet; Conner
+//! et al. add an offset second Gaussian for rotary bells.
 //!
-//! Known limits: no overspray that drifts, no electrostatics, no bounce off a corner.
+//! Known limits: no drifting overspray, no electrostatics, no bounce off corners.
 
 use std::f64::consts::PI;
 
@@ -25,16 +25,17 @@ use nalgebra::Vector3;
 
 use super::coat::{Gun, Profile};
 
-/// A Gaussian jet ends here, in standard deviations: beyond is a three-thousandth of the paint.
+/// Where a Gaussian jet is cut off, in standard deviations: a three-thousandth of the paint lies beyond.
 const GAUSSIAN_ENDS: f64 = 4.0;
 
 impl Gun {
-    /// Volume of film that the gun lays down in a second, cubic metres.
+    /// Volume of film that the gun deposits, cubic metres per second.
     pub fn film_rate(&self) -> f64 {
         self.flow * self.transfer * self.solids
     }
 
-    /// Share of the paint on a square metre at the measured distance, at x across and y along the way of travel.
+    /// Share of the paint per square metre at the measured distance, at x across and y along the direction of travel,
+    /// metres.
     pub fn density(&self, x: f64, y: f64) -> f64 {
         match self.profile {
             Profile::Gaussian => {
@@ -56,7 +57,8 @@ impl Gun {
         }
     }
 
-    /// Half of the jet across and along the way of travel, where it ends, over the distance from the mouth.
+    /// Half extent of the jet, where it is cut off, across and along the direction of travel, per distance from the
+    /// mouth.
     pub(super) fn spread(&self) -> [f64; 2] {
         let ends = match self.profile {
             Profile::Gaussian => GAUSSIAN_ENDS / 4.0,
@@ -91,7 +93,7 @@ mod tests {
     fn all_the_paint_lands_on_a_plate_at_any_distance_and_tilt() {
         for gun in guns() {
             for (distance, tilt) in [(0.15, 0.0_f64), (0.1, 0.0), (0.25, 0.5)] {
-                // A plate through (0, 0, distance), turned about x, cut into cells of 1 mm.
+                // A plate through (0, 0, distance), tilted about x, cut into cells of 1 mm.
                 let (along, normal) = (
                     Vector3::new(0.0, tilt.cos(), tilt.sin()),
                     Vector3::new(0.0, tilt.sin(), -tilt.cos()),

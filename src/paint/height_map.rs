@@ -1,22 +1,22 @@
-//! The surface as heights over the plane that faces the gun: what rows are laid out on.
+//! The surface as heights over the plane that faces the gun; rows are laid out on it.
 //!
-//! Each cell holds the height and slope of a plane fitted to the points around it, with weights that fall off by a sum of
-//! three Gaussians, each twice as wide as the one before and a fiftieth of its weight. Within the surface the narrow one
-//! decides and smooths ribs and noise away; beyond an edge or over an opening the wide ones carry the surface on, so that
-//! rows run straight out over the edge.
+//! Each cell holds the height and slope of a plane fitted to the points around it. Their weights are a sum of three
+//! Gaussians, each twice as wide as the previous one, with a fiftieth of its weight. Within the surface the narrow one
+//! dominates and smooths out ribs and noise; beyond an edge or over an opening the wide ones continue the surface, so
+//! that rows run straight out over the edge.
 //!
-//! Known limits: one height per place. Of folded sheet the upper layer counts.
+//! Known limits: one height per cell. Of folded sheet the upper layer counts.
 
 use nalgebra::{Matrix2, Point3, Vector2, Vector3};
 
 use super::{error::PaintError, surface::PaintSurface};
 use crate::geometry::parallel::{map_in_order, num_cores};
 
-/// Cells of the map at most; a finer one shows nothing more of a part.
+/// Most cells of a map; smaller cells show nothing more of a part.
 const MOST_CELLS: f64 = 1_000_000.0;
-/// Points this far below the highest of their cell are another layer.
+/// Points this far below the highest one of their cell belong to another layer, metres.
 const LAYER: f64 = 0.025;
-/// Weight of each Gaussian over the one half as wide.
+/// Weight of each Gaussian relative to the one half as wide.
 const FAINTER: f64 = 0.02;
 const NUM_SCALES: usize = 3;
 /// Moments of the points of a cell: number, u, v, h, uu, uv, vv, uh, vh.
@@ -26,7 +26,7 @@ type Moments = [f64; 9];
 #[derive(Clone, Debug)]
 pub(super) struct HeightMap {
     origin: Point3<f64>,
-    /// u, v and w in part space.
+    /// Unit vectors of u, v and w in part space.
     axes: [Vector3<f64>; 3],
     pub(super) low: [f64; 2],
     pub(super) size: [usize; 2],
@@ -34,9 +34,9 @@ pub(super) struct HeightMap {
     pub(super) cell: f64,
     /// Cells with surface that is to be painted.
     pub(super) is_painted: Vec<bool>,
-    /// Distance to the next painted cell, metres.
+    /// Distance to the nearest painted cell, metres.
     pub(super) outside: Vec<f64>,
-    /// Smoothed height.
+    /// Smoothed height, metres.
     pub(super) height: Vec<f64>,
     slope: Vec<[f64; 2]>,
 }
@@ -44,15 +44,15 @@ pub(super) struct HeightMap {
 /// The smoothed surface at one place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
-    /// Part space.
+    /// Position, part space.
     pub(super) at: Point3<f64>,
     /// Unit normal, part space.
     pub(super) normal: Vector3<f64>,
 }
 
 impl HeightMap {
-    /// The map of a surface with rows along `along`, part space. Points that `is_kept_out` are not painted. Openings that
-    /// a circle of the diameter `opening` does not fit into are painted over; around the surface is room for `reach`.
+    /// Maps a surface, with rows along `along`, part space. Points that `is_kept_out` are not painted. Openings too
+    /// narrow for a circle of the diameter `opening` are painted over. The map extends beyond the surface by `reach`.
     pub(super) fn new(
         surface: &PaintSurface,
         along: &Vector3<f64>,
@@ -114,7 +114,7 @@ impl HeightMap {
         Ok(map)
     }
 
-    /// u, v and w in part space, of a map with rows along a direction.
+    /// u, v and w in part space, for rows along a direction.
     pub(super) fn axes_of(surface: &PaintSurface, along: &Vector3<f64>) -> [Vector3<f64>; 3] {
         let w = surface.side;
         let u = (along - w * w.dot(along)).normalize();
@@ -146,7 +146,7 @@ impl HeightMap {
         ]
     }
 
-    /// The four cells around a place and their weights.
+    /// The four cells around a place, with their weights.
     fn around(&self, at: [f64; 2]) -> [(usize, f64); 4] {
         let [(i, a), (j, b)] = [0, 1].map(|axis| {
             let last = (self.size[axis] - 2) as f64;
@@ -162,7 +162,7 @@ impl HeightMap {
         ]
     }
 
-    /// How far the place is from what is painted, metres.
+    /// Distance of a place from the nearest painted cell, metres.
     pub(super) fn outside_at(&self, at: [f64; 2]) -> f64 {
         self.around(at)
             .iter()
@@ -184,7 +184,7 @@ impl HeightMap {
         }
     }
 
-    /// Cells between two painted ones are gaps between points.
+    /// Paints cells between two painted ones, which are gaps between points.
     fn close_gaps(&mut self) {
         let [width, height] = self.size;
         let before = self.is_painted.clone();
@@ -197,7 +197,7 @@ impl HeightMap {
         }
     }
 
-    /// Paints over what is enclosed and too narrow for a circle of this diameter.
+    /// Paints over enclosed openings that are too narrow for a circle of this diameter.
     fn fill_openings(&mut self, diameter: f64) {
         let outside = distances(&self.is_painted, self.size, self.cell);
         let mut is_seen = self.is_painted.clone();
@@ -224,7 +224,7 @@ impl HeightMap {
                     }
                 }
             }
-            // From the middle of the opening to the middles of painted cells is half a cell more than to the edge.
+            // From the middle of the opening, the middles of painted cells are half a cell farther than the edge.
             if is_enclosed && 2.0 * widest - self.cell < diameter {
                 for i in opening {
                     self.is_painted[i] = true;
@@ -233,7 +233,7 @@ impl HeightMap {
         }
     }
 
-    /// Height and slope of every cell; `sigma` is the standard deviation of the narrowest weights.
+    /// Fits height and slope of every cell; `sigma` is the standard deviation of the narrowest Gaussian, metres.
     fn fit_planes(&mut self, moments: &[Moments], sigma: f64) -> Result<(), PaintError> {
         let blurred = map_in_order(
             9,
@@ -242,7 +242,7 @@ impl HeightMap {
             |(), which| {
                 let image: Vec<f64> = moments.iter().map(|m| m[which]).collect();
                 let total: f64 = image.iter().sum();
-                // So faint that it only decides where nothing else is in reach.
+                // So small that it only matters where no point is in reach.
                 let mut sum = vec![total * 1e-12; image.len()];
                 for scale in 0..NUM_SCALES {
                     let weight = FAINTER.powi(scale as i32);
@@ -260,7 +260,7 @@ impl HeightMap {
                 let [n, su, sv, sh, suu, suv, svv, sum_uh, sum_vh]: Moments =
                     std::array::from_fn(|which| blurred[which][i]);
                 let (u, v, h) = (su / n, sv / n, sh / n);
-                // Holds slopes where all points in reach lie on a line.
+                // Keeps the slope finite where all points in reach lie on a line.
                 let steady = (0.1 * sigma).powi(2);
                 let spread = Matrix2::new(
                     suu / n - u * u + steady,
@@ -285,10 +285,10 @@ fn cell_of(low: [f64; 2], cell: f64, size: [usize; 2], at: [f64; 2]) -> usize {
     row * size[0] + column
 }
 
-/// Distance of each cell's middle to the middle of the next set one, less half a cell; 0 in set ones.
+/// Distance of each cell's middle to the middle of the nearest set one, less half a cell; 0 in set ones.
 fn distances(is_set: &[bool], [width, height]: [usize; 2], cell: f64) -> Vec<f64> {
     let far = (width + height) as f64;
-    // Along the columns first, then the nearest over each row: exact.
+    // Exact: along the columns first, then the nearest over each row.
     let mut along = vec![far; is_set.len()];
     for column in 0..width {
         let mut last = far;
@@ -327,7 +327,7 @@ fn distances(is_set: &[bool], [width, height]: [usize; 2], cell: f64) -> Vec<f64
     rows.concat()
 }
 
-/// A Gaussian average of neighbouring cells; sigma in cells. Sums, so that what is empty adds nothing.
+/// Gaussian sums over neighbouring cells, sigma in cells; not normalised, so that empty cells add nothing.
 fn blur(image: &[f64], [width, height]: [usize; 2], sigma: f64) -> Vec<f64> {
     let reach = (3.5 * sigma).ceil() as usize;
     let kernel: Vec<f64> = (0..=reach)
@@ -338,7 +338,7 @@ fn blur(image: &[f64], [width, height]: [usize; 2], sigma: f64) -> Vec<f64> {
         for line in 0..num {
             for i in 0..len {
                 let value = from[line * stride + i * step];
-                // Most cells hold no point.
+                // Most cells have no point.
                 if value == 0.0 {
                     continue;
                 }

@@ -5,8 +5,8 @@
 //!                            └───────────────────────────────────┘
 //! ```
 //!
-//! Everything is in part space, metres and radians, and nothing is random: the same part and coat give the same path and
-//! film, to the bit.
+//! Everything is in part space, metres and radians, and nothing is random: the same part and coat give bit-identical
+//! paths and films.
 
 mod coat;
 mod edit;

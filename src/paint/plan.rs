@@ -1,11 +1,11 @@
-//! A spray path over the side of a part.
+//! Plans a spray path over the side of a part.
 //!
-//! Rows ([`lay_rows`]) run over the smoothed surface, there and back, or rings ([`lay_rings`]) around it. The gun stands off along the smoothed normal, leans no
-//! further than the coat allows, and turns its fan across the row. Its speed is set so that the jet runs over the surface
-//! at the coat's speed: around an outer curve the nozzle has the longer way and runs faster. Between rows the nozzle keeps
-//! clear of the part ([`keep_clear`]).
+//! Rows ([`lay_rows`]) run there and back over the smoothed surface, or rings ([`lay_rings`]) around it. The gun stands
+//! off along the smoothed normal, leans no farther than the coat allows, and turns its fan across the row. Its speed
+//! moves the jet over the surface at the coat's speed: around an outer curve the nozzle has the longer way and moves
+//! faster. Between rows the nozzle keeps clear of the part ([`keep_clear`]).
 //!
-//! What is painted is one layer, seen from the side; of folded sheet the upper one.
+//! One layer is painted, as seen from the side; of folded sheet the upper one.
 
 use nalgebra::{Point3, Unit, Vector3};
 
@@ -24,11 +24,11 @@ use crate::{
     units::Metres,
 };
 
-/// Greatest ratio of nozzle speed to the speed of the jet over the surface, and of that to this: tight curves would
+/// Greatest ratio of the nozzle's speed to the jet's speed over the surface, and the reverse: tight curves would
 /// otherwise stop the gun.
 const MOST_SCALING: f64 = 4.0;
 
-/// Plans the path of a coat over a surface; keep-out regions are left out.
+/// Plans the path of a coat over a surface without the keep-out regions.
 pub fn plan(
     surface: &PaintSurface,
     coat: &Coat,
@@ -53,7 +53,7 @@ pub fn plan(
     SprayPath::new(points).ok_or(PaintError::NoRows)
 }
 
-/// Which way the rows run, at right angles to the side.
+/// Direction of the rows, perpendicular to the side.
 fn row_direction(surface: &PaintSurface, coat: &Coat) -> Vector3<f64> {
     if coat.direction == RowDirection::Principal {
         return surface.longest;
@@ -112,7 +112,7 @@ fn laid(
     Ok(points)
 }
 
-/// Where the gun points to and how it stands there.
+/// The pose of the gun at one point of a row.
 struct Stance {
     surface: Point3<f64>,
     nozzle: Point3<f64>,
@@ -161,8 +161,8 @@ fn path_of_row(
     each.collect()
 }
 
-/// Points at even distances along the surface; the gun changes at points alone. A point's gun is that of the way to the
-/// next one, off at the last.
+/// Distributes points evenly along the surface, with one wherever the gun changes. A point has the gun state of the way
+/// to the next one; it is off at the last.
 fn evenly(map: &HeightMap, row: &[RowPlace], spacing: f64) -> Vec<RowPlace> {
     let spots: Vec<Point3<f64>> = row.iter().map(|place| map.spot(place.at).at).collect();
     let mut points = Vec::new();
@@ -203,7 +203,7 @@ fn evenly(map: &HeightMap, row: &[RowPlace], spacing: f64) -> Vec<RowPlace> {
     points
 }
 
-/// The normal, leaning no further from the side than allowed.
+/// Limits the angle of a normal from the side.
 fn leaning(normal: &Vector3<f64>, side: &Vector3<f64>, limit: f64) -> Vector3<f64> {
     let cosine = normal.dot(side).clamp(-1.0, 1.0);
     if cosine.acos() <= limit {

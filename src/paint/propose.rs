@@ -1,7 +1,8 @@
-//! Row spacing and speed that bring a film to its target.
+//! Finds the row spacing and the speed that bring a film to its target.
 //!
-//! The thickness is inversely proportional to the speed. So each spacing needs one simulation: of all factors on the
-//! thickness, the one that brings most of the surface within the tolerance is found exactly, by a window over the sorted thicknesses.
+//! The thickness is inversely proportional to the speed, so each spacing needs one simulation: the factor on the
+//! thickness that brings most of the surface within the tolerance is found exactly, by a window over the sorted
+//! thicknesses.
 
 use super::{
     coat::Coat,
@@ -13,16 +14,16 @@ use super::{
 };
 use crate::library::SprayPath;
 
-/// Spacings that are tried, shares of the pattern's width at the stand-off, the quickest first.
+/// Spacings to be tried, as shares of the pattern's width at the stand-off, the fastest first.
 const SPACINGS: [f64; 4] = [0.4, 0.35, 0.3, 0.25];
-/// A share of the reachable area within the tolerance that is good enough.
+/// Share of the reachable area within the tolerance that is good enough.
 const GOOD: f64 = 0.95;
-/// Share of the reachable area that a mean at the target may cost.
+/// Share of the reachable area that may be lost for a mean nearer to the target.
 const GIVEN_UP: f64 = 0.005;
-/// Speeds that a coat may have, m/s.
+/// Range of a coat's speed, m/s.
 const SPEEDS: [f64; 2] = [0.01, 3.0];
 
-/// A coat with the spacing and the speed that were found, its path and film.
+/// A coat with the best spacing and speed, its path and film.
 #[derive(Clone, Debug)]
 pub struct Proposal {
     /// The coat.
@@ -33,7 +34,8 @@ pub struct Proposal {
     pub film: Film,
 }
 
-/// The widest spacing that brings 95 % of the reachable area within the tolerance, else the one that brings most.
+/// Proposes the widest spacing that brings 95 % of the reachable area within the tolerance, else the one that brings
+/// most.
 pub fn propose(
     surface: &PaintSurface,
     coat: &Coat,
@@ -44,7 +46,7 @@ pub fn propose(
     let mut best: Option<(f64, Coat)> = None;
     for share in SPACINGS {
         let spaced = Coat {
-            // Whole millimetres: what is stored and shown is what is planned.
+            // In whole millimetres, so that the value shown and stored is the one planned with.
             spacing: (1e3 * share * width).round() / 1e3,
             ..*coat
         };
@@ -65,15 +67,15 @@ pub fn propose(
     Ok(Proposal { coat, path, film })
 }
 
-/// The speed that brings most of a film within the coat's tolerance, m/s.
+/// Returns the speed that brings most of a film within the coat's tolerance, m/s.
 pub fn best_speed(film: &Film, coat: &Coat) -> f64 {
     let (factor, _) = best_factor(film, coat);
     (coat.speed / factor).clamp(SPEEDS[0], SPEEDS[1])
 }
 
-/// The factor on all thicknesses that brings most of the reachable points within the tolerance, and the share that it
-/// brings. Where that is more than enough, the factor gives way towards a mean at the target: a film within its tolerance
-/// at the upper end wastes paint.
+/// Returns the factor on all thicknesses that brings most of the reachable points within the tolerance, and their
+/// share. If more than enough are within it, the factor moves towards a mean at the target: a film at the upper end of
+/// its tolerance wastes paint.
 fn best_factor(film: &Film, coat: &Coat) -> (f64, f64) {
     let each = film.thickness.iter().zip(&film.is_reachable);
     let mut reached: Vec<f64> = each.filter(|(_, is)| **is).map(|(t, _)| *t).collect();
@@ -87,7 +89,7 @@ fn best_factor(film: &Film, coat: &Coat) -> (f64, f64) {
         let num = last + 1 - first;
         if num > best && reached[first] > 0.0 {
             best = num;
-            // Both ends as far from the limits of the tolerance.
+            // Both ends are equally far from the limits of the tolerance, as ratios.
             factor = coat.target * (low * high).sqrt() / (reached[first] * most).sqrt();
         }
     }
@@ -126,7 +128,7 @@ mod tests {
     #[test]
     fn a_film_that_is_even_but_at_its_edges_is_brought_to_its_target_in_the_middle() {
         let surface = crate::paint::surface::tests::plate(1.0, 0.6);
-        // No paint beyond the edges, where the film is thinner.
+        // No paint beyond the edges, so the film is thinner there.
         let coat = Coat {
             overrun: 0.06,
             ..Coat::default()
@@ -153,8 +155,8 @@ mod tests {
             let mean = film.mean / Coat::default().target;
             assert!((mean - 1.0).abs() < 0.12, "{}: {mean}", reference.name);
         }
-        // Ribs of the grille and the radiator support have flanks that the smoothed gun does not face, and that ribs beside
-        // them hide.
+        // Ribs of the grille and the radiator support have flanks that the smoothed gun does not face and that
+        // neighbouring ribs hide.
         assert!(num_good >= 5, "{num_good}");
     }
 }

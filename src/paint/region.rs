@@ -1,27 +1,27 @@
-//! Regions that are kept out of the paint.
+//! Regions that get no paint.
 
 use nalgebra::Point3;
 
 use super::{error::PaintError, height_map::HeightMap, surface::PaintSurface};
 
-/// Where no paint is to go, part space, metres.
+/// A region that gets no paint, part space, metres.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeepOut {
-    /// What is within a sphere.
+    /// Everything within a sphere.
     Sphere {
-        /// Its middle.
+        /// Centre of the sphere.
         centre: Point3<f64>,
-        /// Its radius.
+        /// Radius of the sphere.
         radius: f64,
     },
-    /// What lies behind or before a polygon, seen from where the part is painted.
+    /// Everything in front of or behind a polygon, seen from the side that is painted.
     Polygon {
-        /// Its corners in order; the last is joined to the first.
+        /// Corners in order; the last is joined to the first.
         corners: Vec<Point3<f64>>,
     },
-    /// What lies beside all of these polygons, seen likewise: the paint goes into them alone.
+    /// Everything outside all of these polygons, seen likewise: only they are painted.
     Outside {
-        /// The corners of each.
+        /// Corners of each polygon.
         areas: Vec<Vec<Point3<f64>>>,
     },
 }
@@ -53,10 +53,10 @@ impl KeepOut {
     }
 }
 
-/// Keep-out regions as a map sees them.
+/// Keep-out regions with their polygons in map coordinates.
 pub(super) struct KeepOuts<'a> {
     regions: &'a [KeepOut],
-    /// Of each region its polygons, corners in map coordinates; a sphere has none.
+    /// For each region its polygons, with corners in map coordinates; a sphere has none.
     polygons: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
@@ -81,7 +81,7 @@ impl<'a> KeepOuts<'a> {
         }
     }
 
-    /// Distance to the nearest region, below 0 within it; infinite without any.
+    /// Distance to the nearest region, below 0 inside; infinite without regions.
     pub(super) fn distance(&self, p: &Point3<f64>, at: [f64; 2]) -> f64 {
         let each = self.regions.iter().zip(&self.polygons);
         let each = each.map(|(region, polygons)| {
@@ -97,7 +97,7 @@ impl<'a> KeepOuts<'a> {
     }
 }
 
-/// For each point of a surface whether it lies in one of the regions.
+/// Returns for each point of a surface whether it is in one of the regions.
 pub(super) fn are_kept_out(surface: &PaintSurface, regions: &[KeepOut]) -> Vec<bool> {
     let axes = HeightMap::axes_of(surface, &surface.longest);
     let in_axes = |p: &Point3<f64>| HeightMap::in_axes(surface, &axes, p);
@@ -109,7 +109,7 @@ pub(super) fn are_kept_out(surface: &PaintSurface, regions: &[KeepOut]) -> Vec<b
     each.collect()
 }
 
-/// Distance to a polygon, below 0 within it.
+/// Distance to a polygon, below 0 inside.
 fn from_polygon(corners: &[[f64; 2]], [x, y]: [f64; 2]) -> f64 {
     let (mut nearest, mut is_inside) = (f64::INFINITY, false);
     for (i, a) in corners.iter().enumerate() {

@@ -1,16 +1,16 @@
 //! Rings of the contour pattern: level lines of the distance from the outline, along the surface.
 //!
-//! The distance of every painted cell to the nearest one that is not is a shortest way over the map (Dijkstra, 32
-//! neighbours, lengths in space), so that wide openings and keep-outs are outlines as well; outside, the distance in the plane counts. Levels
-//! lie evenly between the outermost, beyond the edge, and half a spacing before the middle of the widest place, so that
-//! rings from both sides keep their distance there. Level lines are closed (marching squares).
+//! Inside, the distance of a painted cell is the shortest way over the map to a cell that is not painted (Dijkstra, 32
+//! neighbours, lengths in space), so wide openings and keep-outs count as outlines too. Outside, it is the distance in
+//! the plane. Levels are evenly spaced, from the outermost, beyond the edge, to half a spacing before the middle of the
+//! widest place, so that rings from both sides keep their distance there. Level lines are closed (marching squares).
 //!
-//! Rings run from the outside in: the next is the nearest of those whose next outer one is done, and begins at its place nearest
-//! to where the last one ended. The gun is on once around; before and behind it runs along the ring by the lead.
+//! Rings run from the outside in: the next is the nearest of those whose outer neighbour is done, and begins where it
+//! is nearest to the end of the last one. The gun is on once around; before and after that it runs along the ring by
+//! the lead.
 //!
-//! Known limits: where a part narrows, rings end before its middle, and opposite ones are nearer or farther
-//! apart than others; there the film is uneven. Shortest ways over 32
-//! neighbours are up to 1.3 % too long.
+//! Known limits: where a part narrows, rings end before its middle, and opposite ones are nearer or farther apart than
+//! others; there the film is uneven. Shortest ways over 32 neighbours are up to 1.3 % too long.
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
@@ -20,22 +20,22 @@ use super::{
     rows::{RowParams, RowPlace},
 };
 
-/// The outermost ring is this far beyond the edge at most, spacings: the film at the edge lacks 1 %.
+/// Greatest distance of the outermost ring beyond the edge, in spacings: the film at the edge lacks 1 %.
 const BEYOND: f64 = 1.0;
-/// Rings shorter than this many cells are specks.
+/// Shorter rings, in cells, are left out.
 const LEAST_CELLS: f64 = 6.0;
-/// Times that a ring is smoothed; it follows the cells else.
+/// Smoothing passes of a ring, which otherwise follows the cells.
 const NUM_SMOOTHED: usize = 3;
 
 /// A closed line on the map; the last place is joined to the first.
 #[derive(Debug)]
 struct Ring {
-    /// Number of its level, from the outside.
+    /// Index of its level, from the outside.
     level: usize,
     places: Vec<[f64; 2]>,
 }
 
-/// Rings in their order, each from its start once around with its leads; rings that never spray are left out.
+/// Lays rings in order, each once around from its start, with its leads; rings that never spray are left out.
 pub(super) fn lay_rings(
     map: &HeightMap,
     keep_outs: &KeepOuts<'_>,
@@ -59,7 +59,7 @@ pub(super) fn lay_rings(
         .collect()
 }
 
-/// Distances from the outline of all rings, inwards, the outermost first; below 0 beyond the edge.
+/// The distances of all levels from the outline, from the outermost inwards; below 0 beyond the edge.
 fn levels(widest: f64, params: &RowParams) -> Vec<f64> {
     let beyond = params.overrun.min(BEYOND * params.spacing);
     let room = widest + beyond;
@@ -70,9 +70,9 @@ fn levels(widest: f64, params: &RowParams) -> Vec<f64> {
         .collect()
 }
 
-/// Distance of every cell from the outline along the surface, above 0 within.
+/// Distance of every cell from the outline along the surface, above 0 inside.
 fn depths(map: &HeightMap) -> Vec<f64> {
-    /// Columns and rows to 32 neighbours, an eighth of them; the rest by turns and reflections.
+    /// An eighth of the steps to 32 neighbours; the others by rotation and reflection.
     const STEPS: [[i32; 2]; 5] = [[1, 0], [1, 1], [2, 1], [3, 1], [3, 2]];
     let mut steps: Vec<[i32; 2]> = Vec::new();
     for [a, b] in STEPS {
@@ -84,7 +84,7 @@ fn depths(map: &HeightMap) -> Vec<f64> {
     steps.dedup();
     let [width, height] = map.size;
     let mut depth: Vec<f64> = map.outside.iter().map(|outside| -outside).collect();
-    // Ordered by distance; the bits of numbers from 0 are in their order.
+    // Ordered by distance: the bits of non-negative floats sort like their values.
     let mut open = BinaryHeap::new();
     let mut shortest = vec![f64::INFINITY; depth.len()];
     for (i, is_painted) in map.is_painted.iter().enumerate() {
@@ -125,15 +125,15 @@ fn depths(map: &HeightMap) -> Vec<f64> {
     depth
 }
 
-/// Closed lines on which the depth is `level`, the deeper side to their left.
+/// Closed lines on which the depth is `level`, with the deeper side on their left.
 fn level_lines(map: &HeightMap, depth: &[f64], level: f64) -> Vec<Vec<[f64; 2]>> {
     let [width, height] = map.size;
-    // A crossing is named by the lower cell of its edge and the axis along which the edge runs.
+    // A crossing is identified by the lower cell of its edge and the axis along which the edge runs.
     let mut next: Vec<Option<usize>> = vec![None; 2 * width * height];
     let above = |column: usize, row: usize| depth[map.index(column, row)] > level;
     for row in 0..height - 1 {
         for column in 0..width - 1 {
-            // Corners counter-clockwise, and the edge from each to the following one.
+            // Corners counter-clockwise, and the edge from each to the next.
             let corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[a, b]| [column + a, row + b]);
             let is_above = corners.map(|[a, b]| above(a, b));
             let edges = [
@@ -142,7 +142,7 @@ fn level_lines(map: &HeightMap, depth: &[f64], level: f64) -> Vec<Vec<[f64; 2]>>
                 2 * map.index(column, row + 1),
                 2 * map.index(column, row) + 1,
             ];
-            // With the deeper side to the left, a line enters where the corners turn from deeper to less deep.
+            // With the deeper side on the left, a line enters where the corners change from deeper to less deep.
             let enters: Vec<usize> = (0..4)
                 .filter(|i| is_above[*i] && !is_above[(*i + 1) % 4])
                 .collect();
@@ -150,7 +150,7 @@ fn level_lines(map: &HeightMap, depth: &[f64], level: f64) -> Vec<Vec<[f64; 2]>>
                 .filter(|i| !is_above[*i] && is_above[(*i + 1) % 4])
                 .collect();
             for from in &enters {
-                // Of two lines through a cell each cuts off one corner that is less deep.
+                // If two lines cross a cell, each cuts off one corner that is less deep.
                 let to = (1..4)
                     .map(|k| (from + k) % 4)
                     .find(|to| leaves.contains(to));
@@ -175,7 +175,7 @@ fn level_lines(map: &HeightMap, depth: &[f64], level: f64) -> Vec<Vec<[f64; 2]>>
             line.push(place(at));
             at = to;
         }
-        // Open lines would leave the map, whose rim is farther outside than any level.
+        // Only a line that leaves the map would be open, and the map's rim is farther outside than any level.
         if at == start && line.len() > 2 {
             lines.push(line);
         }
@@ -208,7 +208,7 @@ fn circumference(places: &[[f64; 2]]) -> f64 {
     ways.sum()
 }
 
-/// The place nearest to `from`, and how far it is.
+/// Index of the place nearest to `from`, and its distance.
 fn nearest_place(ring: &Ring, from: [f64; 2]) -> (usize, f64) {
     let each = ring
         .places
@@ -219,9 +219,9 @@ fn nearest_place(ring: &Ring, from: [f64; 2]) -> (usize, f64) {
         .unwrap_or((0, f64::INFINITY))
 }
 
-/// From the outside in with short ways between; each begins where it is nearest to the one before.
+/// Sorts rings from the outside in with short ways between them; each begins where it is nearest to the one before.
 fn in_order(rings: Vec<Ring>) -> Vec<Ring> {
-    // Of each ring the nearest one of the level before.
+    // For each ring, the nearest one of the previous level.
     let outer: Vec<Option<usize>> = rings
         .iter()
         .map(|ring| {
@@ -260,7 +260,7 @@ fn in_order(rings: Vec<Ring>) -> Vec<Ring> {
     }
 }
 
-/// Once around, with the lead along the ring at both ends.
+/// Once around the ring, with the lead along it at both ends.
 fn with_leads(
     map: &HeightMap,
     ring: &Ring,
@@ -268,7 +268,7 @@ fn with_leads(
     params: &RowParams,
 ) -> Vec<RowPlace> {
     let num = ring.places.len();
-    // Not once more around, on a short ring.
+    // A lead is at most half of a short ring.
     let most = (num / 2).max(1);
     let lead = |step: usize| {
         let mut way = 0.0;
@@ -363,7 +363,7 @@ mod tests {
         let holed = grid(101, 81, Coverage::OneSide, |i, j| {
             let p = Vector3::new(i - 0.5, 0.8 * j - 0.4, 0.0);
             let out = p.norm().max(1e-9);
-            // Points of the opening lie on its edge.
+            // Points of the opening are moved to its edge.
             let p = if out < 0.15 { p * (0.15 / out) } else { p };
             (Point3::from(p), Vector3::z())
         });

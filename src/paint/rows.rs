@@ -1,11 +1,11 @@
 //! Rows of a raster: level lines of the arc length across the rows.
 //!
-//! On every line of the map across the rows the arc length of the smoothed surface is summed from the middle of the map;
-//! row k runs where it is k spacings more. So rows keep their distance along a curved surface, whatever it looks like in
+//! On every line of the map across the rows, the arc length of the smoothed surface is summed from the middle of the
+//! map; row k is where it is k spacings. So rows keep their distance along a curved surface, whatever their distance in
 //! the plane.
 //!
-//! Known limits: the arc length runs across the rows in the plane of the map. Where a row turns aside from its direction
-//! by an angle α, its neighbours are cos α closer.
+//! Known limits: the arc length is measured across the rows in the plane of the map. Where a row deviates from its
+//! direction by an angle α, its neighbours are closer by the factor cos α.
 
 use super::{height_map::HeightMap, region::KeepOuts};
 
@@ -17,20 +17,20 @@ pub(super) struct RowPlace {
     pub(super) is_gun_on: bool,
 }
 
-/// What lays out rows.
+/// Parameters of rows and rings.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RowParams {
-    /// Between rows, along the surface, metres.
+    /// Distance between rows along the surface, metres.
     pub(super) spacing: f64,
-    /// The gun sprays up to here from what is painted.
+    /// Distance from painted cells up to which the gun sprays.
     pub(super) overrun: f64,
     /// Way with the gun off at both ends.
     pub(super) lead: f64,
-    /// The gun is off up to here from a keep-out region.
+    /// Distance from a keep-out region within which the gun is off.
     pub(super) margin: f64,
 }
 
-/// Rows in their order, each from low to high u, in steps of about a cell; rows that never spray are left out.
+/// Lays rows in order, each from low to high u, in steps of about a cell; rows that never spray are left out.
 pub(super) fn lay_rows(
     map: &HeightMap,
     keep_outs: &KeepOuts<'_>,
@@ -40,7 +40,7 @@ pub(super) fn lay_rows(
     let Some([low, high]) = painted_range(map, &arc) else {
         return Vec::new();
     };
-    // Rows begin and end within the overrun, as far out on one side as on the other.
+    // The first and the last row are equally far out, within the overrun.
     let room = high - low + 2.0 * params.overrun;
     let num_gaps = (room / params.spacing).floor();
     let first = 0.5 * (low + high) - 0.5 * num_gaps * params.spacing;
@@ -111,7 +111,7 @@ fn row(
     let lead = (params.lead / map.cell).ceil() as usize;
     let end = (last + lead + 1).min(places.len());
     let row = &places[first.saturating_sub(lead)..end];
-    // One place alone has no direction.
+    // A single place has no direction.
     if row.len() < 2 {
         Vec::new()
     } else {
@@ -119,7 +119,7 @@ fn row(
     }
 }
 
-/// Where a column has this arc length; none beyond the map.
+/// The coordinate at which a column has this arc length; `None` beyond the map.
 fn level_in_column(map: &HeightMap, arc: &[f64], column: usize, level: f64) -> Option<f64> {
     let at = |row: usize| arc[map.index(column, row)];
     let (mut low, mut high) = (0, map.size[1] - 1);

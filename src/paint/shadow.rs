@@ -1,25 +1,25 @@
-//! What another part of the surface hides from the mouth of the gun.
+//! Shadows: points that another part of the surface hides from the mouth of the gun.
 //!
-//! Every point stands for a disc at right angles to its normal; a point is hidden if the ray from the mouth to it meets
-//! another disc by more than [`TOLERANCE`] before it. The discs in the jet are drawn into a depth buffer over the directions from
-//! the mouth, which keeps the nearest of each cell; where one is nearer than a point in its cell
-//! or the eight around it, the ray to the point is held against all discs. A ray
-//! through a smooth surface meets no disc before the point, however flat it comes, so that no smooth surface shadows itself.
+//! Every point stands for a disc perpendicular to its normal. A point is hidden if the ray from the mouth to it meets
+//! another disc more than [`TOLERANCE`] before the point. The discs in the jet are drawn into a depth buffer over the
+//! directions from the mouth, which keeps the nearest one of each cell. If one of them is nearer than a point in its
+//! cell or the eight around it, the ray to the point is tested against all discs. A ray meets no disc of a smooth
+//! surface before the point, however flat its angle, so smooth surfaces do not shadow themselves.
 //!
-//! Known limits: layers nearer to each other than the tolerance do not shadow. The edge of a shadow is exact to about the
-//! spacing of the points.
+//! Known limits: layers closer to each other than the tolerance cast no shadow. The edge of a shadow is exact to about
+//! the spacing of the points.
 
 use nalgebra::Vector3;
 
-/// Radius of a disc over the spacing of the points: discs around the corners of a square meet in its middle.
+/// Radius of a disc in spacings of the points: discs around the corners of a square meet in its middle.
 pub(super) const DISC: f64 = 0.75;
-/// Depths that differ by less are of one layer, spacings of the points.
+/// Depths that differ by less belong to one layer, in spacings of the points.
 pub(super) const TOLERANCE: f64 = 2.0;
-/// Side of a cell of the buffer at the stand-off, spacings of the points.
+/// Side of a cell of the buffer at the stand-off, in spacings of the points.
 const CELL: f64 = 0.5;
-/// Cells of a buffer at most along each axis; of a finer surface several discs share one.
+/// Most cells of a buffer along each axis; on a finer surface several discs share a cell.
 const MOST_CELLS: f64 = 256.0;
-/// Discs seen flatter than this hide nothing.
+/// Discs seen at a smaller cosine than this hide nothing.
 pub(super) const LEAST_FACING: f64 = 0.05;
 
 /// A point of the surface in the axes of the jet: x along the fan, y across it, z along the jet.
@@ -31,7 +31,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Depth along the jet at which a ray meets the disc, if it does; edge-on it is not met.
+    /// Depth along the jet at which a ray meets the disc; `None` if it misses the disc or meets it edge-on.
     fn met_by(&self, ray: &Vector3<f64>, radius: f64) -> Option<f64> {
         let facing = self.normal.dot(ray);
         if facing.abs() <= LEAST_FACING * ray.norm() {
@@ -46,19 +46,19 @@ impl Seen {
 /// The nearest disc in each direction from the mouth.
 #[derive(Debug)]
 pub(super) struct DepthBuffer {
-    /// Depth, and which of the drawn points.
+    /// Depth of the nearest disc, and its index among the drawn points.
     nearest: Vec<(f64, usize)>,
     /// Slopes of the jet's edge.
     spread: [f64; 2],
     size: [usize; 2],
     cell: f64,
-    /// Radius of a disc and tolerance of depths, metres.
+    /// Radius of a disc, metres; then the tolerance of depths, metres.
     radius: f64,
     tolerance: f64,
 }
 
 impl DepthBuffer {
-    /// A buffer for a jet that spreads by these slopes, over points of this spacing at about this distance.
+    /// Makes a buffer for a jet with these slopes, over points of this spacing at about this distance.
     pub(super) fn new(spread: [f64; 2], spacing: f64, stand_off: f64) -> Self {
         let widest = spread[0].max(spread[1]);
         let cell = (CELL * spacing / stand_off).max(2.0 * widest / MOST_CELLS);
@@ -80,7 +80,7 @@ impl DepthBuffer {
         ]
     }
 
-    /// Draws what is in the jet.
+    /// Draws the points in the jet.
     pub(super) fn draw(&mut self, all: &[Seen]) {
         self.nearest.fill((f64::INFINITY, 0));
         for (i, seen) in all.iter().enumerate().filter(|(_, seen)| seen.at.z > 0.0) {
@@ -108,7 +108,7 @@ impl DepthBuffer {
         }
     }
 
-    /// True if something drawn hides the point.
+    /// Returns true if a drawn disc hides the point.
     pub(super) fn hides(&self, all: &[Seen], point: &Seen) -> bool {
         let around = [0, 1].map(|axis| {
             let at = point.at[axis] / point.at.z + self.spread[axis];
@@ -117,7 +117,7 @@ impl DepthBuffer {
         });
         let before = point.at.z - self.tolerance;
         let is_before = |other: &Seen| {
-            // A disc reaches no nearer to the mouth than its radius before its middle.
+            // No point of a disc is nearer to the mouth than its middle by more than the radius.
             other.at.z - self.radius < before
                 && other
                     .met_by(&point.at, self.radius)
@@ -127,7 +127,7 @@ impl DepthBuffer {
             let cells = around[0].clone();
             cells.map(move |column| self.nearest[row * self.size[0] + column])
         });
-        // Nearly all points have nothing before them.
+        // Most points have nothing in front of them.
         let mut nearer = cells.filter(|(depth, _)| *depth < before).peekable();
         nearer.peek().is_some()
             && (nearer.any(|(_, i)| is_before(&all[i])) || all.iter().any(is_before))
@@ -138,7 +138,7 @@ impl DepthBuffer {
 mod tests {
     use super::*;
 
-    /// True if a ray from the mouth to the point meets a disc before it: every disc is tried.
+    /// True if a ray from the mouth to the point meets a disc before it; tests every disc.
     fn is_hidden(point: &Seen, all: &[Seen], spacing: f64) -> bool {
         all.iter().any(|other| {
             let facing = other.normal.dot(&point.at);
@@ -151,7 +151,7 @@ mod tests {
         })
     }
 
-    /// A wall with a shelf before it and a slope, seen from `mouth` along z.
+    /// A wall with a shelf in front of it, and a slope, seen from `mouth` along z.
     fn scene(mouth: [f64; 2], tilt: f64) -> Vec<Seen> {
         let mut all = Vec::new();
         let mut add = |at: Vector3<f64>, normal: Vector3<f64>| {
@@ -197,7 +197,7 @@ mod tests {
             }
         }
         assert!(num_hidden * 10 > num, "{num_hidden} of {num}");
-        // Discs seen so flat that they hide no middle of a cell.
+        // Only discs that are seen too flat to hide the middle of a cell.
         assert!(num_other * 500 < num_hidden, "{num_other} of {num_hidden}");
     }
 

@@ -1,8 +1,8 @@
-//! The surface of a part that is painted: points, normals and the area that each stands for.
+//! The surface to be painted: points, normals and the area that each point stands for.
 //!
-//! A part is painted from one direction, the *side*: against the mean normal of what was seen, or, of a part that is known
-//! all around, from the front along its thinnest extent. Only points that face that side are painted in one go; a part
-//! enrolled from one view has no others.
+//! A part is painted from one direction, the *side*: the mean normal of what was seen or, if the part is known all
+//! around, the front along its thinnest extent. Only points that face the side are painted in one go; a part enrolled
+//! from one view has no others.
 
 use std::collections::BTreeMap;
 
@@ -17,35 +17,35 @@ use crate::{
     stages::reference::{Coverage, Reference},
 };
 
-/// Points that a surface needs at least.
+/// Fewest points of a surface.
 const LEAST_POINTS: usize = 50;
-/// Smaller extents are no part, metres.
+/// Smallest extent of a part, metres.
 const LEAST_EXTENT: f64 = 0.03;
-/// Larger ones are a file in another unit, metres.
+/// Largest extent of a part, metres; a larger one is probably in another unit.
 const MOST_EXTENT: f64 = 10.0;
-/// Cosine between a normal and the side of the flattest points that belong to the side: 80°.
+/// Least cosine between the side and the normal of a point that belongs to it: 80°.
 const LEAST_FACING: f64 = 0.17;
 /// Radius over which normals are averaged, in spacings of the points.
 const SMOOTHED_OVER: f64 = 2.5;
 
-/// The side of a part that is painted, part space, metres.
+/// The side of a part to be painted, part space, metres.
 #[derive(Clone, Debug)]
 pub struct PaintSurface {
-    /// Points, about evenly spaced.
+    /// The points, about evenly spaced.
     pub points: Vec<Point3<f64>>,
-    /// Unit normals, smoothed over a few points, towards the gun.
+    /// Unit normals, averaged over a few points, towards the gun.
     pub normals: Vec<Vector3<f64>>,
     /// Area that each point stands for, square metres.
     pub point_area: f64,
     /// Distance between neighbouring points.
     pub spacing: f64,
-    /// Unit vector from the part towards where it is painted from.
+    /// Unit vector from the part towards the gun's side.
     pub side: Vector3<f64>,
-    /// The first principal axis, at right angles to `side`.
+    /// The first principal axis, perpendicular to `side`.
     pub longest: Vector3<f64>,
-    /// Middle of the points.
+    /// Mean of all points of the part.
     pub middle: Point3<f64>,
-    /// What of the part this is.
+    /// The sides of the part that were enrolled.
     pub coverage: Coverage,
 }
 
@@ -59,7 +59,7 @@ impl PaintSurface {
         Self::new(&points, &normals, coverage)
     }
 
-    /// The side to be painted of points with unit normals that point outwards.
+    /// The side to be painted of points with outward unit normals.
     pub fn new(
         points: &[Point3<f64>],
         normals: &[Vector3<f64>],
@@ -112,7 +112,7 @@ impl PaintSurface {
         })
     }
 
-    /// What of the part is painted, for a person.
+    /// Describes what of the part is painted, for people.
     pub fn scope(&self) -> &'static str {
         match self.coverage {
             Coverage::OneSide => "only the side that the camera saw when the part was enrolled",
@@ -124,7 +124,7 @@ impl PaintSurface {
     }
 }
 
-/// Some vector at right angles to another, of unit length.
+/// A unit vector perpendicular to `axis`.
 pub(super) fn across(axis: &Vector3<f64>) -> Vector3<f64> {
     let other = if axis.x.abs() < 0.9 {
         Vector3::x()
@@ -151,7 +151,7 @@ fn check_size(points: &[Point3<f64>]) -> Result<(), PaintError> {
     Ok(())
 }
 
-/// The direction that it is painted from.
+/// The direction from which the part is painted.
 fn side_of(
     normals: &[Vector3<f64>],
     thinnest: &Vector3<f64>,
@@ -162,15 +162,16 @@ fn side_of(
         return Ok(thinnest * if thinnest.z > 0.0 { -1.0 } else { 1.0 });
     }
     let mean: Vector3<f64> = normals.iter().sum::<Vector3<f64>>() / normals.len() as f64;
-    // Normals that cancel out belong to a surface that is folded, or seen from all around.
+    // Normals that cancel out mean a folded surface, or one seen from all around.
     if mean.norm() < 0.2 {
         return Err(PaintError::Folded);
     }
     Ok(mean.normalize())
 }
 
-/// The area that a point stands for, the same for all as they are evenly spaced: of squares over the plane across the
-/// side, each by the slope of the surface and the number of points in it, the median. Squares that an edge cuts are few.
+/// The area of a point, the same for all since they are evenly spaced. In the plane perpendicular to the side, the area
+/// of each square is corrected for the slope and divided by the number of points in it; the median counts, since few
+/// squares are cut by an edge.
 fn area_of_point(
     points: &[Point3<f64>],
     normals: &[Vector3<f64>],
@@ -206,7 +207,7 @@ fn smoothed(
     let each = points.iter().zip(chosen).map(|(p, own)| {
         around.clear();
         tree.within(p, radius as f32, |found| around.push(found.index));
-        // The order of a search is not that of the points; a sum must be.
+        // The search returns points in any order; sum them in a fixed one.
         around.sort_unstable();
         let sum: Vector3<f64> = around.iter().map(|i| normals[chosen[*i]]).sum();
         sum.try_normalize(1e-9).unwrap_or(normals[*own])
@@ -218,7 +219,7 @@ fn smoothed(
 pub(super) mod tests {
     use super::*;
 
-    /// A surface of `columns` by `rows` points; places run from 0 to 1.
+    /// A surface of `columns` by `rows` points; `at` takes both places as 0..1.
     pub(in crate::paint) fn grid(
         columns: usize,
         rows: usize,
@@ -232,7 +233,7 @@ pub(super) mod tests {
         PaintSurface::new(&points, &normals, coverage).expect("a surface")
     }
 
-    /// A plate around the origin that faces z, in steps of 10 mm.
+    /// A plate around the origin that faces z, with points every 10 mm.
     pub(in crate::paint) fn plate(length: f64, width: f64) -> PaintSurface {
         let num = |extent: f64| (extent / 0.01).round() as usize + 1;
         grid(num(length), num(width), Coverage::OneSide, |i, j| {

@@ -1,41 +1,42 @@
-//! The ways with the gun off, clear of the part.
+//! Moves with the gun off, kept clear of the part.
 //!
-//! Rows and rings keep their stand-off; the straight ways between them may not, around a bend or from one raster to the
-//! next. Each is sampled, and lifted along the side where the surface is too near. The distance to the nearest point grows by no
-//! more than the way that the nozzle moves, so lifting by what is missing, again and again, ends at the least lift that is
-//! clear. Lifted points that a straight way does without are taken out again.
+//! Rows and rings keep their stand-off, but the straight moves between them may not, around a bend or from one raster
+//! to the next. Each is sampled, and lifted along the side where the surface is too near. The distance to the nearest
+//! point grows by no more than the nozzle moves, so lifting repeatedly by the missing distance ends at the least lift
+//! that is clear. Lifted points that a straight move does not need are removed again.
 //!
-//! Known limits: the part alone is kept clear of, not what holds it, and only the mouth of the gun.
+//! Known limits: moves are only kept clear of the part, not of what holds it, and only the mouth of the gun is
+//! considered.
 
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::{coat::Coat, surface::PaintSurface};
 use crate::{geometry::nearest::KdTree, library::PathPoint};
 
-/// Distance from the surface that ways with the gun off keep, over the stand-off.
+/// Distance from the surface that moves with the gun off keep, as a share of the stand-off.
 pub(super) const CLEAR: f64 = 0.65;
-/// Samples of a way, over the stand-off.
+/// Distance of the samples of a move, as a share of the stand-off.
 const STEP: f64 = 0.1;
-/// Lifting ways may bring new ones too near; each time fewer.
+/// Most rounds of lifting: lifted moves may come too near elsewhere, fewer each time.
 const MOST_ROUNDS: usize = 6;
-/// A lift grows by this at least, metres.
+/// Least increase of a lift, metres.
 const LEAST_LIFT: f64 = 0.001;
 
 struct Clearance {
     tree: KdTree,
     side: Vector3<f64>,
-    /// Distance that is kept, metres.
+    /// Distance to be kept, metres.
     kept: f64,
     step: f64,
 }
 
-/// A point of the path, or one that was put in between.
+/// A point of the path, or one inserted in between.
 struct Stop {
     point: PathPoint,
     is_inserted: bool,
 }
 
-/// The points with others put in where a way with the gun off comes too near to the surface.
+/// Inserts points where a move with the gun off comes too near to the surface.
 pub(super) fn keep_clear(
     points: Vec<PathPoint>,
     surface: &PaintSurface,
@@ -70,13 +71,14 @@ impl Clearance {
         found.map_or(f64::INFINITY, |found| f64::from(found.distance_sq).sqrt())
     }
 
-    /// Distance that a way from `a` to `b` keeps at `p`. Its ends may be nearer, in a corner that the gun sprays into.
+    /// Distance to be kept at `p` on a move between `ends`, which may themselves be nearer, as in a corner to be
+    /// sprayed.
     fn wanted(&self, p: &Point3<f64>, ends: [(Point3<f64>, f64); 2]) -> f64 {
         let near = ends.map(|(end, distance)| distance + 0.5 * (p - end).norm());
         near.into_iter().fold(self.kept, f64::min)
     }
 
-    /// Shares of the way between two points that are too near, with the lift that each needs.
+    /// Shares of the way between two points that are too near, each with the lift that it needs.
     fn too_near(&self, a: &Point3<f64>, b: &Point3<f64>) -> Vec<(f64, f64)> {
         let ends = [a, b].map(|end| (*end, self.distance(end)));
         let num = ((b - a).norm() / self.step).ceil() as usize;
@@ -105,7 +107,7 @@ impl Clearance {
                 for (share, lift) in self.too_near(&a.nozzle, &b.nozzle) {
                     let jet = a.direction.lerp(&b.direction, share);
                     let direction = Unit::try_new(jet, 1e-3).unwrap_or(a.direction);
-                    // A fan stays at right angles to the jet, which turns on the way.
+                    // A fan stays perpendicular to the jet, which turns on the way.
                     let fan = if share < 0.5 { a.fan } else { b.fan };
                     let across = fan.map(|fan| *fan - *direction * direction.dot(&fan));
                     let point = PathPoint {
@@ -152,7 +154,7 @@ mod tests {
         stages::reference::Coverage,
     };
 
-    /// Least distance of the ways with the gun off from the surface, over the stand-off; every way in steps of 5 mm.
+    /// Least distance from the surface of the moves with the gun off, as a share of the stand-off, sampled every 5 mm.
     fn least_clearance(surface: &PaintSurface, points: &[PathPoint], coat: &Coat) -> f64 {
         let mut least = f64::INFINITY;
         for pair in points.windows(2).filter(|pair| !pair[0].is_gun_on) {
@@ -177,7 +179,7 @@ mod tests {
 
     #[test]
     fn from_one_raster_to_the_next_the_way_goes_over_a_bent_part_and_not_through_it() {
-        // Three quarters of a half pipe, outside painted.
+        // Three quarters of a half pipe, painted on the outside.
         let surface = grid(61, 81, Coverage::OneSide, |i, j| {
             let (x, angle) = (0.8 * i - 0.4, 2.4 * (j - 0.5));
             let normal = Vector3::new(0.0, angle.sin(), angle.cos());
@@ -187,7 +189,7 @@ mod tests {
         let path = plan(&surface, &coat, &[]).expect("planned");
         let least = least_clearance(&surface, path.points(), &coat);
         assert!(least > 0.6, "{least}");
-        // Without the lifted points it went through the part.
+        // Without the lifted points the path goes through the part.
         let plain = path.points().iter().filter(|p| p.stand_off.is_some());
         let plain: Vec<PathPoint> = plain.copied().collect();
         assert!(plain.len() < path.points().len());
@@ -203,7 +205,7 @@ mod tests {
         for is_l in [false, true] {
             let surface = grid(101, 101, Coverage::OneSide, |i, j| {
                 let (x, y) = (i - 0.5, j - 0.5);
-                // Points that are not of the part lie on its edge.
+                // Points that are not on the part are moved to its edge.
                 let (x, y) = if is_l && x > -0.1 && y > -0.1 {
                     (-0.1, y)
                 } else if !is_l && x.abs() < 0.2 && y.abs() < 0.2 {

@@ -1,4 +1,4 @@
-//! A picture to draw on: lines, dots, blocks and letters. `vello_cpu` fills and strokes them, as egui's letters are.
+//! A drawing canvas for lines, dots, rectangles and text, rendered by `vello_cpu`.
 
 use image::{Rgb, RgbImage};
 use vello_cpu::{
@@ -9,7 +9,7 @@ use vello_cpu::{
 
 use super::lettering::{Anchor, Lettering, REGULAR};
 
-/// A picture that can be drawn on beyond its edges; what lies outside is left out.
+/// A picture to draw on; anything outside its edges is clipped.
 pub(super) struct Canvas {
     context: RenderContext,
     letters: Lettering,
@@ -26,7 +26,7 @@ impl Canvas {
         canvas
     }
 
-    /// What was drawn.
+    /// Renders the picture.
     pub(super) fn finish(mut self) -> RgbImage {
         let (width, height) = (self.context.width(), self.context.height());
         let mut drawn = Pixmap::new(width, height);
@@ -49,14 +49,13 @@ impl Canvas {
         self.context.fill_path(&dot.to_path(0.1));
     }
 
-    /// A thin line from pixel to pixel.
+    /// Draws a thin line between two pixels.
     pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], colour: Rgb<u8>) {
         let ends = [from, to].map(|end| end.map(f64::round));
         self.polyline(ends, (1.0, &[]), colour);
     }
 
-    /// A line through pixels, as wide as said; in dashes, drawn and left out by turns over so many pixels each, unless the
-    /// pattern is empty.
+    /// Draws a line of this width through pixels. A non-empty pattern gives the lengths of dashes and gaps in pixels.
     pub(super) fn polyline(
         &mut self,
         corners: impl IntoIterator<Item = [f64; 2]>,
@@ -78,14 +77,14 @@ impl Canvas {
         self.context.stroke_path(&path);
     }
 
-    /// A filled rectangle, from corner to corner.
+    /// Fills a rectangle between two corners.
     pub(super) fn block(&mut self, from: [f64; 2], to: [f64; 2], colour: Rgb<u8>) {
         self.paint(colour);
         let [from, to] = [from, to].map(|[x, y]| Point::new(x.round(), y.round()));
         self.context.fill_rect(&Rect::from_points(from, to));
     }
 
-    /// Writes a text in letters of this size; `at` is on the line that they stand on.
+    /// Writes a text of this size; `at` is on its baseline.
     pub(super) fn write(
         &mut self,
         text: &str,
@@ -97,7 +96,7 @@ impl Canvas {
         self.letters((text, size), 0.0, at, anchor, colour);
     }
 
-    /// Writes a text from bottom to top; `at` is on the line that the letters stand on.
+    /// Writes a text from bottom to top; `at` is on its baseline.
     pub(super) fn write_upwards(
         &mut self,
         text: &str,
@@ -127,7 +126,7 @@ impl Canvas {
     }
 }
 
-/// The middle of a pixel.
+/// Returns the centre of a pixel.
 fn middle_of([x, y]: [f64; 2]) -> Point {
     Point::new(x + 0.5, y + 0.5)
 }
@@ -170,12 +169,12 @@ mod tests {
 
     #[test]
     fn a_full_stop_covers_as_much_as_its_square_and_a_letter_is_no_blot() {
-        // An em dash is a bar; its ink is its area whatever the place.
+        // An em dash is a bar, so its ink is its area at any position.
         let dash = ink(&written("—"));
         assert!((10.0..40.0).contains(&dash), "{dash}");
         let letters = written("Fender 8");
         assert!((60.0..260.0).contains(&ink(&letters)), "{}", ink(&letters));
-        // Nothing leaks out of a glyph to the right, as an outline that is not closed would.
+        // Nothing leaks out of a glyph to the right, as it would with an unclosed outline.
         assert!(
             letters
                 .rows()

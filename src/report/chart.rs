@@ -1,4 +1,4 @@
-//! Axes with ticks and titles, and where a value lies between them.
+//! Charts: axes with ticks and titles, and the mapping from values to pixels.
 
 use image::Rgb;
 
@@ -8,15 +8,15 @@ use super::{
     pictures::{DIM, FAINT, LIGHT},
 };
 
-/// Size of the letters around charts, pixels.
+/// Text size of charts, pixels.
 pub(super) const LETTERS: f32 = 15.0;
 
-/// How an axis divides its length.
+/// Scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Division {
-    /// Evenly.
+    /// Linear.
     Even,
-    /// By factors; values are above zero.
+    /// Logarithmic; values are above zero.
     ByFactors,
 }
 
@@ -25,12 +25,12 @@ pub(super) struct Axis<'a> {
     pub(super) title: &'a str,
     pub(super) range: [f64; 2],
     pub(super) division: Division,
-    /// Values with a line across, and what is written there.
+    /// Values with a grid line, and their labels.
     pub(super) ticks: Vec<(f64, String)>,
 }
 
 impl Axis<'_> {
-    /// 0 at the lower end, 1 at the upper one.
+    /// Returns the position on the axis: 0 at the lower end, 1 at the upper one.
     fn share(&self, value: f64) -> f64 {
         let of = |value: f64| match self.division {
             Division::Even => value,
@@ -41,7 +41,7 @@ impl Axis<'_> {
     }
 }
 
-/// A field between two axes.
+/// The area between two axes.
 pub(super) struct Chart<'a> {
     /// Upper left and lower right corner, pixels.
     pub(super) corners: [[f64; 2]; 2],
@@ -50,7 +50,7 @@ pub(super) struct Chart<'a> {
 }
 
 impl Chart<'_> {
-    /// The pixel of a pair of values.
+    /// Returns the pixel of a pair of values.
     pub(super) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [[left, top], [right, bottom]] = self.corners;
         [
@@ -59,7 +59,7 @@ impl Chart<'_> {
         ]
     }
 
-    /// Lines, numbers and titles.
+    /// Draws grid lines, tick labels and titles.
     pub(super) fn draw_axes(&self, canvas: &mut Canvas) {
         let [[left, top], [right, bottom]] = self.corners;
         for (value, text) in &self.across.ticks {
@@ -83,5 +83,5 @@ impl Chart<'_> {
     }
 }
 
-/// Numbers of an axis.
+/// Text colour of tick labels.
 pub(super) const DIM_TEXT: Rgb<u8> = Rgb([164, 172, 184]);

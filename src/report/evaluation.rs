@@ -1,4 +1,4 @@
-//! A picture of an evaluation: the confusion matrix, the shares right over the scores, and what thresholds on them cost.
+//! Picture of an evaluation: confusion matrix, calibration, and trade-off of the score threshold.
 
 use image::{Rgb, RgbImage};
 
@@ -13,12 +13,12 @@ use crate::cases::{CaseAnswer, CaseOutcome, Confusion, Evaluation, Truth};
 
 /// Side of a cell of the matrix, pixels.
 const CELL: f64 = 46.0;
-/// Between two plots, for the numbers and the title of an axis.
+/// Gap between two plots, for tick labels and title of an axis.
 const GAP: f64 = 120.0;
-/// Around everything.
+/// Outer margin, pixels.
 const EDGE: f64 = 28.0;
 
-/// Draws them side by side; `title` stands above, and `threshold` is the recipe's least score.
+/// Draws the three plots side by side under `title`; `threshold` is the minimum score of the recipe.
 pub fn evaluation_picture(title: &str, evaluation: &Evaluation, threshold: f64) -> RgbImage {
     let letters = Lettering::of(REGULAR);
     let confusion = &evaluation.confusion;
@@ -74,7 +74,7 @@ fn column_name(answered: &CaseAnswer) -> &str {
     }
 }
 
-/// What a judgement looks like; colour is not the only sign.
+/// Returns the colour and sign of a case's outcome; the sign makes it readable without colour.
 fn look(judgement: CaseOutcome) -> (Rgb<u8>, &'static str) {
     match judgement {
         CaseOutcome::Right => (Rgb([44, 104, 78]), ""),
@@ -83,7 +83,7 @@ fn look(judgement: CaseOutcome) -> (Rgb<u8>, &'static str) {
     }
 }
 
-/// Rows are what it is, columns what it was accepted as.
+/// Draws the matrix: rows are the true labels, columns the accepted parts.
 fn draw_matrix(canvas: &mut Canvas, confusion: &Confusion, [left, top]: [f64; 2]) {
     let Confusion {
         rows,

@@ -1,4 +1,4 @@
-//! A picture of a film: thickness over the part, seen from the side that is painted, and its histogram.
+//! Picture of a film: thickness over the part, seen from the painted side, and its histogram.
 
 use image::{Rgb, RgbImage};
 
@@ -9,7 +9,7 @@ use super::{
     pictures::{DARK, DIM, LIGHT},
 };
 
-/// Share of the target and its colour, thinnest first; the target is green.
+/// Colours by thickness over target, thinnest first; the target is green.
 const COLOURS: [(f64, [f64; 3]); 6] = [
     (0.0, [30.0, 24.0, 70.0]),
     (0.5, [40.0, 90.0, 200.0]),
@@ -18,27 +18,27 @@ const COLOURS: [(f64, [f64; 3]); 6] = [
     (1.2, [240.0, 200.0, 60.0]),
     (2.0, [220.0, 50.0, 40.0]),
 ];
-/// What the gun cannot face.
+/// Colour of points that the gun cannot face.
 const UNREACHABLE: Rgb<u8> = Rgb([90, 90, 96]);
-/// Upper left and lower right corner of the part, of the histogram and of the scale.
+/// Upper left and lower right corner of the part, of the histogram and of the scale, pixels.
 const PART: [[f64; 2]; 2] = [[30.0, 60.0], [770.0, 540.0]];
 const BARS: [[f64; 2]; 2] = [[900.0, 90.0], [1270.0, 420.0]];
 const SCALE: [[f64; 2]; 2] = [[900.0, 500.0], [1270.0, 518.0]];
 
-/// A film to be drawn.
+/// A film to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct FilmPicture<'a> {
-    /// What it says above.
+    /// Title above the picture.
     pub title: &'a str,
-    /// Places of the points, to the right and up, metres.
+    /// Positions of the points, to the right and up, metres.
     pub places: &'a [[f64; 2]],
-    /// Thickness of each over the target.
+    /// Thickness at each point, relative to the target.
     pub shares: &'a [f64],
-    /// True for those that the gun can face.
+    /// True for points that the gun can face.
     pub is_reachable: &'a [bool],
-    /// Between points, metres.
+    /// Point spacing, metres.
     pub spacing: f64,
-    /// Shares of the points by thickness, each bar a tenth of the target; the last takes all that is thicker.
+    /// Share of the points per bin of thickness, a tenth of the target each; the last bin is open.
     pub histogram: &'a [f64],
 }
 
@@ -80,7 +80,7 @@ fn draw_part(canvas: &mut Canvas, film: &FilmPicture<'_>) {
         (right - left) / (high[0] - low[0]),
         (bottom - top) / (high[1] - low[1]),
     ];
-    // A part that is a line still has a scale.
+    // Limits the scale for a degenerate part.
     let scale = room
         .into_iter()
         .filter(|s| s.is_finite())

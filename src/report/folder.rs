@@ -1,4 +1,4 @@
-//! A folder of reports: what `inspect --report` and the window's export write.
+//! Folder of reports: written by `inspect --report` and by the window's export.
 
 use std::{
     collections::BTreeSet,
@@ -16,12 +16,12 @@ use crate::{
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// The folder cannot be made.
+    /// The folder cannot be created.
     #[error("{}: cannot make the report's folder: {}", path.display(), words_of(source))]
     Folder {
         /// The folder.
         path: PathBuf,
-        /// Why.
+        /// The underlying error.
         source: io::Error,
     },
     /// A file cannot be written.
@@ -38,21 +38,21 @@ impl Advice for ReportError {
     }
 }
 
-/// The results of an inspection, beside the captures or anywhere else.
+/// A folder for the results of inspections, next to the captures or elsewhere.
 ///
-/// Per inspected file `STEM.report.json`, a `STEM.STAGE.png` for each stage, and `STEM.stages.png` with all of them. What an
-/// earlier report left under these names is replaced; a depth image and its camera never are.
+/// Each inspected file gets `STEM.report.json`, a `STEM.STAGE.png` per stage, and `STEM.stages.png` with all of them.
+/// Files of an earlier report under these names are replaced; a depth image and its camera never are.
 #[derive(Debug)]
 pub struct ReportFolder {
     path: PathBuf,
-    /// Stems that are taken, so that two files of one name in different folders do not overwrite each other.
+    /// Stems in use, so that files of the same name from different folders do not overwrite each other.
     taken: BTreeSet<String>,
-    /// Those of the pose reports.
+    /// Stems in use by pose reports.
     taken_poses: BTreeSet<String>,
 }
 
 impl ReportFolder {
-    /// Makes the folder where it is missing.
+    /// Creates the folder if it is missing.
     pub fn make(path: &Path) -> Result<Self, ReportError> {
         disk::create_dir_all(path).map_err(|source| ReportError::Folder {
             path: path.to_owned(),
@@ -65,7 +65,7 @@ impl ReportFolder {
         })
     }
 
-    /// Writes the report of a scene and answers with its JSON; `line` is an
+    /// Writes the report of a scene, and returns the path of its JSON; `line` is an
     /// [`InspectionLine`](super::InspectionLine).
     pub fn write(
         &mut self,
@@ -88,14 +88,14 @@ impl ReportFolder {
         Ok(json)
     }
 
-    /// Writes the pose report of a scene as `STEM.pose.ENDING` for each ending, and answers with the paths.
+    /// Writes the pose report of a scene as `STEM.pose.ENDING` for each ending, and returns the paths.
     pub fn write_pose(
         &mut self,
         scene: &Path,
         files: &[(&str, Vec<u8>)],
     ) -> Result<Vec<PathBuf>, ReportError> {
         let path = |stem: &str, ending: &str| self.path.join(format!("{stem}.pose.{ending}"));
-        // A depth image of this name would take the report for its camera.
+        // A depth image of this name would take the report's JSON for its camera.
         let is_free = |stem: &str| !path(stem, "png").exists() && !self.taken_poses.contains(stem);
         let stem = counted(scene)
             .find(|stem| is_free(stem))
@@ -110,7 +110,7 @@ impl ReportFolder {
         Ok(paths)
     }
 
-    /// The file that the pose reports in one convention are rows of.
+    /// Returns the CSV file that collects the pose reports in one convention.
     pub fn csv(&self, convention: Convention) -> PathBuf {
         self.path.join(format!("poses.{}.csv", convention.name()))
     }
@@ -131,7 +131,8 @@ impl ReportFolder {
         stem
     }
 
-    /// True if one of the names belongs to a depth image: a report never makes a PNG and a JSON of one name.
+    /// Returns whether one of the names belongs to a depth image: a report never writes a PNG next to a JSON of the
+    /// same name.
     fn holds_capture(&self, stem: &str, pictures: &[&Picture]) -> bool {
         let mut pictures = pictures.iter().map(|picture| self.picture(stem, picture));
         self.json(stem).with_extension("png").exists()
@@ -139,7 +140,7 @@ impl ReportFolder {
     }
 }
 
-/// The stem of a scene's file, then with 2, 3 and so on behind it.
+/// Returns the stem of a scene's file, then the stem followed by -2, -3 and so on.
 fn counted(scene: &Path) -> impl Iterator<Item = String> {
     let stem = scene.file_stem().unwrap_or(scene.as_os_str());
     let stem = stem.to_string_lossy().into_owned();

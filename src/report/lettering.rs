@@ -1,8 +1,6 @@
-//! The font of the window, as wide and as shaped as reports need it.
+//! Fonts of the window for reports: widths and outlines of text, by `skrifa`.
 //!
-//! `skrifa` gives widths and outlines.
-//!
-//! Known limits: one line of text from left to right, no kerning; a letter that the font lacks is an empty box.
+//! Known limits: one line of text from left to right, no kerning; a missing glyph is an empty box.
 
 use skrifa::{
     FontRef, GlyphId, MetadataProvider as _,
@@ -13,22 +11,22 @@ use vello_cpu::kurbo::{BezPath, Point};
 
 /// Inter, under the licence in `assets/fonts`.
 pub(super) const REGULAR: &[u8] = include_bytes!("../../assets/fonts/Inter-Regular.otf");
-/// The same, for what stands out.
+/// Inter in semi-bold.
 pub(super) const BOLD: &[u8] = include_bytes!("../../assets/fonts/Inter-SemiBold.otf");
 
-/// Where a text stands to its place.
+/// Alignment of a text with its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
-    /// It begins there.
+    /// Begins at the position.
     Left,
-    /// Its middle is there.
+    /// Centred on the position.
     Middle,
-    /// It ends there.
+    /// Ends at the position.
     Right,
 }
 
 impl Anchor {
-    /// From the place to where a text of this width begins.
+    /// Returns the offset from the position to the beginning of a text of this width.
     pub(super) fn offset(self, width: f32) -> f32 {
         match self {
             Self::Left => 0.0,
@@ -46,7 +44,7 @@ impl Lettering {
         Self(FontRef::new(font).expect("our own font is one"))
     }
 
-    /// The glyph of every letter and how wide it is as a share of the size.
+    /// Returns the glyph of each character and its width relative to the text size.
     pub(super) fn glyphs(&self, text: &str) -> impl Iterator<Item = (GlyphId, f32)> {
         let metrics = self.0.glyph_metrics(Size::new(1.0), LocationRef::default());
         let charmap = self.0.charmap();
@@ -56,12 +54,12 @@ impl Lettering {
         })
     }
 
-    /// Width of a text in letters of this size: about as far as from line to line.
+    /// Returns the width of a text of this size; `size` is about the line spacing.
     pub(super) fn width(&self, text: &str, size: f32) -> f32 {
         self.glyphs(text).map(|(_, width)| width).sum::<f32>() * size
     }
 
-    /// The outlines of a text that begins at the origin, y down.
+    /// Returns the outlines of a text that begins at the origin, y down.
     pub(super) fn outline(&self, text: &str, size: f32) -> BezPath {
         let outlines = self.0.outline_glyphs();
         let mut pen = Pen::default();
@@ -77,11 +75,11 @@ impl Lettering {
     }
 }
 
-/// Follows the outline of a glyph; the font's y is up.
+/// Collects the outlines of glyphs; the font's y is up.
 #[derive(Default)]
 struct Pen {
     path: BezPath,
-    /// Where the glyph stands.
+    /// Position of the present glyph.
     left: f32,
 }
 

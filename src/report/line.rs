@@ -1,4 +1,4 @@
-//! The inspection as one line of JSON.
+//! An inspection as one line of JSON.
 
 use jiff::Timestamp;
 use serde::Serialize;
@@ -12,17 +12,17 @@ use crate::{
     stages::pose::{PoseEstimate, Uncertainty},
 };
 
-/// The version of the JSON lines.
+/// Version of the JSON lines.
 pub const SCHEMA: u32 = 1;
 
-/// An inspection as one line of JSON, as `inspect --json` writes it. Fields are only ever added.
+/// An inspection as one line of JSON, as `inspect --json` writes it. Later versions only add fields.
 #[derive(Debug, Serialize)]
 pub struct InspectionLine<'a> {
     schema: u32,
     scene: &'a str,
     #[serde(flatten)]
     capture: Option<CaptureLine<'a>>,
-    /// Of a file that says that no camera was read; what a source captured says it itself.
+    /// Set for a file marked as simulated; captures from a source have their own field.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulated: Option<bool>,
     status: &'static str,
@@ -31,40 +31,40 @@ pub struct InspectionLine<'a> {
     score: Option<f64>,
     margin: Option<f64>,
     reason: Option<String>,
-    /// The same for programs.
+    /// The reason in a form for programs.
     reason_kind: Option<RefusalKind>,
-    /// What was taken for the part reaches the picture's edge: some of it may be missing.
+    /// True if the surface taken for the part reaches the picture's edge: some of the part may be missing.
     touches_edge: bool,
     pose: Option<PoseLine<'a>>,
-    /// The same pose for the robot, if a calibration says where the camera sits.
+    /// The same pose for the robot, if the cell is calibrated.
     #[serde(skip_serializing_if = "Option::is_none")]
     robot: Option<RobotLine<'a>>,
     ranking: Vec<RankLine<'a>>,
     timings_ms: Option<TimingsLine>,
     #[serde(skip_serializing_if = "Option::is_none")]
     recipe: Option<RecipeBlock>,
-    /// Of several frames inspected together.
+    /// Set for several frames inspected together.
     #[serde(skip_serializing_if = "Option::is_none")]
     scan: Option<ScanLine<'a>>,
-    /// `serial`, `order` and `operator`, where they are known.
+    /// `serial`, `order` and `operator`, as far as known.
     #[serde(flatten)]
     trace: Option<&'a Traceability>,
 }
 
-/// What a line says more of several frames that were inspected together.
+/// Additional fields for several frames that were inspected together.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ScanLine<'a> {
-    /// Frames given.
+    /// Number of frames given.
     pub frames: usize,
-    /// Those that were used.
+    /// Number of frames used.
     pub used: usize,
-    /// The frame whose camera the pose is before.
+    /// The frame whose camera the pose refers to.
     pub reference_frame: &'a str,
-    /// Takes part space to the robot's base; null unless the part was accepted.
+    /// Pose of the part in the robot's base frame; null unless the part was accepted.
     pub base_from_part: Option<[f64; 16]>,
 }
 
-/// Poses in the robot's base frame; see [`crate::robot`] for what each of them is.
+/// Poses in the robot's base frame; see [`crate::robot`] for their definitions.
 #[derive(Debug, Serialize)]
 struct RobotLine<'a> {
     calibration: &'a str,
@@ -73,20 +73,20 @@ struct RobotLine<'a> {
     robot_offset: [f64; 16],
 }
 
-/// What a line says more of a capture that came from a source.
+/// Additional fields for a capture from a source.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct CaptureLine<'a> {
-    /// What was opened, as it can be opened again.
+    /// The source, in the form that opens it again.
     source: &'a str,
     number: u64,
     taken_at: Timestamp,
     simulated: bool,
-    /// Captures that were dropped since the source was opened, because others were being inspected.
+    /// Captures dropped since the source was opened, because others were being inspected.
     dropped: u64,
 }
 
 impl<'a> CaptureLine<'a> {
-    /// Of a capture of this source.
+    /// Creates the fields for a capture of this source.
     pub fn of(source: &'a str, captured: &Captured, num_dropped: u64) -> Self {
         Self {
             source,
@@ -97,17 +97,17 @@ impl<'a> CaptureLine<'a> {
         }
     }
 
-    /// What was opened.
+    /// Returns the source.
     pub fn source(&self) -> &'a str {
         self.source
     }
 
-    /// When it was taken.
+    /// Returns the time of the capture.
     pub fn taken_at(&self) -> Timestamp {
         self.taken_at
     }
 
-    /// True if no camera was read.
+    /// Returns whether the capture does not come from a camera.
     pub fn is_simulated(&self) -> bool {
         self.simulated
     }
@@ -115,13 +115,13 @@ impl<'a> CaptureLine<'a> {
 
 #[derive(Debug, Serialize)]
 struct PoseLine<'a> {
-    /// The enrolled reference whose coordinates the part's space is: of several of one part each has its own.
+    /// The reference that defines part space: several references of one part each have their own.
     reference: Option<&'a str>,
     camera_from_part: [f64; 16],
     method: &'static str,
     rms_m: f64,
     overlap: f64,
-    /// The pose is within these of the truth in 95 of 100 cases; null of an unconstrained one.
+    /// Bounds of the pose error in 95 of 100 cases; null if the pose is unconstrained.
     shift_bound_m: Option<f64>,
     turn_bound_rad: Option<f64>,
     /// How the part could move, if the pose is unconstrained.
@@ -134,7 +134,7 @@ struct PoseLine<'a> {
 #[derive(Debug, Serialize)]
 struct RankLine<'a> {
     part: &'a str,
-    /// Null if it was not examined, and others were.
+    /// Null if it was not examined but others were.
     score: Option<f64>,
     examined: bool,
     distance: f64,
@@ -160,12 +160,12 @@ pub struct TimingsLine {
     pub total: f64,
 }
 
-/// How far off a pose may be, if something holds it.
+/// Returns the bounds of a pose, unless it is unconstrained.
 fn bounds_of(pose: &PoseEstimate) -> Option<Uncertainty> {
     pose.uncertainty.filter(Uncertainty::is_held)
 }
 
-/// `ok`, `unknown` or `no_part`.
+/// Returns `ok`, `unknown` or `no_part`.
 pub(super) fn status_of(verdict: &Verdict) -> &'static str {
     match verdict {
         Verdict::Part { .. } if verdict.is_unknown() => "unknown",
@@ -175,7 +175,7 @@ pub(super) fn status_of(verdict: &Verdict) -> &'static str {
 }
 
 impl<'a> InspectionLine<'a> {
-    /// Of a scene that could not be read, and why.
+    /// Creates the line for a scene that could not be read.
     pub fn unreadable(scene: &'a str, reason: &dyn std::fmt::Display) -> Self {
         Self {
             schema: SCHEMA,
@@ -200,7 +200,7 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
-    /// The same line, with serial number, order and operator.
+    /// Adds serial number, order and operator.
     #[must_use]
     pub fn traced(self, trace: &'a Traceability) -> Self {
         Self {
@@ -209,7 +209,7 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
-    /// The same line, with the recipe that it was inspected by.
+    /// Adds the recipe of the inspection.
     #[must_use]
     pub fn by(self, recipe: &NamedRecipe) -> Self {
         Self {
@@ -218,7 +218,7 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
-    /// The same line, of several frames inspected together.
+    /// Adds the fields for several frames inspected together.
     #[must_use]
     pub fn of_scan(self, scan: ScanLine<'a>) -> Self {
         Self {
@@ -227,13 +227,13 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
-    /// The same line, of a scene that a source captured.
+    /// Adds the fields for a capture from a source.
     #[must_use]
     pub fn captured(self, capture: Option<CaptureLine<'a>>) -> Self {
         Self { capture, ..self }
     }
 
-    /// The same line of a file that says that no camera was read; of others nothing is known, so nothing is said.
+    /// Marks a file as simulated. Other files have no such field, since nothing is known about them.
     #[must_use]
     pub fn of_simulated_file(self) -> Self {
         Self {
@@ -242,8 +242,8 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
-    /// The same line with its pose in the robot's base frame; without a frame, or unless the part was accepted, it stays
-    /// as it is: nothing is said that a robot could move by.
+    /// Adds the pose in the robot's base frame; without a frame, or unless the part was accepted, nothing is added that
+    /// a robot could move by.
     #[must_use]
     pub fn in_robot(self, frame: Option<&'a RobotFrame>, inspection: &Inspection) -> Self {
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
@@ -260,7 +260,7 @@ impl<'a> InspectionLine<'a> {
         Self { robot, ..self }
     }
 
-    /// Of a scene by this name.
+    /// Creates the line of an inspection of this scene.
     pub fn of(scene: &'a str, inspection: &'a Inspection) -> Self {
         let ranking = inspection.ranking.by_part().map(|entry| RankLine {
             part: &entry.part,
@@ -307,12 +307,12 @@ impl<'a> InspectionLine<'a> {
 }
 
 impl InspectionLine<'_> {
-    /// `ok`, `unknown`, `no_part` or `unreadable`.
+    /// Returns `ok`, `unknown`, `no_part` or `unreadable`.
     pub fn status(&self) -> &'static str {
         self.status
     }
 
-    /// The line itself, without its end.
+    /// Returns the line without a line end.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("numbers and text have a JSON form")
     }

@@ -1,6 +1,6 @@
-//! What an inspection leaves behind: a line of JSON for machines, pictures of its stages and the pose report for people.
+//! Results of an inspection: a line of JSON for machines, pictures of its stages and the pose report for people.
 //!
-//! The library alone has the line and tables of text; pictures and reports need the feature `cli`.
+//! The line and text tables are always available; pictures and reports need the feature `cli`.
 
 #[cfg(feature = "cli")]
 mod canvas;

@@ -1,4 +1,4 @@
-//! A picture of every stage of an inspection, to see at which one it went wrong.
+//! Pictures of every stage of an inspection, which show where it went wrong.
 
 use std::{io, path::Path};
 
@@ -21,10 +21,10 @@ use crate::{
     },
 };
 
-/// A picture and the stage that it shows.
+/// A picture of a stage.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// Name of the stage, fit for a file name.
+    /// Name of the stage, usable in file names.
     pub stage: &'static str,
     /// The picture.
     pub image: RgbImage,
@@ -34,9 +34,9 @@ pub(super) const DARK: Rgb<u8> = Rgb([24, 27, 32]);
 pub(super) const LIGHT: Rgb<u8> = Rgb([232, 234, 238]);
 pub(super) const DIM: Rgb<u8> = Rgb([96, 104, 116]);
 pub(super) const FAINT: Rgb<u8> = Rgb([52, 60, 72]);
-/// Told apart by brightness as well as by hue, for those who see few colours.
+/// Distinct in brightness as well as in hue, for people with colour vision deficiency.
 pub(super) const PART: Rgb<u8> = Rgb([255, 196, 61]);
-/// Of what is also printed: dark on white.
+/// Colours for pictures that are also printed: dark on white.
 const PAPER: Rgb<u8> = Rgb([255; 3]);
 const INK: Rgb<u8> = Rgb([24, 27, 32]);
 const PAPER_OUTLINE: Rgb<u8> = Rgb([170, 96, 0]);
@@ -51,13 +51,13 @@ const PLANES: [Rgb<u8>; 4] = [
     Rgb([120, 84, 60]),
 ];
 
-/// What a picture of the segmentation is coloured with.
+/// Colours of a picture of the segmentation.
 struct Palette {
     no_reading: Rgb<u8>,
     planes: [Rgb<u8>; 4],
     rest: Rgb<u8>,
     part: Rgb<u8>,
-    /// How bright the farthest is beside the nearest, 0..1.
+    /// Brightness of the farthest point relative to the nearest, 0..1.
     farthest: f32,
 }
 
@@ -69,7 +69,7 @@ const ON_SCREEN: Palette = Palette {
     farthest: 0.55,
 };
 
-/// Large areas are pale: they take little ink, and the part stands out.
+/// Large areas are pale, which saves ink and makes the part stand out.
 const ON_PAPER: Palette = Palette {
     no_reading: PAPER,
     planes: [
@@ -83,7 +83,7 @@ const ON_PAPER: Palette = Palette {
     farthest: 0.8,
 };
 
-/// Writes a picture, all of it or nothing.
+/// Writes a picture atomically.
 pub fn write_png(path: &Path, picture: &RgbImage) -> Result<(), FileError> {
     write_atomically(path, |writer| {
         let mut png = io::Cursor::new(Vec::new());
@@ -94,7 +94,7 @@ pub fn write_png(path: &Path, picture: &RgbImage) -> Result<(), FileError> {
     })
 }
 
-/// Pictures of the stages that ran, to be printed, too: segmentation (of an organised scene), binary image, contour,
+/// Draws the stages that ran, in colours for print: segmentation (of an organised scene), binary image, contour,
 /// signature.
 pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Picture> {
     let picture = |stage, image: Option<RgbImage>| image.map(|image| Picture { stage, image });
@@ -119,7 +119,7 @@ pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Pictur
     .collect()
 }
 
-/// The pictures side by side at one height, for a first look.
+/// Combines the pictures side by side at one height.
 pub fn strip(pictures: &[Picture]) -> RgbImage {
     const HEIGHT: u32 = 360;
     const GAP: u32 = 8;
@@ -144,7 +144,7 @@ pub fn strip(pictures: &[Picture]) -> RgbImage {
     strip
 }
 
-/// What every pixel was taken for; nearer is brighter. `None` for a scene without rows and columns.
+/// Draws the label of every pixel; nearer is brighter. `None` for a scene that is not organised.
 pub fn segmentation_picture(scene: &SceneCloud, segmentation: &Segmentation) -> Option<RgbImage> {
     coloured(scene, segmentation, &ON_SCREEN)
 }
@@ -181,7 +181,7 @@ fn coloured(
     ))
 }
 
-/// The paper's picture: black on white.
+/// Draws the binary image as in the paper: black on white.
 pub fn binary_picture(plane: &PlaneImage) -> RgbImage {
     let scale = scale_of(plane) as u32;
     let image = &plane.image;
@@ -198,13 +198,13 @@ pub fn binary_picture(plane: &PlaneImage) -> RgbImage {
     )
 }
 
-/// Whole picture elements per pixel of the plane, so that the longer side is at least 600.
+/// Returns the integer scale of the picture at which its longer side has at least 600 pixels.
 fn scale_of(plane: &PlaneImage) -> usize {
     let longer = plane.image.width.max(plane.image.height).max(1);
     600_usize.div_ceil(longer).max(1)
 }
 
-/// The outline, the openings, the centroid and every fourth ray.
+/// Draws the outline, the openings, the centroid and every fourth ray.
 fn fan(plane: &PlaneImage, contour: &Contour, signature: Option<&FanSignature>) -> RgbImage {
     let scale = scale_of(plane);
     let mut canvas = Canvas::new(plane.image.width * scale, plane.image.height * scale, PAPER);
@@ -239,10 +239,10 @@ fn fan(plane: &PlaneImage, contour: &Contour, signature: Option<&FanSignature>) 
     canvas.finish()
 }
 
-/// Size of each curve's half of the picture, picture elements.
+/// Size of each curve's half of the picture, pixels.
 const CURVE: [usize; 2] = [800, 200];
 
-/// L above, Θ below, each over the rays in their order; the faint lines are quarters of the range.
+/// Draws L above and Θ below, each over the rays in order; the faint lines are quarters of the range.
 fn curves(signature: &FanSignature) -> RgbImage {
     let [width, height] = CURVE;
     let mut canvas = Canvas::new(width, 2 * height, PAPER);

@@ -1,4 +1,4 @@
-//! Why one part was nearly, or wrongly, taken for another: the two likeliest ones at the poses found for them.
+//! Pictures of the two likeliest parts at their poses, which show why one was nearly or wrongly taken for the other.
 
 use image::{Rgb, RgbImage, imageops::replace};
 use nalgebra::Point3;
@@ -19,23 +19,23 @@ use crate::{
     units::Metres,
 };
 
-/// A point this far off, beyond three deviations of the noise, is shown.
+/// Distance from which a point is shown as off, in addition to three standard deviations of the noise.
 const OFF: Metres = Metres(0.01);
-/// Picture elements per pixel of the camera.
+/// Pixels of the picture per pixel of the camera.
 const SCALE: f64 = 2.0;
-/// Around the part, pixels of the camera.
+/// Margin around the part, camera pixels.
 const MARGIN: f64 = 14.0;
-/// Above and below a panel, picture elements.
+/// Space above and below a panel, pixels.
 const HEAD: f64 = 34.0;
-/// Of the reference every so many points are looked for.
+/// Every how many reference points one is tested.
 const STEP: usize = 3;
-/// A panel narrower than this has no room for its words, picture elements.
+/// Minimum width of a panel, pixels: narrower ones have no room for the text.
 const LEAST_WIDTH: f64 = 420.0;
-/// What lies on the reference.
+/// Colour of points on the reference.
 const ON: Rgb<u8> = Rgb([84, 92, 104]);
 
 /// Draws the two likeliest parts of different names side by side, as the camera sees them: where the scene is off the
-/// reference, and where the reference is missing in the scene. `None` without a camera, or if nothing was placed.
+/// reference, and where the reference is missing in the scene. `None` without a camera, or without any pose.
 pub fn runner_up_picture(
     scene: &SceneCloud,
     inspection: &Inspection,
@@ -62,14 +62,14 @@ pub fn runner_up_picture(
     })
 }
 
-/// The piece of the camera's picture that shows the part.
+/// The region of the camera's picture that shows the part.
 struct View<'a> {
     scene: &'a SceneCloud,
-    /// Places of the part's points in the scene.
+    /// Indices of the part's points in the scene.
     part: &'a [u32],
     noise_at_1m: f64,
     camera: Intrinsics,
-    /// Upper left and lower right corner, pixels of the camera.
+    /// Upper left and lower right corner, camera pixels.
     corners: [[f64; 2]; 2],
 }
 
@@ -105,7 +105,7 @@ impl<'a> View<'a> {
         is_inside.then(|| [(u - from[0]) * SCALE, (v - from[1]) * SCALE + HEAD].map(f64::round))
     }
 
-    /// How far off counts at a depth, metres.
+    /// Returns the distance from which a point at this depth counts as off, metres.
     fn tolerance(&self, depth: f64) -> f64 {
         OFF.0 + 3.0 * self.noise_at_1m * depth * depth
     }
@@ -136,7 +136,7 @@ impl<'a> View<'a> {
         canvas.finish()
     }
 
-    /// The part's points: how many lie off the reference, of how many.
+    /// Draws the part's points. Returns how many are off the reference, and how many there are.
     fn draw_part(
         &self,
         canvas: &mut Canvas,
@@ -160,7 +160,8 @@ impl<'a> View<'a> {
         (num_off, self.part.len())
     }
 
-    /// The reference's points that the camera looks past: how many, of those that it would see.
+    /// Draws the reference points that are missing in the scene. Returns how many are missing, and how many were
+    /// tested.
     fn draw_missing(
         &self,
         canvas: &mut Canvas,
@@ -186,7 +187,7 @@ impl<'a> View<'a> {
         (num_missing, num_looked_for)
     }
 
-    /// What the camera reads in the direction of a point.
+    /// Returns the depth that the camera reads in the direction of a point.
     fn depth_at(&self, p: &Point3<f64>) -> Option<f64> {
         let (u, v) = self.camera.pixel_of(p)?;
         let (u, v) = (u.round(), v.round());

@@ -1,4 +1,4 @@
-//! A picture of times over sizes: one curve for each number of workers.
+//! Picture of times over sizes: one curve per number of workers.
 
 use image::{Rgb, RgbImage, imageops::replace};
 
@@ -12,13 +12,13 @@ use super::{
 /// Times over sizes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeCurve {
-    /// What it is of.
+    /// Name in the legend.
     pub name: String,
-    /// Sizes and times in milliseconds, both above zero, sizes ascending.
+    /// Sizes and times in milliseconds, both above zero, by ascending size.
     pub points: Vec<[f64; 2]>,
 }
 
-/// Told apart by their dashes as well; the first is serial.
+/// Colours and dashes, distinct without colour; the first is the serial one.
 const LOOKS: [(Rgb<u8>, &[f64]); 4] = [
     (Rgb([244, 246, 250]), &[]),
     (Rgb([255, 196, 61]), &[14.0, 6.0]),
@@ -26,7 +26,7 @@ const LOOKS: [(Rgb<u8>, &[f64]); 4] = [
     (Rgb([178, 110, 200]), &[2.0, 4.0]),
 ];
 
-/// Both axes by factors; `crossover` is marked by an upright line.
+/// Draws the curves on logarithmic axes; `crossover` is marked by a vertical line.
 pub fn scaling_picture(
     title: &str,
     curves: &[TimeCurve],
@@ -67,7 +67,7 @@ pub fn scaling_picture(
     if let Some((size, words)) = crossover {
         let [x, top] = chart.place([size, chart.up.range[1]]);
         canvas.line([x, top], [x, chart.corners[1][1]], DIM);
-        // Curves rise from left to right: above the left half and below the right one is none.
+        // Curves rise from left to right, so the upper left and the lower right are free.
         let bottom = chart.corners[1][1];
         let (at, anchor) = if x < f64::midpoint(chart.corners[0][0], chart.corners[1][0]) {
             ([x + 6.0, top + 16.0], Anchor::Left)
@@ -91,7 +91,7 @@ pub fn scaling_picture(
     canvas.finish()
 }
 
-/// Pictures over each other.
+/// Stacks pictures vertically.
 pub fn stacked(pictures: &[RgbImage]) -> RgbImage {
     let width = pictures.iter().map(RgbImage::width).max().unwrap_or(1);
     let height = pictures.iter().map(RgbImage::height).sum::<u32>().max(1);
@@ -104,7 +104,7 @@ pub fn stacked(pictures: &[RgbImage]) -> RgbImage {
     all
 }
 
-/// 1, 10, 100 and so on within a range.
+/// Returns the powers of ten within a range, with labels.
 fn decades([low, high]: [f64; 2]) -> Vec<(f64, String)> {
     (-6..=9)
         .map(|power| 10.0_f64.powi(power))

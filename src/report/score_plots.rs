@@ -1,4 +1,4 @@
-//! What scores are worth: how often they are right, and what a threshold on them costs.
+//! Plots of scores: calibration, and trade-off of the threshold.
 
 use image::Rgb;
 
@@ -15,7 +15,7 @@ pub(super) const PLOT: f64 = 400.0;
 /// Dashes and gaps of the second curve, pixels.
 const DASHES: [f64; 2] = [9.0, 6.0];
 
-/// Shares over scores, both from 0 to 1.
+/// Creates a chart whose axes both go from 0 to 1.
 fn unit_chart([left, top]: [f64; 2], [across, up]: [&str; 2]) -> Chart<'_> {
     let fifths = || (0..=5).map(|i| f64::from(i) / 5.0);
     let axis = |title| Axis {
@@ -31,7 +31,7 @@ fn unit_chart([left, top]: [f64; 2], [across, up]: [&str; 2]) -> Chart<'_> {
     }
 }
 
-/// A dot a bin, with the number of its guesses; on the diagonal a score says how often it is right.
+/// Draws a dot per bin with its number of guesses; on the diagonal the score equals the share of right guesses.
 pub(super) fn draw_calibration(
     canvas: &mut Canvas,
     calibration: &Calibration,
@@ -50,7 +50,7 @@ pub(super) fn draw_calibration(
     canvas.polyline(bins.iter().map(|(_, at)| *at), (1.0, &[]), PART);
     for (num, at) in bins {
         canvas.dot(at, 5.0, PART);
-        // Above: below the lowest are the numbers of the axis.
+        // Above the dot, since the tick labels are below the lowest ones.
         let above = [at[0], at[1] - 12.0];
         canvas.write(&num.to_string(), LETTERS, above, Anchor::Middle, LIGHT);
     }
@@ -62,7 +62,7 @@ pub(super) fn draw_calibration(
     canvas.write(&words, LETTERS, at, Anchor::Left, DIM_TEXT);
 }
 
-/// What every least score would accept wrongly, and what it would refuse, by the score alone.
+/// Draws for every threshold the shares of false accepts and of refused parts, by the score alone.
 pub(super) fn draw_trade_off(
     canvas: &mut Canvas,
     trade_off: &TradeOff,

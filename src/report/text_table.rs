@@ -1,15 +1,15 @@
-//! Cells in columns, as text.
+//! Tables as text.
 
 use crate::files::visible;
 
-/// Lines of cells under a heading, each column as wide as its widest cell.
+/// Rows of cells under a heading, each column as wide as its widest cell.
 #[derive(Clone, Debug, Default)]
 pub struct TextTable {
     rows: Vec<Vec<String>>,
 }
 
 impl TextTable {
-    /// A table with this heading; the default one has none.
+    /// Creates a table with this heading; the default one has none.
     pub fn new(heading: &[&str]) -> Self {
         let mut table = Self::default();
         table.row(heading.iter().map(ToString::to_string));
@@ -22,7 +22,7 @@ impl TextTable {
         self.rows.push(shown.collect());
     }
 
-    /// The lines, without spaces at their ends.
+    /// Returns the lines, without trailing spaces.
     pub fn lines(&self) -> Vec<String> {
         let num_columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let widths: Vec<usize> = (0..num_columns)

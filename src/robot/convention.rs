@@ -1,6 +1,6 @@
-//! The conventions in which robots are told a pose.
+//! The conventions in which controllers expect a pose.
 //!
-//! What each means, and by which source:
+//! What each means, and the sources for it:
 //!
 //! | convention | rotation | units | source |
 //! | --- | --- | --- | --- |
@@ -12,9 +12,9 @@
 //! | Stäubli | R = Rx(rx)·Ry(ry)·Rz(rz) | mm, degrees | `RoboDK` as it writes VAL 3; Mech-Mind |
 //! | Doosan | R = Rz(A)·Ry(B)·Rz(C) | mm, degrees | Mech-Mind; Vathos |
 //!
-//! The makers' own manuals were at hand for ABB and Universal Robots only, and nothing was tried on a controller.
-//! Some can be set to other units or angles; what is written here is their default. `assets/conventions.md` has a
-//! table of one pose in all of them.
+//! Only the manuals of ABB and Universal Robots were available, and nothing was tried on a controller. Some controllers
+//! can be set to other units or angles; this is their default. `assets/conventions.md` shows one pose in all
+//! conventions.
 
 use serde::{Deserialize, Serialize};
 
@@ -60,7 +60,7 @@ pub(super) enum Layout {
     RotationVector,
     Angles {
         order: Order,
-        /// True where the angle of the rightmost rotation is named first.
+        /// True if the angle of the rightmost rotation comes first.
         reversed: bool,
     },
 }
@@ -96,14 +96,14 @@ impl Convention {
         }
     }
 
-    /// The convention of this [`name`](Self::name).
+    /// Finds the convention with this [`name`](Self::name).
     pub fn by_name(name: &str) -> Option<Self> {
         Self::ALL
             .into_iter()
             .find(|convention| convention.name() == name)
     }
 
-    /// The name for people.
+    /// The name shown to people.
     pub fn title(self) -> &'static str {
         match self {
             Self::Matrix => "Matrix, 4×4",
@@ -119,7 +119,7 @@ impl Convention {
         }
     }
 
-    /// Order, axes and units, in full.
+    /// Order, axes and units of the numbers, in full.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Matrix => {
@@ -164,7 +164,7 @@ impl Convention {
         }
     }
 
-    /// The names of the numbers in their order.
+    /// The names of the numbers, in order.
     pub fn names(self) -> &'static [&'static str] {
         match self {
             Self::Matrix => &[
@@ -182,7 +182,7 @@ impl Convention {
         }
     }
 
-    /// The unit of its lengths.
+    /// The unit of lengths.
     pub fn length_unit(self) -> Unit {
         match self {
             Self::Matrix | Self::QuaternionXyzw | Self::RotationVector | Self::UniversalRobots => {
@@ -194,17 +194,17 @@ impl Convention {
         }
     }
 
-    /// The name and the unit of each number, in their order.
+    /// The name and unit of each number, in order.
     pub fn named_units(self) -> impl Iterator<Item = (&'static str, Unit)> {
         self.names().iter().copied().zip(self.units())
     }
 
-    /// The unit of each number, in their order.
+    /// The unit of each number, in order.
     pub(super) fn units(self) -> Vec<Unit> {
         let length = self.length_unit();
         let turn = match self.layout() {
             Layout::Matrix => {
-                // x, y and z end the first three rows.
+                // x, y and z are the last numbers of the first three rows.
                 let unit = |i| {
                     if i % 4 == 3 && i < 12 {
                         length

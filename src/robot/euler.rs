@@ -1,15 +1,15 @@
-//! Three angles for a rotation: R = R₁(α) · R₂(β) · R₃(γ), read from the left as turns about the axes that move along
-//! (intrinsic), from the right as turns about the axes that stand (extrinsic).
+//! Three angles for a rotation: R = R₁(α) · R₂(β) · R₃(γ). Read from the left, they are turns about axes that move
+//! along (intrinsic); from the right, turns about fixed axes (extrinsic).
 //!
-//! α comes from two entries of R; γ from what is left of R when α is taken back, so that an error of α, which is large
-//! near gimbal lock, is made good by γ and the product stays right to the last digits.
+//! α is computed from two entries of R, and γ from R with α undone. So γ compensates for an error of α, which is large
+//! near gimbal lock, and the product stays accurate to the last digits.
 //! (K. Shoemake, "Euler angle conversion", Graphics Gems IV, 1994, names the cases.)
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::robot_pose::GimbalLock;
 
-/// Which axes, from the left.
+/// The axes, from left to right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
     /// Rz · Ry · Rx; β within ±90°.
@@ -20,14 +20,14 @@ pub(super) enum Order {
     Zyz,
 }
 
-/// In gimbal lock α and γ turn about one axis. Below this sine of the angle between them only their sum is known to
-/// the last digits; γ is set to 0 then, at an error of as much.
+/// In gimbal lock α and γ turn about one axis. Below this sine of the angle between their axes, only their sum or
+/// difference is known to the last digits; γ is then set to 0, with an error of the same size.
 const LOCKED: f64 = 1e-10;
-/// Within this of gimbal lock a tenth of a degree in the pose can be ten degrees in α and γ.
+/// Below this sine, a tenth of a degree in the pose can change α and γ by ten degrees.
 const NEAR: f64 = 0.01;
 
 impl Order {
-    /// The angles α, β, γ in radians, each within ±π, and how near gimbal lock they are.
+    /// Returns the angles α, β, γ in radians, each within ±π, and how near they are to gimbal lock.
     pub(super) fn angles(self, rotation: &UnitQuaternion<f64>) -> ([f64; 3], GimbalLock) {
         let r: Matrix3<f64> = *rotation.to_rotation_matrix().matrix();
         // Sine and cosine of α, times the sine of the angle between the first and the third axis.
@@ -39,7 +39,7 @@ impl Order {
         let aside = sin.hypot(cos);
         let is_locked = aside < LOCKED;
         let alpha = if is_locked {
-            // With γ = 0, where the second column is Ry's: turned by α alone.
+            // With γ = 0 the second column of R is the y axis turned by α alone.
             match self {
                 Self::Zyx | Self::Zyz => (-r[(0, 1)]).atan2(r[(1, 1)]),
                 Self::Xyz => r[(2, 1)].atan2(r[(1, 1)]),
@@ -70,7 +70,7 @@ impl Order {
         ([alpha, beta, gamma], lock)
     }
 
-    /// The rotation by the angles α, β, γ in radians.
+    /// Returns the rotation by the angles α, β, γ in radians.
     pub(super) fn rotation(self, [alpha, beta, gamma]: [f64; 3]) -> UnitQuaternion<f64> {
         let about = |axis: Vector3<f64>, angle| UnitQuaternion::from_scaled_axis(axis * angle);
         let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());

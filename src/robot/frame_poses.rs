@@ -1,4 +1,4 @@
-//! A file of the poses that frames were taken at: where the camera was, or the flange that carries it.
+//! A file with the pose of each frame: the camera's, or that of the flange that carries it.
 //!
 //! ```json
 //! {"frames": {"a.png": {"world_from_camera": [16 numbers, row by row, metres]},
@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The camera's pose is called `world_from_camera` or `base_from_camera`, the flange's `base_from_flange` or
-//! `robot_from_flange`. Other fields are skipped. A flange's pose needs the cell's hand-eye calibration.
+//! `robot_from_flange`. Other fields are ignored. A flange's pose needs the cell's hand-eye calibration.
 
 use std::{
     collections::BTreeMap,
@@ -22,20 +22,21 @@ use crate::{
     geometry::rigid::{RigidTransform, from_row_major},
 };
 
-/// The name of the file in a folder of frames.
+/// Name of the file in a folder of frames.
 pub const FRAME_POSES: &str = "poses.json";
 
-/// Where the arm stood for a frame.
+/// The pose given for a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FramePose {
-    /// Takes the camera's frame to the robot's base.
+    /// Transform from the camera frame to the robot's base frame.
     Camera(RigidTransform),
-    /// Takes the flange's frame to the robot's base.
+    /// Transform from the flange frame to the robot's base frame.
     Flange(RigidTransform),
 }
 
 impl FramePose {
-    /// The camera's pose of the frame called `frame`; that of a flange needs a calibration with the camera on it.
+    /// Returns the camera's pose for the frame called `frame`. A flange's pose needs the calibration of a camera on the
+    /// flange.
     pub fn base_from_camera(
         &self,
         frame: &str,
@@ -61,7 +62,7 @@ impl FramePose {
     }
 }
 
-/// The poses of frames by name.
+/// Poses of frames, by the frame's name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FramePoses {
     frames: BTreeMap<String, FramePose>,
@@ -70,18 +71,18 @@ pub struct FramePoses {
 /// Why a file gives no pose for a frame.
 #[derive(Debug, thiserror::Error)]
 pub enum FramePosesError {
-    /// It cannot be read.
+    /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// It is no JSON of poses.
+    /// The file is not JSON of the expected form.
     #[error("{}: {found}, expected {{\"frames\": {{\"NAME.png\": {{\"world_from_camera\": [16 numbers]}}}}}}", path.display())]
     Format {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The first error in it.
         found: String,
     },
-    /// An entry that holds no pose.
+    /// An entry is not a pose.
     #[error("{}: {frame}: {found}", path.display())]
     Entry {
         /// The file.
@@ -91,17 +92,17 @@ pub enum FramePosesError {
         /// What is wrong with it.
         found: EntryProblem,
     },
-    /// Frames that it does not name.
+    /// The file has no entry for some frames.
     #[error("{}: no pose for {}", path.display(), listed(frames, *num_frames))]
     Missing {
         /// The file.
         path: PathBuf,
         /// The frames without a pose.
         frames: Vec<String>,
-        /// All frames.
+        /// Number of all frames.
         num_frames: usize,
     },
-    /// The flange's pose alone does not say where the camera is.
+    /// A flange's pose was given without a calibration.
     #[error(
         "{frame}: the pose is the flange's, and no calibration says where the camera sits on it"
     )]
@@ -109,7 +110,7 @@ pub enum FramePosesError {
         /// The frame.
         frame: String,
     },
-    /// The calibration is of a camera that does not move.
+    /// A flange's pose was given, but the calibration is that of a fixed camera.
     #[error(
         "{frame}: the pose is the flange's, and by the calibration the camera stands in the cell"
     )]
@@ -119,31 +120,31 @@ pub enum FramePosesError {
     },
 }
 
-/// What is wrong with an entry.
+/// Why an entry is not a pose.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EntryProblem {
-    /// None of the known names.
+    /// None of the known fields.
     #[error("no world_from_camera and no base_from_flange")]
     NoPose,
-    /// Two poses that may contradict each other.
+    /// Both the camera's and the flange's pose, which may contradict each other.
     #[error("both the camera's and the flange's pose")]
     TwoPoses,
-    /// Not 16.
+    /// Not 16 numbers.
     #[error("{found} numbers, expected the 16 of a 4×4 matrix")]
     Count {
-        /// How many.
+        /// Number of numbers.
         found: usize,
     },
-    /// The numbers stand column after column.
+    /// The numbers are written column by column.
     #[error("the matrix ends in its shift: it is written column by column, expected row by row")]
     ColumnByColumn,
     /// The matrix also stretches or mirrors.
     #[error("the matrix is not rigid: it stretches, mirrors or does not end in 0 0 0 1")]
     NotRigid,
-    /// No robot reaches as far.
+    /// Farther from the base than any robot reaches; probably millimetres.
     #[error("the camera is {metres:.0} m from the robot's base, expected metres")]
     FarAway {
-        /// How far.
+        /// Distance from the base in metres.
         metres: f64,
     },
 }
@@ -179,7 +180,7 @@ impl Advice for FramePosesError {
     }
 }
 
-/// Frames shown by name before the rest is only counted.
+/// Number of frames listed by name; the others are only counted.
 const SHOWN: usize = 3;
 
 fn listed(frames: &[String], num_frames: usize) -> String {
@@ -197,11 +198,11 @@ fn listed(frames: &[String], num_frames: usize) -> String {
     )
 }
 
-/// A larger file is no list of poses.
+/// Largest file that is read, bytes.
 const MAX_BYTES: u64 = 4 << 20;
-/// Matrices are copied with four decimals at least.
+/// Tolerance for a rigid matrix: people copy at least four decimals.
 const COPIED: f64 = 1e-3;
-/// No robot's camera is further from its base, metres.
+/// Greatest distance of a camera from the robot's base, metres.
 const FARTHEST: f64 = 50.0;
 
 #[derive(Deserialize)]
@@ -248,7 +249,7 @@ fn matrix(numbers: &[f64]) -> Result<RigidTransform, EntryProblem> {
 }
 
 impl FramePoses {
-    /// Reads the poses of these frames; entries of other frames are not looked at.
+    /// Reads the poses of the frames called `names`; entries of other frames are ignored.
     pub fn read(path: &Path, names: &[String]) -> Result<Self, FramePosesError> {
         let text = read_text(path, MAX_BYTES)?;
         let file: PoseFile =
@@ -280,7 +281,7 @@ impl FramePoses {
         Ok(Self { frames })
     }
 
-    /// The pose of a frame, if it was one of those asked for.
+    /// Returns the pose of a frame that [`read`](Self::read) was asked for.
     pub fn of(&self, name: &str) -> Option<&FramePose> {
         self.frames.get(name)
     }

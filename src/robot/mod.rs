@@ -1,21 +1,20 @@
-//! From the camera to the robot: where the robot's base stands, what a pose is called in its frame, and in which
-//! numbers its controller wants it.
+//! From the camera to the robot: where the camera stands in the robot's base frame, where the part is in it, and in
+//! which numbers the robot's controller expects a pose.
 //!
-//! Three transforms that are easily taken for each other, each with its own name:
+//! Three transforms are easily confused; each has its own name:
 //!
 //! | name | is | for |
 //! | --- | --- | --- |
-//! | `camera_from_part` | the *pose*: where a point of the enrolled part is before the camera now | everything inside |
-//! | `robot_from_part` | the same pose in the robot's base frame | a path that is written in the part's own frame |
-//! | `robot_offset` | the *offset from the standard position*, in the robot's base frame | a path that was taught in the robot's base frame with the part at its standard position |
+//! | `camera_from_part` | the *pose*: from the enrolled part to the part in front of the camera | everything inside |
+//! | `robot_from_part` | the same pose in the robot's base frame | a path written in the part's own frame |
+//! | `robot_offset` | the *offset from the standard position*, in the robot's base frame | a path taught in the robot's base frame with the part at its standard position |
 //!
-//! The part's own frame is the camera's frame at the moment of enrolling, so the standard position is the one at which
-//! `camera_from_part` is the identity. There `robot_from_part` is `robot_from_camera`, which is not the identity, and
-//! `robot_offset` is.
+//! The part's own frame is the camera's frame at enrolment, so `camera_from_part` is the identity at the standard
+//! position. There `robot_offset` is the identity too, while `robot_from_part` is `robot_from_camera`.
 //!
-//! The offset that the window shows is a fourth thing, for people: how far the part's *middle* moved, along the
-//! camera's axes. It has the same rotation angle as `robot_offset` and another shift, since a turn about a far origin
-//! shifts the middle too. It is nothing to give to a robot.
+//! The offset that the window shows is a fourth transform, for people only: how far the part's *middle* moved, along
+//! the camera's axes. It has the same rotation angle as `robot_offset` but another shift, since a rotation about a
+//! distant origin also moves the middle. Never give it to a robot.
 
 pub mod arm;
 pub mod calibration;
@@ -40,24 +39,24 @@ pub use self::{
     written::{WrittenPose, WrittenPoseError, parse_written_pose},
 };
 
-/// Where the camera stands in the robot's base frame, and by which calibration.
+/// Pose of the camera in the robot's base frame, and the calibration that it comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotFrame {
-    /// Takes a point before the camera into the robot's base frame.
+    /// Transform from the camera frame to the robot's base frame.
     pub robot_from_camera: RigidTransform,
-    /// Which calibration this is, for people.
+    /// Name of the calibration, for people.
     pub name: String,
 }
 
 impl RobotFrame {
-    /// Takes a point of the part, as it was enrolled, to where it is in the robot's base frame now.
+    /// Returns the transform from the part's own frame to its present pose in the robot's base frame.
     pub fn robot_from_part(&self, camera_from_part: &RigidTransform) -> RigidTransform {
         self.robot_from_camera * camera_from_part
     }
 
-    /// Takes a point of a path that was taught in the robot's base frame, with the part at its standard position, to
-    /// where it has to be now: `robot_from_camera * camera_from_part * camera_from_robot`. Multiplied from the left,
-    /// it moves taught poses too: `robot_offset * robot_from_tool_taught`.
+    /// Returns the transform that moves a path taught in the robot's base frame, with the part at its standard
+    /// position, to where it must be now: `robot_from_camera * camera_from_part * camera_from_robot`. Multiplied from
+    /// the left, it also moves taught poses: `robot_offset * robot_from_tool_taught`.
     pub fn robot_offset(&self, camera_from_part: &RigidTransform) -> RigidTransform {
         self.robot_from_camera * camera_from_part * self.robot_from_camera.inverse()
     }
@@ -70,7 +69,7 @@ mod tests {
     use super::*;
     use crate::geometry::rigid::from_euler_zyx;
 
-    /// The camera hangs 2 m above the floor, 1.5 m before the robot, and looks back at it and down.
+    /// A camera 2 m above the floor and 1.5 m in front of the robot, which looks back and down at it.
     fn frame() -> RobotFrame {
         RobotFrame {
             robot_from_camera: from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]),
@@ -103,7 +102,7 @@ mod tests {
     fn the_offset_carries_a_taught_point_with_the_part() {
         let frame = frame();
         let camera_from_part = from_euler_zyx([-0.05, 0.4, 0.1, -0.1, 0.03, 0.2]);
-        // A nozzle taught 15 cm before a spot of the part at its standard position.
+        // A nozzle taught 15 cm in front of a spot on the part at its standard position.
         let spot = Point3::new(-0.2, 0.3, 1.3);
         let before = Vector3::new(0.0, 0.0, -0.15);
         let taught = frame.robot_from_camera * (spot + before);
@@ -112,7 +111,7 @@ mod tests {
         assert!(((now - spot_now).norm() - 0.15).abs() < 1e-12);
         let expected = frame.robot_from_camera * (camera_from_part * (spot + before));
         assert!((now - expected).norm() < 1e-12);
-        // It is neither of the other two.
+        // The other two transforms do not give this point.
         assert!((frame.robot_from_part(&camera_from_part) * taught - expected).norm() > 0.1);
         assert!((camera_from_part * taught - expected).norm() > 0.1);
     }

@@ -1,7 +1,8 @@
-//! An enrolled part as the target of a hand-eye calibration: what a shop without a checkerboard has.
+//! An enrolled part as the target of a hand-eye calibration, for shops without a checkerboard.
 //!
-//! Its pose comes from the inspection of a capture. The target's origin is put into the middle of the part: the part's own
-//! origin is where the camera was at its enrolment, over a metre away, where a tenth of a degree is two millimetres.
+//! Its pose comes from the inspection of a capture. The target's origin is in the middle of the part: the part's own
+//! origin is where the camera was at its enrolment, over a metre away, where a tenth of a degree moves it by two
+//! millimetres.
 
 use nalgebra::Translation3;
 
@@ -12,27 +13,27 @@ use crate::{
     pipeline::{Inspection, Verdict},
 };
 
-/// The part that a capture shows, as a target.
+/// The part in a capture, as a target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObservedTarget {
-    /// Its name.
+    /// Name of the part.
     pub part: String,
-    /// Which of the library's references it was found by: each has a frame of its own.
+    /// Index of the library reference that was found; each reference has its own frame.
     pub reference: usize,
-    /// The middle of the part before the camera, turned as the part is.
+    /// From the target frame to the camera frame. Its origin is the middle of the reference, its axes are the part's.
     pub camera_from_target: RigidTransform,
 }
 
 /// Why a capture shows no target.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoTarget {
-    /// The inspection was not accepted, for this reason.
+    /// The inspection was not accepted.
     #[error("not accepted: {reason}")]
     NotAccepted {
-        /// Why.
+        /// The reason given by the inspection.
         reason: String,
     },
-    /// Accepted, but without a pose, or with one of several.
+    /// Accepted, but without a pose, or with an ambiguous or approximate one.
     #[error("its pose is not certain")]
     NoPose,
 }
@@ -43,7 +44,7 @@ impl Advice for NoTarget {
     }
 }
 
-/// The part of an inspection as a target.
+/// Returns the part of an accepted inspection as a target.
 pub fn seen_part(inspection: &Inspection, library: &Library) -> Result<ObservedTarget, NoTarget> {
     let part = match &inspection.verdict {
         Verdict::Part {

@@ -1,4 +1,4 @@
-//! A pose in the numbers of a convention: to and fro.
+//! Conversion of poses to and from the numbers of a convention.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// As it stands behind a number; empty for a bare one.
+    /// The unit as written after a number; empty for a bare number.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Metres => "m",
@@ -42,7 +42,7 @@ impl Unit {
         }
     }
 
-    /// Digits behind the point that a person needs: some micrometres and millionths of a turn.
+    /// Decimals that a person needs: some micrometres, and millionths of a turn.
     fn num_decimals(self) -> usize {
         match self {
             Self::Millimetres => 3,
@@ -52,7 +52,7 @@ impl Unit {
         }
     }
 
-    /// How many of it make a metre or a radian.
+    /// Number of these units in a metre or a radian.
     fn per_base(self) -> f64 {
         match self {
             Self::Metres | Self::Radians | Self::One => 1.0,
@@ -75,10 +75,10 @@ pub struct RobotValue {
 }
 
 impl RobotValue {
-    /// The number as a person reads it, without its unit.
+    /// The number rounded for people, without its unit.
     pub fn rounded(&self) -> String {
         let text = format!("{:.*}", self.unit.num_decimals(), self.value);
-        // No minus before what is rounded to zero.
+        // No minus sign before a number that rounds to zero.
         let is_zero = text.bytes().all(|c| matches!(c, b'-' | b'.' | b'0'));
         if is_zero {
             text.trim_start_matches('-').to_owned()
@@ -124,7 +124,7 @@ impl RobotPose {
         self.values.iter().map(|value| value.value).collect()
     }
 
-    /// One line for people: every number with its name and unit.
+    /// One line for people: each number with its name and unit.
     pub fn line(&self) -> String {
         let values = self.values.iter().map(|value| {
             let text = format!("{} {} {}", value.name, value.rounded(), value.unit.symbol());
@@ -134,10 +134,10 @@ impl RobotPose {
     }
 }
 
-/// Why numbers are no pose.
+/// Why numbers are not a pose.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ConventionError {
-    /// Too few or too many.
+    /// Too few or too many numbers.
     #[error("{} has {needed} numbers ({}), {found} are given", convention.title(), convention.names().join(" "))]
     Count {
         /// The convention.
@@ -147,12 +147,12 @@ pub enum ConventionError {
         /// Numbers needed.
         needed: usize,
     },
-    /// Infinite or not a number.
+    /// A number is infinite or NaN.
     #[error("{name} is {value}, expected a finite number")]
     NotFinite {
-        /// Its name in the convention.
+        /// Name of the number in the convention.
         name: &'static str,
-        /// What it is.
+        /// The number.
         value: f64,
     },
     /// The quaternion is not of unit length.
@@ -183,18 +183,18 @@ impl Advice for ConventionError {
     }
 }
 
-/// A person copies four decimals: a quaternion or matrix that is off by more is another thing.
+/// Tolerance for a unit quaternion and a rigid matrix: people copy at least four decimals.
 const COPIED: f64 = 1e-3;
 
 impl Convention {
-    /// The pose in this convention's numbers.
+    /// Converts a pose to the numbers of this convention.
     pub fn write(self, pose: &RigidTransform) -> RobotPose {
         let rotation = &pose.rotation;
         let mut gimbal_lock = GimbalLock::Clear;
         let turn: Vec<f64> = match self.layout() {
             Layout::Matrix => Vec::new(),
             Layout::Xyzw | Layout::Wxyz => {
-                // Of the two quaternions of a rotation the one with a scalar that is not negative.
+                // Of a rotation's two quaternions, take the one whose scalar is not negative.
                 let sign = if rotation.w < 0.0 { -1.0 } else { 1.0 };
                 let [x, y, z, w] =
                     [rotation.i, rotation.j, rotation.k, rotation.w].map(|q| q * sign);
@@ -226,7 +226,7 @@ impl Convention {
         let values = self.names().iter().zip(self.units()).zip(numbers);
         let values = values.map(|((name, unit), number)| RobotValue {
             name,
-            // Adding 0 makes a plain zero of a negative one.
+            // Adding 0 turns -0 into 0.
             value: number * unit.per_base() + 0.0,
             unit,
         });
@@ -239,7 +239,7 @@ impl Convention {
         }
     }
 
-    /// The pose that these numbers stand for, in the convention's order and units.
+    /// Returns the pose given by these numbers, which are in the convention's order and units.
     pub fn read(self, numbers: &[f64]) -> Result<RigidTransform, ConventionError> {
         let names = self.names();
         if numbers.len() != names.len() {
@@ -295,7 +295,7 @@ impl Convention {
             return None;
         };
         let [first, middle, last] = *self.names().last_chunk::<3>()?;
-        // γ is the one set to 0.
+        // γ is the angle that was set to 0.
         let zeroed = if reversed { first } else { last };
         match lock {
             GimbalLock::Clear => None,

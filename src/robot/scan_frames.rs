@@ -1,6 +1,6 @@
 //! The frames of a scan with the poses of their cameras, from a folder, a recording or single files.
 //!
-//! The poses come from the file that is named, else from the recording, else from [`FRAME_POSES`] beside the frames.
+//! The poses come from the file given, else from the recording, else from [`FRAME_POSES`] beside the frames.
 
 use std::{
     ops::ControlFlow,
@@ -24,25 +24,25 @@ use crate::{
     stages::scene::{SceneCloud, scene_from_image},
 };
 
-/// A frame, and where the arm stood if the recording says it.
+/// A frame, and the arm's pose if the recording has one.
 #[derive(Clone, Debug)]
 pub struct ScanFrame {
     /// The frame's file name.
     pub name: String,
-    /// What the camera saw, in camera space.
+    /// The frame's cloud, in camera space.
     pub scene: Arc<SceneCloud>,
-    /// Takes the flange's frame to the robot's base.
+    /// Transform from the flange frame to the robot's base frame.
     robot_from_flange: Option<RigidTransform>,
 }
 
 /// Progress of [`read_frames`].
 #[derive(Debug)]
 pub enum FrameNews<'a> {
-    /// The number of frames to be read is known.
+    /// The number of frames, before the first is read.
     Total(usize),
-    /// A frame was read, and this is odd about it.
+    /// A frame was read: its name and the warnings about it.
     Read(&'a str, &'a [CaptureWarning]),
-    /// A frame cannot be read and is left out.
+    /// A frame cannot be read and was skipped.
     Skipped(&'a SkippedCapture),
 }
 
@@ -52,15 +52,15 @@ pub enum ScanFramesError {
     /// A frame or the folder cannot be read.
     #[error(transparent)]
     Frames(#[from] CaptureError),
-    /// Neither the frames nor a file beside them hold poses.
+    /// Neither the frames nor a file beside them have poses.
     #[error(
         "no poses: neither the frames nor a {FRAME_POSES} beside them say where the camera was"
     )]
     NoPoses,
-    /// The poses do not suffice.
+    /// Poses are missing or unusable.
     #[error(transparent)]
     Poses(#[from] FramePosesError),
-    /// They are the flange's, and what says where the camera sits on it cannot be used.
+    /// The poses are the flange's, and the calibration cannot be read.
     #[error("the poses are the flange's, and the calibration cannot be used: {0}")]
     Calibration(#[from] CalibrationError),
     /// The caller cancelled.
@@ -82,7 +82,7 @@ impl Advice for ScanFramesError {
     }
 }
 
-/// Reads the frames of one folder or recording, or these files; `told` breaks off.
+/// Reads the frames of one folder or recording, or the files given. `told` receives the progress and may cancel.
 pub fn read_frames(
     paths: &[PathBuf],
     told: &mut dyn FnMut(FrameNews<'_>) -> ControlFlow<()>,
@@ -132,7 +132,7 @@ pub fn read_frames(
     Ok(frames)
 }
 
-/// The file of poses that lies beside the frames, if there is one.
+/// Returns the file of poses beside the frames, if there is one.
 pub fn poses_beside(paths: &[PathBuf]) -> Option<PathBuf> {
     let first = paths.first()?;
     let folder = if first.is_dir() {
@@ -143,8 +143,7 @@ pub fn poses_beside(paths: &[PathBuf]) -> Option<PathBuf> {
     Some(folder.join(FRAME_POSES)).filter(|file| file.is_file())
 }
 
-/// The frames with the poses of their cameras. Poses of the flange need the calibration of a camera on it, which is read
-/// only for them.
+/// Joins the frames with the poses of their cameras. `calibration` is called only if a pose is the flange's.
 pub fn with_poses(
     paths: &[PathBuf],
     given: Option<&Path>,

@@ -1,40 +1,39 @@
-//! A pose as a person writes it for a robot: the name of its convention, then the numbers. Sixteen bare numbers are a
-//! matrix.
+//! A robot pose written by a person: the name of its convention, then the numbers. Sixteen bare numbers are a matrix.
 
 use super::{Convention, ConventionError};
 use crate::{error::Advice, files::Row, geometry::rigid::RigidTransform};
 
-/// A pose that a person wrote, and how.
+/// A pose that a person wrote, and its convention.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WrittenPose {
-    /// The pose.
+    /// The pose, in metres.
     pub pose: RigidTransform,
-    /// In which convention it was written.
+    /// The convention in which it was written.
     pub convention: Convention,
 }
 
-/// Why words are no pose.
+/// Why a text is not a pose.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WrittenPoseError {
-    /// The first word names no convention.
+    /// The first word is not the name of a convention.
     #[error("no convention is called {name:?}")]
     NoSuchConvention {
-        /// The word.
+        /// The first word.
         name: String,
     },
-    /// A word where a number is needed.
+    /// A word stands where a number is expected.
     #[error("{word:?} is not a number")]
     NoNumber {
         /// The word.
         word: String,
     },
-    /// Bare numbers, and not those of a matrix.
+    /// Numbers without a convention, other than the 16 of a matrix.
     #[error("{found} numbers without the name of a convention")]
     NoConvention {
-        /// How many.
+        /// Number of numbers.
         found: usize,
     },
-    /// The numbers are no pose in their convention.
+    /// The numbers are not a pose in their convention.
     #[error(transparent)]
     Numbers(#[from] ConventionError),
 }
@@ -70,7 +69,7 @@ pub fn parse_written_pose(text: &str) -> Result<WrittenPose, WrittenPoseError> {
     } else {
         (None, text)
     };
-    // As it is copied out of JSON.
+    // Brackets remain when the numbers are copied out of JSON.
     let bare = rest.trim().trim_start_matches('[').trim_end_matches(']');
     let row = Row::of(bare);
     let numbers = row

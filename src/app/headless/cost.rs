@@ -1,4 +1,4 @@
-//! What a frame of the window costs, at rest, while the view is turned, and while a source is followed.
+//! Measures the cost of a frame at rest, while the view is rotated, and while a source is followed.
 
 use std::{
     thread,
@@ -25,39 +25,39 @@ use crate::{
 /// Times over many frames, milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FrameCost {
-    /// What happens in the frames.
+    /// What happens during the frames.
     pub what: &'static str,
-    /// Frames measured.
+    /// Number of measured frames.
     pub num_frames: usize,
-    /// Processor time of the window's thread, median.
+    /// Median processor time of the window's thread.
     pub busy_p50_ms: f64,
-    /// The same, 95th percentile.
+    /// 95th percentile of the same.
     pub busy_p95_ms: f64,
-    /// Processor time of all threads, mean: with a software driver the drawing is in it. `None` where the system does
-    /// not tell.
+    /// Mean processor time of all threads, which includes the drawing of a software driver. `None` if the system does not
+    /// report it.
     pub all_threads_mean_ms: Option<f64>,
-    /// From frame to frame with the device waited for, median; `None` where it is not.
+    /// Median time from frame to frame, waiting for the device; `None` if frames do not wait.
     pub paced_p50_ms: Option<f64>,
-    /// Share of the points that Inspect's view drew in the last frame, 0..1; `None` where it is not in front.
+    /// Share of the points that the view of Inspect drew in the last frame, 0..1; `None` if Inspect is not in front.
     pub detail: Option<f64>,
 }
 
-/// What the frames cost, and of what window.
+/// Costs of the frames of a window.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WindowCost {
-    /// Points of the scene shown.
+    /// Number of points of the scene shown.
     pub num_points: usize,
-    /// Logical pixels.
+    /// Size of the window, logical pixels.
     pub size: [u32; 2],
-    /// Of each kind.
+    /// One entry per kind of frame.
     pub frames: Vec<FrameCost>,
 }
 
-/// The window's size, logical pixels.
+/// Size of the window, logical pixels.
 const SIZE: [u32; 2] = [1440, 900];
 
-/// Opens the window without a display and measures `num_frames` frames of each kind: Inspect at rest and while its view
-/// is turned, then every other workspace with that scene in it while the pointer moves over it.
+/// Opens the window without a display and measures `num_frames` frames of each kind: Inspect at rest, while its view is
+/// rotated, and live, then every other workspace with that scene while the pointer moves over it.
 pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCost, ViewError> {
     let mut window = HeadlessWindow::open(SIZE, options)?;
     window.settle();
@@ -86,7 +86,7 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
             vec![Event::PointerMoved(middle), button(true)],
             Pace::InStep,
         );
-        // The hand goes to and fro.
+        // The pointer swings back and forth.
         let hand = |i: usize| {
             let swing = (i as f32 * 0.12).sin() * 260.0;
             vec![Event::PointerMoved(middle + Vec2::new(swing, swing * 0.3))]
@@ -103,7 +103,7 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
     })
 }
 
-/// Frames that show a new result while the simulated cell is followed; those in between are as those at rest.
+/// Measures frames that show a new result while the simulated cell is followed; those in between cost as much as at rest.
 fn live(window: &mut HeadlessWindow, num_frames: usize) -> FrameCost {
     let generation = |window: &HeadlessWindow| {
         let shown = window.window().state().session.shown.as_ref();
@@ -134,7 +134,7 @@ fn live(window: &mut HeadlessWindow, num_frames: usize) -> FrameCost {
 /// Fills a workspace before it is measured.
 type Prepare = fn(&mut HeadlessWindow);
 
-/// Each as full as a person would have it: a part to enrol, a case under the glass, every method run.
+/// Measures the other workspaces with typical content: in Enrol a part to enrol, in Align an alignment.
 fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<FrameCost> {
     let prepared: [(&str, WorkspaceKind, Prepare); 5] = [
         ("Enrol, pointer moving", WorkspaceKind::Enrol, |window| {
@@ -179,7 +179,7 @@ fn frames(
     })
 }
 
-/// As [`frames`], each drawn by `frame`.
+/// Like [`frames`], but each frame is drawn by `frame`.
 fn measured(
     what: &'static str,
     window: &mut HeadlessWindow,
@@ -187,11 +187,11 @@ fn measured(
     pace: Pace,
     frame: impl Fn(&mut HeadlessWindow, usize) -> FrameTime,
 ) -> FrameCost {
-    /// Frames in which caches fill and the view learns how slow the device is.
+    /// Number of unmeasured first frames, in which caches fill and the view adapts to the speed of the device.
     const NUM_FIRST: usize = 12;
     let mut draw = |i| {
         let time = frame(window, i);
-        // Outside the time taken: a device that is behind must not fill the memory.
+        // Not measured: keeps the queue of a slow device from filling the memory.
         window.wait();
         time
     };

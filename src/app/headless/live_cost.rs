@@ -1,4 +1,5 @@
-//! Live on the simulated cell for minutes: is the rate held, does the memory grow, is the window's thread ever busy?
+//! Runs Live on the simulated cell for minutes and measures whether the rate holds, the memory grows or the window's thread is
+//! blocked.
 
 use std::{
     fs, thread,
@@ -20,38 +21,37 @@ use crate::{
     bench::{cpu_wait_seconds, quantile},
 };
 
-/// What one stretch of time was like.
+/// Measurements of one stretch of time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LiveSample {
-    /// When it ended, seconds from the beginning.
+    /// End of the stretch, seconds from the beginning.
     pub until_s: f64,
-    /// Frames a second that came, and that were inspected.
+    /// Frames per second that arrived.
     pub captured_per_s: f64,
-    /// The same of those inspected.
+    /// Frames per second that were inspected.
     pub inspected_per_s: f64,
-    /// From a frame's arrival to its verdict, median of the last ones, milliseconds.
+    /// Median time from a frame's arrival to its verdict over the last frames, milliseconds.
     pub latency_ms: f64,
-    /// Frames that the window drew.
+    /// Number of frames that the window drew.
     pub num_drawn: usize,
-    /// Processor time of the window's thread in a frame that shows a new result, median, milliseconds.
+    /// Median processor time of the window's thread in a frame that shows a new result, milliseconds.
     pub busy_p50_ms: f64,
-    /// The same, 95th percentile.
+    /// 95th percentile of the same.
     pub busy_p95_ms: f64,
-    /// The longest that the window's thread was away, milliseconds of the clock.
+    /// Longest time that the window's thread was busy with one frame, milliseconds of elapsed time.
     pub longest_ms: f64,
-    /// How much of that it could have gone on, and waited for a core that others had; `None` where the system does not
-    /// tell.
+    /// Part of that time in which the thread was ready but waited for a free core; `None` if the system does not report it.
     pub longest_waited_ms: Option<f64>,
-    /// Memory of the process at the end, megabytes; `None` where the system does not tell.
+    /// Memory of the process at the end, megabytes; `None` if the system does not report it.
     pub memory_mb: Option<f64>,
 }
 
-/// The window's size, logical pixels.
+/// Size of the window, logical pixels.
 const SIZE: [u32; 2] = [1440, 900];
-/// How often a display shows a picture.
+/// Refresh interval of a display.
 const TICK: Duration = Duration::from_micros(16_667);
 
-/// Follows the simulated line in a window without a display, and tells of every stretch as it ends.
+/// Follows the simulated line in a window without a display, and reports every stretch to `told` as it ends.
 pub fn live_stretches(
     num_stretches: usize,
     stretch: Duration,
@@ -90,7 +90,7 @@ pub fn live_stretches(
     Ok(stretches)
 }
 
-/// Frames that came and frames that were inspected since following began.
+/// Number of frames that arrived and that were inspected since following began.
 fn seen(status: &LiveStatus) -> (u64, u64) {
     (
         status.num_inspected + status.num_dropped,
@@ -98,16 +98,17 @@ fn seen(status: &LiveStatus) -> (u64, u64) {
     )
 }
 
-/// A frame of the window's thread.
+/// Time of the window's thread for one frame.
 #[derive(Clone, Copy, Default)]
 struct UiThreadTime {
-    /// By the clock, seconds.
+    /// Elapsed time, seconds.
     whole_s: f64,
-    /// Of that, how long it waited for a core.
+    /// Part of it spent waiting for a core, seconds.
     waited_s: Option<f64>,
 }
 
-/// Draws as a display would have it; the busy times of the frames with a new result, milliseconds, and the longest frame.
+/// Draws frames at a display's rate. Returns the processor times of the frames with a new result, milliseconds, and the
+/// longest frame.
 fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, UiThreadTime) {
     let mut busy = Vec::new();
     let mut longest = UiThreadTime::default();
@@ -129,14 +130,14 @@ fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, UiThreadT
         if generation(window) != before {
             busy.push(time.busy * 1e3);
         }
-        // Outside the time taken: a device that is behind must not fill the memory.
+        // Not measured: keeps the queue of a slow device from filling the memory.
         window.wait();
         thread::sleep(TICK.saturating_sub(began.elapsed()));
     }
     (busy, longest)
 }
 
-/// Memory of this process that is in use, megabytes.
+/// Returns the resident memory of this process, megabytes.
 fn memory_mb() -> Option<f64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;

@@ -1,4 +1,5 @@
-//! Frames drawn for real. Without any graphics device these say so and pass, unless `PARTSIGHT_REQUIRE_GPU` is set.
+//! Tests with frames that are really drawn. Without a graphics device they print a message and pass, unless
+//! `PARTSIGHT_REQUIRE_GPU` is set.
 
 use egui::{Key, Modifiers, PointerButton, Pos2};
 
@@ -46,14 +47,14 @@ fn a_frame_in_which_nothing_changed_uploads_prepares_and_draws_nothing() {
     }
     assert_eq!(window.counts(), before);
 
-    // Over the view: it hears the key.
+    // With the pointer over it, the view takes keys.
     let over = Pos2::new(500.0, 400.0);
     window.frame(vec![Event::PointerMoved(over)], Pace::InStep);
     window.frame(press(Key::ArrowLeft), Pace::InStep);
     window.frame(Vec::new(), Pace::InStep);
     let turned = window.counts();
     assert!(turned.pictures > before.pictures, "the view did not turn");
-    // Turning draws anew, but from what is there.
+    // Rotating redraws without uploading anything.
     assert_eq!((turned.uploads, turned.made), (before.uploads, before.made));
 }
 
@@ -72,7 +73,7 @@ fn another_choice_of_lines_uploads_lines_alone_and_once() {
     assert_eq!(window.counts(), after);
 }
 
-/// Notes what a screen reader is told to read.
+/// Collects the texts for a screen reader.
 pub(super) fn take_words(output: &FullOutput, says: &mut Vec<String>) {
     let Some(update) = &output.platform_output.accesskit_update else {
         return;
@@ -108,7 +109,7 @@ fn a_device_that_refuses_something_is_said_in_words_and_the_rest_works() {
     window.frame(Vec::new(), Pace::InStep);
     assert!(says(&window, "No 3-D view") && says(&window, "reported an error"));
     assert!(says(&window, "Front door, left") && !window.closes());
-    // The next part is captured and inspected all the same.
+    // The next part is still captured and inspected.
     window.frame(press(Key::Space), Pace::InStep);
     assert!(window.settle());
     assert!(says(&window, "Simulated frame 2"), "{:?}", window.says);
@@ -140,7 +141,7 @@ fn turning_draws_less_on_a_slow_device_and_everything_at_rest() {
     for i in 1..=12 {
         let to = from + Vec2::new(8.0 * i as f32, 0.0);
         window.frame(vec![Event::PointerMoved(to)], Pace::InStep);
-        // As slow as a device can be: no figure of this machine decides.
+        // Slow on any machine, so that the test does not depend on this one's speed.
         thread::sleep(std::time::Duration::from_millis(70));
     }
     assert!(window.window().detail_of_view() < 1.0, "all of it is drawn");

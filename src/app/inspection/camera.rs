@@ -1,7 +1,7 @@
 //! The camera in use, shared by the threads: at most one is open.
 //!
-//! A source that goes on by itself is closed as soon as nobody wants its frames. A recording or a watched folder stays
-//! open in between: the next frame that is asked for is the next one there.
+//! A continuous source is closed as soon as nobody uses its frames. A recording or a watched folder stays open in between, so
+//! that the next request gets its next frame.
 
 use std::{
     collections::BTreeMap,
@@ -28,7 +28,7 @@ pub struct Camera {
     views: Arc<Mutex<BTreeMap<String, Arc<FieldOfView>>>>,
 }
 
-/// How a source is opened.
+/// Opens a source.
 type Open = dyn Fn(&SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> + Send + Sync;
 
 impl Default for Camera {
@@ -45,16 +45,16 @@ struct OpenedCamera {
 /// Why there is no frame.
 #[derive(Debug, thiserror::Error)]
 pub enum CameraError {
-    /// The source says why.
+    /// The source reported an error.
     #[error(transparent)]
     Capture(Arc<CaptureError>),
     /// A recording has no more frames.
     #[error("{title} has no more frames")]
     AtItsEnd {
-        /// What a person calls it.
+        /// Title of the recording.
         title: String,
     },
-    /// Nobody waits any more.
+    /// The request was cancelled.
     #[error("nobody waits for the frame any more")]
     Cancelled,
 }
@@ -69,11 +69,11 @@ impl Advice for CameraError {
     }
 }
 
-/// How long one look for a frame takes, before it is looked whether somebody still waits.
+/// Time to wait for a frame before checking for cancellation again.
 const TURN: Duration = Duration::from_millis(50);
 
 impl Camera {
-    /// With another way to open a source.
+    /// Makes a handle that opens sources with `open`.
     pub fn opened_by(
         open: impl Fn(&SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> + Send + Sync + 'static,
     ) -> Self {
@@ -84,8 +84,8 @@ impl Camera {
         }
     }
 
-    /// The source at work: as it is, if it is the one that is open, else opened after the other was closed. A frame
-    /// that comes from now on is waited for with [`Feed::wait`].
+    /// Returns the feed of a source: the open one if it is the same source, else a new one after closing the other. Wait for
+    /// frames with [`Feed::wait`].
     pub fn feed(&self, spec: &SourceSpec) -> Result<Arc<Feed>, CameraError> {
         let mut opened = self.lock();
         if let Some(OpenedCamera { spec: known, feed }) = &*opened
@@ -94,7 +94,7 @@ impl Camera {
         {
             return Ok(Arc::clone(feed));
         }
-        // One camera at a time: two handles of one device would refuse each other.
+        // One camera at a time: two handles to the same device would exclude each other.
         *opened = None;
         let (open, wanted) = (Arc::clone(&self.open), spec.clone());
         let feed = Feed::start_with(
@@ -111,7 +111,7 @@ impl Camera {
         Ok(feed)
     }
 
-    /// The next frame of a source, waited for until nobody wants it.
+    /// Waits for the next frame of a source, unless cancelled.
     pub fn next(
         &self,
         spec: &SourceSpec,
@@ -124,8 +124,8 @@ impl Camera {
         found
     }
 
-    /// The next frames of a source: `num` of them, or fewer if it ends. Waiting stops when `is_cancelled`. `came`
-    /// is told how many are there.
+    /// Waits for the next `num` frames of a source, or fewer if it ends. Stops when `is_cancelled`. Reports the number of
+    /// frames so far to `came`.
     pub fn frames(
         &self,
         spec: &SourceSpec,
@@ -151,7 +151,7 @@ impl Camera {
         failed.map_or(Ok(frames), Err)
     }
 
-    /// What this source gives to whoever follows it, beside them; it is over where nobody does.
+    /// Returns a feed that gets the frames of this source besides its follower; it has failed if nobody follows the source.
     pub fn tap(&self, spec: &SourceSpec) -> Feed {
         match &*self.lock() {
             Some(opened) if opened.spec == *spec => opened.feed.tap(),
@@ -159,7 +159,7 @@ impl Camera {
         }
     }
 
-    /// Tells a scene of this source what earlier ones showed of the field of view, and remembers what this one shows.
+    /// Tells a scene what earlier ones of this source showed of the field of view, and remembers what this one shows.
     pub fn share_view(&self, spec: &SourceSpec, scene: &mut Arc<SceneCloud>) {
         let mut views = lock(&self.views);
         let known = views.remove(&spec.to_string());
@@ -171,19 +171,19 @@ impl Camera {
         }
     }
 
-    /// Closes a source that goes on by itself, unless somebody follows it.
+    /// Closes a continuous source unless somebody else uses it.
     pub fn rest(&self) {
         let mut opened = self.lock();
         let is_idle =
             |held: &mut OpenedCamera| held.spec.is_live() && Arc::strong_count(&held.feed) == 1;
         let idle = opened.take_if(is_idle);
         drop(opened);
-        // Waits for the camera's thread.
+        // Waits for the camera's thread, so the lock is released first.
         drop(idle);
     }
 
     fn lock(&self) -> MutexGuard<'_, Option<OpenedCamera>> {
-        // What it holds is only ever replaced whole.
+        // Sound after a panic: the content is only ever replaced as a whole.
         lock(&self.opened)
     }
 }
@@ -269,7 +269,7 @@ mod tests {
         let spec: SourceSpec = text.parse().expect("a source");
         let frames = camera.frames(&spec, 3, &|| false, &|_| ());
         assert_eq!(frames.expect("those there").len(), 2);
-        // Then it begins again.
+        // The next request starts the recording again.
         let frames = camera.frames(&spec, 1, &|| false, &|_| ());
         assert_eq!(frames.expect("the first").len(), 1);
     }

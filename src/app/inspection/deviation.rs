@@ -1,4 +1,4 @@
-//! How far every point of the part lies off the enrolled surface, with its sign, for colouring the view.
+//! Signed distance of every point of the part from the enrolled surface, for colouring the view.
 
 use nalgebra::{Isometry3, Point3};
 
@@ -7,8 +7,8 @@ use crate::{
     stages::{reference::Reference, scene::SceneCloud},
 };
 
-/// One deviation per point of the scene, metres, above 0 on the side that the surface's normals point to; NaN where
-/// there is none. Empty without a pose.
+/// Returns one deviation per point of the scene, metres, above 0 on the side of the surface's normals; NaN for points without
+/// one. Empty without a pose.
 pub(in crate::app) fn deviations(
     scene: &SceneCloud,
     inspection: &Inspection,
@@ -23,7 +23,7 @@ pub(in crate::app) fn deviations(
     deviations_at(points.len(), of_part, inspection, reference)
 }
 
-/// The same of any points in camera space: one deviation for each of so many, NaN for those that are not of the part.
+/// Does the same for any points in the camera frame: returns `num_points` deviations, NaN for points that are not in `part`.
 pub(in crate::app) fn deviations_at(
     num_points: usize,
     part: impl Iterator<Item = (usize, Point3<f32>)>,
@@ -36,7 +36,7 @@ pub(in crate::app) fn deviations_at(
     let Some(normals) = &reference.cloud.normals else {
         return Vec::new();
     };
-    // Micrometres are left of a metre: enough for a colour.
+    // In f32, coordinates of about a metre keep micrometres: enough for a colour.
     let part_from_camera: Isometry3<f32> = pose.target_from_source.cast();
     let deviation = |point: &Point3<f32>| {
         let point = part_from_camera * point;

@@ -1,4 +1,4 @@
-//! What the stage pictures draw, prepared once per inspection in its task: plain numbers, ready to be scaled.
+//! Data of the stage pictures, prepared once per inspection in its task: plain numbers, ready to be scaled.
 
 use image::RgbImage;
 use nalgebra::{Isometry2, Point2};
@@ -15,12 +15,12 @@ use crate::{
     },
 };
 
-/// The pictures of the stage strip, in order.
+/// The pictures of the stages, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StagePanel {
-    /// What every point was taken for.
+    /// The label of every point.
     Segmentation,
-    /// The part in its own plane.
+    /// The part projected into its own plane.
     BinaryImage,
     /// Outline, openings, centroid and rays.
     Contour,
@@ -33,7 +33,7 @@ pub enum StagePanel {
 }
 
 impl StagePanel {
-    /// Every picture, in order.
+    /// All pictures, in order.
     pub const ALL: [Self; 6] = [
         Self::Segmentation,
         Self::BinaryImage,
@@ -43,7 +43,7 @@ impl StagePanel {
         Self::Alignment,
     ];
 
-    /// What a person calls it.
+    /// Returns the name shown to the user.
     pub fn title(self) -> String {
         match self {
             Self::Segmentation => text!("inspect-segmentation"),
@@ -55,7 +55,7 @@ impl StagePanel {
         }
     }
 
-    /// The panel that shows what a stage of the pipeline does.
+    /// Returns the picture of a pipeline stage.
     pub fn of(stage: Stage) -> Self {
         match stage {
             Stage::Segment => Self::Segmentation,
@@ -68,98 +68,98 @@ impl StagePanel {
     }
 }
 
-/// A closed or open line in plane space, metres, y up.
+/// A closed or open line in the plane frame, metres, y up.
 pub type PlaneLine = Vec<[f32; 2]>;
 
-/// What is drawn of an inspection. What its stages did not make is not there.
+/// Data drawn for an inspection; `None` or empty for what its stages did not produce.
 #[derive(Debug, Default)]
 pub struct StageFigures {
-    /// What every point was taken for, as the camera sees it.
+    /// The label of every point, as the camera sees it.
     pub segmentation: Option<RgbImage>,
     /// The binary image, black on white.
     pub binary: Option<RgbImage>,
     /// Outline, openings and rays.
     pub contour: Option<ContourFigure>,
-    /// Lengths and angles.
+    /// Ray lengths and ray angles.
     pub signature: Option<SignatureCurves>,
     /// One per entry of the ranking, in its order.
     pub candidates: Vec<RankedPartFigure>,
-    /// Points of the part.
+    /// Number of points of the part.
     pub num_part: usize,
-    /// Points of the scene with a reading.
+    /// Number of points of the scene with a reading.
     pub num_points: usize,
 }
 
-/// The part's shape in its plane.
+/// Outline and rays of the part in its plane.
 #[derive(Debug)]
 pub struct ContourFigure {
-    /// Outline first, then the openings; each closed.
+    /// The outline first, then the openings; each closed.
     pub borders: Vec<PlaneLine>,
-    /// Ends of every fourth ray; all start at the centroid.
+    /// Ends of every fourth ray; all rays start at the centroid.
     pub ray_ends: PlaneLine,
-    /// The centroid.
+    /// Start of all rays.
     pub centroid: [f32; 2],
     /// Smallest and largest coordinates.
     pub bounds: [[f32; 2]; 2],
 }
 
-/// The two curves of a signature.
+/// The two curves of a fan signature.
 #[derive(Debug)]
 pub struct SignatureCurves {
-    /// L, metres.
+    /// Ray lengths L, metres.
     pub lengths: Vec<f32>,
-    /// Θ, radians, continuous.
+    /// Ray angles Θ, radians, continuous.
     pub angles: Vec<f32>,
 }
 
-/// An enrolled part as the ranking placed it.
+/// An enrolled part in the ranking.
 #[derive(Debug)]
 pub struct RankedPartFigure {
-    /// Its name for people.
+    /// Title of the part.
     pub title: String,
-    /// The same for a small picture: a side as its first letter.
+    /// Title for a small picture, with the side as one letter.
     pub short_title: String,
-    /// Its score, 0..1; 0 if it was not examined.
+    /// Score, 0..1; 0 if the part was not examined.
     pub score: f32,
-    /// False if it was left out because its outline is unlike, and others were looked for.
+    /// False if the part was not examined because its outline is too unlike.
     pub is_examined: bool,
-    /// Its outline laid over the scene's, closed; empty if the matcher places nothing.
+    /// Its outline placed over the scene's, closed; empty if the matcher gives no placement.
     pub outline: PlaneLine,
     /// Its signature at the best lag.
     pub curves: Option<SignatureCurves>,
-    /// What became of putting it in its place.
+    /// Result of aligning it with the scene.
     pub alignment: Alignment,
 }
 
-/// What became of putting an enrolled part in its place in the scene.
+/// Result of aligning an enrolled part with the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Alignment {
-    /// It was aligned.
+    /// The part was aligned.
     Done {
         /// Base-10 logarithm of E, square metres, per iteration.
         log_e: Vec<f32>,
         /// Root mean square distance at the end, metres.
         rms_m: f64,
     },
-    /// It was not.
+    /// The part was not aligned.
     None(NotAligned),
 }
 
 /// Why a part was not aligned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotAligned {
-    /// No pose was asked for.
+    /// No pose was requested.
     NotAskedFor,
     /// The reference has no cloud.
     FlatShape,
     /// No pose was found.
     NoPose,
-    /// Other parts were tried first.
+    /// Other parts were examined first.
     LowScore,
 }
 
 impl NotAligned {
-    /// The same in words.
+    /// Returns the text shown to the user.
     pub fn title(self) -> String {
         match self {
             Self::NotAskedFor => text!("inspect-not-asked-for"),
@@ -193,11 +193,11 @@ impl Alignment {
     }
 }
 
-/// More corners than this are finer than any picture shows.
+/// Maximum number of corners of a drawn border; more would not be visible.
 const MAX_CORNERS: usize = 400;
 
 impl StageFigures {
-    /// Prepares them; `shown` knows the references' names for people.
+    /// Prepares the data; `shown` has the titles of the references.
     pub fn of(
         scene: &SceneCloud,
         inspection: &Inspection,
@@ -257,7 +257,7 @@ impl SignatureCurves {
         }
     }
 
-    /// A view's signature, shifted by the lag and turned, beside the scene's.
+    /// Shifts the signature of a view by the lag of its placement and turns it, to be drawn beside the scene's.
     pub(in crate::app) fn placed(
         view: &ReferenceView,
         placement: &ImagePlacement,
@@ -273,7 +273,7 @@ impl SignatureCurves {
         let whole = std::f64::consts::TAU;
         let turned: Vec<f64> = (0..num)
             .map(|ray| {
-                // The view's last ray is followed by its first, a whole circle on.
+                // After the view's last ray its first follows, a full turn further.
                 let again = if ray >= lag { whole } else { 0.0 };
                 angles[at(ray)] + placement.turn.0 + again
             })
@@ -316,7 +316,7 @@ impl RankedPartFigure {
     }
 }
 
-/// "Front door, left" as "Front door L".
+/// Shortens "Front door, left" to "Front door L".
 fn shortened(title: &str) -> String {
     let sides = [(", left", " L"), (", right", " R")];
     let short = sides
@@ -325,14 +325,14 @@ fn shortened(title: &str) -> String {
     short.unwrap_or_else(|| title.to_owned())
 }
 
-/// The border moved and thinned, its first corner repeated at the end.
+/// Moves and thins a border, and repeats its first corner at the end.
 pub(in crate::app) fn closed(border: &[Point2<f64>], moved: &Isometry2<f64>) -> PlaneLine {
     let step = border.len().div_ceil(MAX_CORNERS).max(1);
     let corners = border.iter().step_by(step).chain(border.first());
     corners.map(|corner| plain(&(moved * corner))).collect()
 }
 
-/// The point as it is drawn.
+/// Converts a point for drawing.
 pub(in crate::app) fn plain(point: &Point2<f64>) -> [f32; 2] {
     [point.x as f32, point.y as f32]
 }
@@ -412,7 +412,7 @@ mod tests {
         let why = Alignment::None(NotAligned::LowScore);
         assert!(candidates.len() > num_tried);
         assert!(candidates[num_tried..].iter().all(|c| c.alignment == why));
-        // The best one's is the pose that is reported.
+        // The alignment of the best one gives the reported pose.
         let entry = &inspected.inspection.ranking.entries[0];
         let pose = inspected.inspection.pose.as_ref().expect("a pose");
         assert_eq!(entry.pose.as_ref(), pose.as_ref().ok());

@@ -1,5 +1,5 @@
-//! The library as a recipe wants it: a reference is compared fairly only with scenes that were projected, outlined and
-//! described with the same parameters.
+//! The library prepared for a recipe: a reference can only be compared with scenes that were projected, outlined and described
+//! with the same parameters.
 
 use std::{
     ops::Deref,
@@ -14,16 +14,16 @@ use crate::{
     stages::reference::{Reference, ReferenceParams},
 };
 
-/// The references prepared last with other parameters than the library was loaded with.
+/// The library prepared last with parameters other than the default.
 #[derive(Debug, Default)]
 pub struct PreparedLibraryCache(Mutex<Option<(ReferenceParams, Arc<Library>)>>);
 
 /// A library prepared for a recipe.
 #[derive(Debug)]
 pub enum PreparedLibrary<'a> {
-    /// As it was loaded.
+    /// The library as it was loaded.
     AsLoaded(&'a Library),
-    /// Prepared anew.
+    /// Prepared again with other parameters.
     Anew(Arc<Library>),
 }
 
@@ -39,8 +39,8 @@ impl Deref for PreparedLibrary<'_> {
 }
 
 impl LoadedLibrary {
-    /// The references, prepared as the recipe prepares scenes. Takes as long as loading the library when the
-    /// parameters are neither the default nor those asked for last; `None` when cancelled.
+    /// Returns the references prepared with the recipe's parameters. Takes as long as loading the library unless the
+    /// parameters are the default or those of the last call; `None` if cancelled.
     pub fn fitting(
         &self,
         recipe: &Recipe,
@@ -61,7 +61,7 @@ impl LoadedLibrary {
             if watch.is_cancelled() {
                 return None;
             }
-            // One that has no outline any more keeps the one it has, and its place.
+            // Without an outline at these parameters it keeps the one it was loaded with, and its index.
             let cloud = loaded.cloud.clone();
             let prepared = Reference::prepare(&loaded.name, cloud, meta.coverage, &params);
             Some(prepared.map_or_else(|_| loaded.clone(), |prepared| prepared.with_cut(loaded.cut)))

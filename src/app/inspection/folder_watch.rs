@@ -1,7 +1,7 @@
-//! Notices what another program changes in a folder of entries, such as a command on the library or the recipes.
+//! Detects changes by other programs in a folder of entries, such as a command that changes the library or the recipes.
 //!
-//! A thread looks at names, sizes and times of the visible entries every two seconds. Files are replaced whole, never
-//! written over, so that the time of an entry which is a folder changes with every file in it.
+//! A thread checks names, sizes and times of the visible entries every two seconds. Files are replaced as a whole, never
+//! overwritten, so that the time of an entry that is a folder changes with every file in it.
 
 use std::{
     ffi::{OsStr, OsString},
@@ -16,9 +16,9 @@ use crate::app::{
     task::{Task, TaskContext, TaskError, TaskRunner},
 };
 
-/// Between two looks at whether the watch is still wanted.
+/// Interval for checking cancellation.
 const TURN: Duration = Duration::from_millis(100);
-/// Turns from one look at the folder to the next.
+/// Number of turns between two checks of the folder.
 const NUM_TURNS: usize = 20;
 
 /// Watches one folder.
@@ -29,7 +29,7 @@ pub(in crate::app) struct FolderWatch {
 }
 
 impl FolderWatch {
-    /// Watches nothing yet. The thread has this name.
+    /// Makes a watch without a folder. `name` becomes the name of the thread.
     pub(in crate::app) fn new(name: &'static str, runner: &TaskRunner) -> Self {
         Self {
             task: Task::new(name, runner),
@@ -47,7 +47,7 @@ impl FolderWatch {
         }
     }
 
-    /// True if it has changed since this was asked last.
+    /// True if the folder has changed since the last call.
     pub(in crate::app) fn has_changed(&mut self) -> bool {
         self.task.poll().is_some()
     }
@@ -71,12 +71,12 @@ fn watch(folder: &Path, context: &TaskContext<()>) -> Result<(), TaskError> {
 /// Name, size and time of an entry.
 type Entry = (OsString, u64, Option<SystemTime>);
 
-/// The visible entries in the order of their names; none of a folder that cannot be read.
+/// Lists the visible entries, sorted by name; none if the folder cannot be read.
 fn entries(folder: &Path) -> Vec<Entry> {
     let found = fs::read_dir(folder).into_iter().flatten().flatten();
     let is_visible = |name: &OsStr| {
         let name = name.as_encoded_bytes();
-        // What SQLite shares among its readers changes when it is read, too.
+        // SQLite's shared memory file changes even when the database is only read.
         !name.starts_with(b".") && !name.ends_with(b"-shm")
     };
     let visible = found.filter(|entry| is_visible(&entry.file_name()));

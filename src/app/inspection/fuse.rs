@@ -1,4 +1,4 @@
-//! What the threads do: read shots with their poses and put them together.
+//! Reads shots with their poses and puts them together, in a task.
 
 use std::{
     cell::Cell,
@@ -39,28 +39,28 @@ use crate::{
 pub struct FusedShots {
     /// The shots, and which of them were dropped.
     pub choice: ShotChoice,
-    /// What came of those that were not dropped.
+    /// The result for the shots that were not dropped.
     pub scan: Scan,
-    /// One per shot of the choice, in its order.
+    /// One row per shot of the choice, in its order.
     pub rows: Vec<ShotRow>,
-    /// What the 3-D view shows.
+    /// Data of the 3-D view.
     pub figure: ScanFigure,
-    /// What was odd about the files.
+    /// Problems found in the files.
     pub warnings: Vec<UserError>,
 }
 
 impl FusedShots {
-    /// How many shots the result rests on.
+    /// Number of shots that the result is based on.
     pub fn num_used(&self) -> usize {
         self.scan.used().count()
     }
 
-    /// The pose, by the robot, of the camera in whose space the figure is.
+    /// Pose, according to the robot, of the camera whose frame the figure uses.
     pub fn space(&self) -> Option<RigidTransform> {
         self.scan.used().next().map(|(_, shot)| shot.given)
     }
 
-    /// Where it came from.
+    /// Origin of the scan.
     pub fn origin(&self) -> Origin {
         Origin::Scan {
             name: self.title(),
@@ -69,7 +69,7 @@ impl FusedShots {
         }
     }
 
-    /// What a person calls it.
+    /// Returns the name shown to the user.
     pub fn title(&self) -> String {
         let title = self.choice.set.files.title();
         format!("{title} · {} shots", self.num_used())
@@ -82,22 +82,22 @@ pub enum FuseError {
     /// The frames or their poses cannot be read.
     #[error(transparent)]
     Frames(#[from] ScanFramesError),
-    /// Those of the history cannot be read.
+    /// The shots in the history cannot be read.
     #[error(transparent)]
     Kept(#[from] FrameError),
-    /// They do not fit together.
+    /// The shots do not fit together.
     #[error(transparent)]
     Scan(#[from] ScanError),
-    /// Two shots of one name cannot be told apart.
+    /// Another shot has the same name.
     #[error("{name} is among the shots already")]
     NameTaken {
-        /// The name.
+        /// Name of both shots.
         name: String,
     },
 }
 
 impl FuseError {
-    /// True if a file of poses, named by a person, would help.
+    /// True if the user can help by choosing a file of poses.
     pub fn wants_poses(&self) -> bool {
         matches!(
             self,
@@ -139,10 +139,10 @@ impl Advice for FuseError {
     }
 }
 
-/// Counts what is done of all that a request has to do.
+/// Counts the steps of a request.
 pub(in crate::app) struct Steps<'a> {
     watch: &'a dyn ProgressObserver,
-    /// Takes the steps done, and the steps in all.
+    /// Called with the steps done and the total steps.
     report: &'a dyn Fn(usize, usize),
     done: Cell<usize>,
     total: Cell<usize>,
@@ -172,7 +172,7 @@ impl<'a> Steps<'a> {
     }
 }
 
-/// Each shot's own inspection begins with its segmentation.
+/// The inspection of each shot begins with its segmentation, which counts as one step.
 impl ProgressObserver for Steps<'_> {
     fn begins(&self, stage: Stage) {
         if stage == Stage::Segment {
@@ -185,7 +185,7 @@ impl ProgressObserver for Steps<'_> {
     }
 }
 
-/// What follows the fusion, for the progress.
+/// What follows the fusion; decides the number of steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::app) enum Then {
     /// Every shot is inspected.
@@ -194,7 +194,7 @@ pub(in crate::app) enum Then {
     Enrol,
 }
 
-/// Reads the shots and puts them together; `None` when cancelled.
+/// Reads the shots and puts them together; `None` if cancelled.
 pub(in crate::app) fn fuse(
     request: &ScanRequest,
     then: Then,
@@ -274,7 +274,7 @@ fn read(
     };
     match &request.order {
         ScanOrder::Known(choice) => Ok(choice.clone()),
-        // Only those that were put together are kept.
+        // The history keeps only shots that were not dropped.
         ScanOrder::Kept(kept) => Ok(ShotChoice {
             dropped: BTreeSet::new(),
             set: Arc::new(ShotSet {
@@ -304,7 +304,7 @@ fn read(
                 return Err(FuseError::NameTaken { name });
             }
             let mut files = choice.set.files.clone();
-            // Its entry may have been added to the scan's poses since they were read.
+            // The file may have got a pose for this frame since the scan was read.
             let of_scan = files.poses.clone().or_else(|| poses_beside(&files.frames));
             let paths = std::slice::from_ref(frame);
             let beside = poses_beside(paths);
@@ -338,7 +338,7 @@ fn read(
     }
 }
 
-/// How the fusion is followed from another thread.
+/// Carries progress and cancellation between the threads of a fusion.
 #[derive(Default)]
 struct Relay {
     num_begun: AtomicUsize,
@@ -355,10 +355,10 @@ impl ScanObserver for Relay {
     }
 }
 
-/// How often it is looked whether the fusion is still wanted.
+/// Interval for checking cancellation.
 const LOOKS: Duration = Duration::from_millis(10);
 
-/// Puts them together on a thread of its own, since the watch belongs to this one.
+/// Puts the shots together on a separate thread, because `steps` can only be used on this one.
 fn assembled(shots: &[Shot], params: &ScanParams, steps: &Steps<'_>) -> Result<Scan, ScanError> {
     let relay = Relay::default();
     thread::scope(|scope| {

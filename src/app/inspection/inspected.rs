@@ -1,4 +1,4 @@
-//! What the workspace's thread does: gets a scene, inspects it and prepares what the panels draw.
+//! Inspects a scene or a scan and prepares what the panels draw, in a task.
 
 use std::{sync::Arc, time::Instant};
 
@@ -41,16 +41,16 @@ use crate::{
     },
 };
 
-/// What is inspected or enrolled.
+/// Something to inspect or enrol.
 #[derive(Clone, Debug)]
 pub enum SceneOrScan {
     /// A scene.
     Scene(SceneSource),
-    /// Several shots, to be put together.
+    /// The shots of a scan, to be put together.
     Scan(ScanOrder),
 }
 
-/// What to inspect.
+/// What to inspect, and with which recipe.
 #[derive(Clone, Debug)]
 pub enum InspectJob {
     /// A scene.
@@ -59,64 +59,64 @@ pub enum InspectJob {
     Scan(ScanRequest),
 }
 
-/// Get a scene and inspect it.
+/// A scene to take and inspect.
 #[derive(Clone, Debug)]
 pub struct InspectRequest {
-    /// The scene.
+    /// The source to take the scene from.
     pub source: SceneSource,
-    /// All parameters.
+    /// All parameters of the inspection.
     pub recipe: Arc<NamedRecipe>,
 }
 
-/// A scene with everything that was found in it.
+/// A scene with everything found in it.
 #[derive(Debug)]
 pub struct Inspected {
-    /// Where the scene came from.
+    /// Origin of the scene.
     pub origin: Origin,
     /// When it was inspected.
     pub at: Timestamp,
-    /// The scene.
+    /// The inspected scene.
     pub scene: Arc<SceneCloud>,
-    /// With which parameters.
+    /// The recipe used.
     pub recipe: Arc<NamedRecipe>,
-    /// What was found.
+    /// The results of all stages.
     pub inspection: Inspection,
-    /// What the panels draw.
+    /// Data of the stage pictures.
     pub figures: StageFigures,
-    /// The library it was compared with.
+    /// The library that it was compared with.
     pub library: Arc<LibraryView>,
-    /// What was odd about the file.
+    /// Problems found while reading the scene.
     pub warnings: Vec<CaptureWarning>,
-    /// Middle of the best reference's extent, part space, metres.
+    /// Middle of the best reference's extent, part frame, metres.
     pub middle: Option<Point3<f64>>,
-    /// The nozzle's stand-off over the best reference at its pose; `None` where none is accepted.
+    /// The nozzle's stand-off over the best reference at its pose; `None` unless the verdict is accepted.
     pub stand_off: Option<Result<StandOff, StandOffError>>,
-    /// The part's stored spray path, carried to where it hangs now; `None` where none is stored or nothing accepted.
+    /// The part's stored spray path, carried to the found pose; `None` if none is stored or the verdict is not accepted.
     pub spray: Option<CarriedPath>,
-    /// What the part of that path was enrolled with, part space, metres; empty without a path.
+    /// Points that the part of the spray path was enrolled with, part frame, metres; empty without a path.
     pub part_points: Vec<Point3<f32>>,
-    /// What the 3-D view shows.
+    /// Data of the 3-D view.
     pub view: SceneFigure,
-    /// Of a frame among others: what they say together.
+    /// State of following the source, if this is one of its frames.
     pub followed: Option<LiveFrameContext>,
-    /// The scan that it rests on, if it is one; the scene is then its first shot.
+    /// The scan that was inspected, if it is one; `scene` is then its first shot.
     pub scan: Option<InspectedScan>,
-    /// The same for the history.
+    /// The entry for the history.
     pub entry: NewEntry,
 }
 
 impl Inspected {
-    /// Which part it is as it hangs there.
+    /// The hung part that it belongs to.
     pub(in crate::app) fn hung(&self) -> &HungId {
         &self.entry.record.summary.hung
     }
 
-    /// Serial number, order and operator.
+    /// Traceability of the part.
     pub fn trace(&self) -> &Traceability {
         &self.entry.record.summary.trace
     }
 
-    /// What was inspected, to be inspected once more: all shots of a scan, else the scene.
+    /// Returns what to inspect for the same inspection again: all shots of a scan, else the scene.
     pub fn again(&self) -> SceneOrScan {
         match &self.scan {
             Some(scan) => SceneOrScan::Scan(ScanOrder::Known(scan.fused.choice.clone())),
@@ -128,27 +128,27 @@ impl Inspected {
     }
 }
 
-/// The scan that an inspection rests on.
+/// The scan of an inspection.
 #[derive(Debug)]
 pub struct InspectedScan {
     /// Its shots, put together.
     pub fused: Arc<FusedShots>,
-    /// Where the camera of the first shot stood, by the poses of the scan.
+    /// The robot frame with the camera's pose of the first shot, by the poses of the scan.
     pub robot: Arc<RobotFrame>,
-    /// Surface of the recognised part that no shot shows, camera space, and its share, 0..1.
+    /// Surface of the recognised part that no shot has seen, camera frame, and its share, 0..1.
     pub unseen: Option<(PointSet, f64)>,
 }
 
-/// What a frame stands for that is one of many.
+/// State of following a source at one of its frames.
 #[derive(Clone, Debug)]
 pub struct LiveFrameContext {
     /// Whether the scene moves.
     pub stillness: MotionState,
-    /// What counts.
+    /// The verdict so far.
     pub standing: LiveVerdict,
 }
 
-/// Gets the scene and inspects it.
+/// Takes the scene and inspects it.
 pub fn inspect(
     request: &InspectRequest,
     library_cache: &LibraryCache,
@@ -181,7 +181,7 @@ pub fn inspect(
     Ok(found.prepared(&fitted, &shelved.shown))
 }
 
-/// Puts the shots of a scan together and inspects them, or says why they cannot be put together.
+/// Puts the shots of a scan together and inspects them; the inner error says why they cannot be put together.
 pub(in crate::app) fn inspect_scan(
     request: &ScanRequest,
     library_cache: &LibraryCache,
@@ -223,7 +223,7 @@ pub(in crate::app) fn inspect_scan(
     Ok(Ok(found.prepared(&fitted, &shelved.shown)))
 }
 
-/// An inspection, before what the panels draw of it is made.
+/// An inspection, before the data of the panels is prepared.
 pub(in crate::app) struct FinishedInspection {
     pub(in crate::app) scene: Arc<SceneCloud>,
     pub(in crate::app) origin: Origin,
@@ -231,13 +231,13 @@ pub(in crate::app) struct FinishedInspection {
     pub(in crate::app) recipe: Arc<NamedRecipe>,
     pub(in crate::app) inspection: Inspection,
     pub(in crate::app) followed: Option<LiveFrameContext>,
-    /// Where the scene came from, as the history has it.
+    /// Name of the source for the history.
     pub(in crate::app) source: String,
-    /// The scan that the inspection rests on.
+    /// The scan that was inspected, if it is one.
     pub(in crate::app) scan: Option<FoundScan>,
 }
 
-/// The scan of an inspection, before what the panels draw of it is made.
+/// The scan of an inspection, before the data of the panels is prepared.
 pub(in crate::app) struct FoundScan {
     fused: Arc<FusedShots>,
     robot: Arc<RobotFrame>,
@@ -245,7 +245,7 @@ pub(in crate::app) struct FoundScan {
 }
 
 impl FoundScan {
-    /// The part's points in camera space, each with its place among all.
+    /// The part's points in the camera frame, each with its index among all points.
     fn part(&self) -> impl Iterator<Item = (usize, Point3<f32>)> {
         let figure = &self.fused.figure;
         let points = figure.positions.iter().zip(&self.fused.scan.cloud.is_part);
@@ -253,7 +253,7 @@ impl FoundScan {
         of_part.map(|(place, (at, _))| (place, Point3::from(*at)))
     }
 
-    /// Surface of the recognised part that no shot shows, and its share.
+    /// Returns the surface of the recognised part that no shot has seen, and its share.
     fn unseen(
         &self,
         inspection: &Inspection,
@@ -277,7 +277,7 @@ impl FoundScan {
 }
 
 impl FinishedInspection {
-    /// Middle of the best reference's extent, part space, metres.
+    /// Middle of the best reference's extent, part frame, metres.
     pub(in crate::app) fn middle(
         inspection: &Inspection,
         library: &Library,
@@ -285,7 +285,7 @@ impl FinishedInspection {
         inspection.best_reference(library)?.middle()
     }
 
-    /// Makes what the panels draw: goes through every point.
+    /// Prepares the data of the panels; goes through every point.
     pub(in crate::app) fn prepared(self, library: &Library, shown: &Arc<LibraryView>) -> Inspected {
         let Self {
             scene,
@@ -311,7 +311,7 @@ impl FinishedInspection {
         });
         let middle = Self::middle(&inspection, library);
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-        // Nothing is sprayed at what was not recognised.
+        // No stand-off or path for a part that was not recognised.
         let sprayed = best.zip(pose).filter(|_| inspection.verdict.is_accepted());
         let stand_off = sprayed.map(|(reference, pose)| {
             stand_off(reference, &pose.camera_from_part(), &recipe.stand_off)
@@ -358,7 +358,7 @@ impl FinishedInspection {
             is_simulated: origin.is_simulated(),
             title_of: &|name| shown.title_of(name).to_owned(),
             library: shown.identity.clone(),
-            // What has no JSON form cannot be had again either.
+            // An origin without a JSON form cannot be opened again anyway.
             origin: serde_json::to_string(&origin).ok(),
             picture: figures.segmentation.as_ref(),
             scene: title,

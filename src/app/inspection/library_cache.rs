@@ -1,5 +1,5 @@
-//! What the threads share: the library in use, loaded when first needed and replaced whole when it was changed, and the
-//! camera.
+//! Data shared by the threads: the library in use, which is loaded on first use and replaced as a whole when it changes, the
+//! camera, the recording and the history.
 
 use std::{
     fs,
@@ -24,7 +24,7 @@ use crate::{
     stages::reference::ReferenceParams,
 };
 
-/// A handle to the library, the camera and the recording in use; clones share them.
+/// A handle to the library, the camera, the recording and the history in use; clones share them.
 #[derive(Clone, Debug)]
 pub struct LibraryCache {
     choice: Arc<Mutex<Choice>>,
@@ -35,7 +35,7 @@ pub struct LibraryCache {
 
 #[derive(Debug, Default)]
 struct Choice {
-    /// The folder that was asked for; without one [`open_library`] finds it.
+    /// The requested folder; without one [`open_library`] finds it.
     given: Option<PathBuf>,
     loaded: Option<Arc<LoadedLibrary>>,
 }
@@ -43,18 +43,18 @@ struct Choice {
 /// A loaded library.
 #[derive(Debug)]
 pub struct LoadedLibrary {
-    /// Where it lies; none if it could not be loaded.
+    /// Where it is stored; `None` if it could not be loaded.
     pub place: Option<LibraryPlace>,
-    /// The references, prepared.
+    /// The references, prepared with the default parameters.
     pub library: Library,
-    /// What the window shows of it.
+    /// The view of it for the window.
     pub shown: Arc<LibraryView>,
-    /// The references as another recipe wants them.
+    /// The references prepared for another recipe.
     pub(in crate::app) fitted: PreparedLibraryCache,
 }
 
 impl LoadedLibrary {
-    /// Its folder, if it can be changed.
+    /// Returns its folder, or why it cannot be changed.
     pub fn folder_to_change(&self) -> Result<&LibraryFolder, UserError> {
         let folder = self.place.as_ref().and_then(LibraryPlace::folder);
         folder.ok_or_else(|| {
@@ -70,23 +70,23 @@ impl LoadedLibrary {
 /// What the window shows of a library.
 #[derive(Debug, Default)]
 pub struct LibraryView {
-    /// Its folder.
+    /// Folder of the library.
     pub path: PathBuf,
     /// [`LibraryLoad::identity`].
     pub identity: String,
-    /// What is written down of every part, in the library's order.
+    /// Stored data of every part, in the library's order.
     pub parts: Vec<PartMeta>,
-    /// The small pictures of the parts, in the same order, where there is one.
+    /// Thumbnails of the parts, in the same order, where there is one.
     pub thumbnails: Vec<Option<RgbaImage>>,
-    /// The spray paths of the parts, in the same order, where one is stored.
+    /// Spray paths of the parts, in the same order, where one is stored.
     pub spray_paths: Vec<Option<SprayPath>>,
-    /// The parts that could not be loaded.
+    /// Parts that could not be loaded.
     pub damaged: Vec<Damaged>,
-    /// Why it could not be loaded, if so: then it has no part and cannot be changed.
+    /// Why it could not be loaded, if so; then it has no parts and cannot be changed.
     pub unloaded: Option<UserError>,
-    /// Why it cannot be changed at all, if so.
+    /// Why it cannot be changed, if so.
     pub is_fixed: Option<UserError>,
-    /// What had to be set aside, and what is odd.
+    /// Entries that had to be set aside, and other oddities.
     pub troubles: Vec<UserError>,
     /// The published version that it was taken from, if it was, in words.
     #[cfg(feature = "plant")]
@@ -96,14 +96,14 @@ pub struct LibraryView {
 /// A part that could not be loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Damaged {
-    /// The name of its folder.
+    /// Name of its folder.
     pub entry: String,
     /// Why, and what to do.
     pub trouble: UserError,
 }
 
 impl LibraryView {
-    /// True if it holds the same parts, with the same titles, notes and spray paths, in the same folder.
+    /// True if it is in the same folder and has the same parts, with the same titles, notes and spray paths.
     fn is_same(&self, other: &Self) -> bool {
         #[cfg(feature = "plant")]
         if self.version != other.version {
@@ -116,17 +116,17 @@ impl LibraryView {
             && self.unloaded == other.unloaded
     }
 
-    /// Name for people of the part at this place.
+    /// Title of the part at this index.
     pub fn title(&self, place: usize) -> &str {
         self.parts.get(place).map_or("", PartMeta::shown_title)
     }
 
-    /// Name for people of the part that is enrolled under this name; that itself if none is.
+    /// Title of the part enrolled under this name; the name itself if there is none.
     pub fn title_of<'a>(&'a self, name: &'a str) -> &'a str {
         self.place_of(name).map_or(name, |place| self.title(place))
     }
 
-    /// The place of a part.
+    /// Index of the part with this name.
     pub fn place_of(&self, name: &str) -> Option<usize> {
         self.parts
             .iter()
@@ -134,7 +134,7 @@ impl LibraryView {
     }
 }
 
-/// Of a test: the shipped parts of the checkout, whatever library the user has.
+/// For tests: the shipped parts of the checkout, whatever library the user has.
 #[cfg(test)]
 impl Default for LibraryCache {
     fn default() -> Self {
@@ -143,7 +143,7 @@ impl Default for LibraryCache {
 }
 
 impl LibraryCache {
-    /// The library of this folder, else the one that [`open_library`] finds.
+    /// Makes a cache for the library in this folder, else for the one that [`open_library`] finds.
     pub fn new(given: Option<PathBuf>, camera: Camera) -> Self {
         let loaded = None;
         Self {
@@ -154,18 +154,18 @@ impl LibraryCache {
         }
     }
 
-    /// The same, with this history.
+    /// Replaces the history.
     #[must_use]
     pub fn with_history(self, history: Arc<HistoryBuffer>) -> Self {
         Self { history, ..self }
     }
 
-    /// The history.
+    /// The history of inspections.
     pub fn history(&self) -> &Arc<HistoryBuffer> {
         &self.history
     }
 
-    /// The recording in progress.
+    /// The recording in progress, if any.
     pub fn recording(&self) -> &SharedRecording {
         &self.recording
     }
@@ -175,8 +175,8 @@ impl LibraryCache {
         &self.camera
     }
 
-    /// The library, loaded on first use. If it cannot be loaded, this is an empty library, so that scenes can still be
-    /// captured and shown, and the next call tries again.
+    /// Returns the library, loading it on first use. If it cannot be loaded, returns an empty library, so that scenes can
+    /// still be captured and shown; the next call tries again.
     pub fn get(&self) -> Arc<LoadedLibrary> {
         let mut choice = self.lock();
         let is_there = |known: &&Arc<LoadedLibrary>| known.shown.unloaded.is_none();
@@ -189,15 +189,15 @@ impl LibraryCache {
         }
     }
 
-    /// Loads it anew, after it was changed.
+    /// Loads the library again after a change.
     pub fn reload(&self) -> Result<Arc<LoadedLibrary>, LibraryError> {
         self.lock().load()
     }
 
-    /// Loads it anew if another program has changed it; `None` if it is as before, or cannot be loaded now.
+    /// Loads the library again if another program has changed it; `None` if it is unchanged or cannot be loaded now.
     pub fn refresh(&self) -> Option<Arc<LoadedLibrary>> {
         let given = self.lock().given.clone();
-        // The lock is not held while loading, so that no one waits for the disk.
+        // The lock is released while loading, so that no other thread waits for the disk.
         let found = Arc::new(load(given.as_deref()).ok()?);
         let mut choice = self.lock();
         let known = choice.loaded.as_ref();
@@ -209,8 +209,8 @@ impl LibraryCache {
         Some(found)
     }
 
-    /// Uses another library from now on: the one of this folder, else the one that [`open_library`] finds. One that
-    /// cannot be loaded leaves the old one in use.
+    /// Switches to the library in this folder, else to the one that [`open_library`] finds. If it cannot be loaded, the old
+    /// one stays in use.
     pub fn choose(&self, given: Option<PathBuf>) -> Result<Arc<LoadedLibrary>, LibraryError> {
         let mut other = Choice {
             given,
@@ -222,7 +222,7 @@ impl LibraryCache {
     }
 
     fn lock(&self) -> MutexGuard<'_, Choice> {
-        // What it holds is only ever replaced whole.
+        // Sound after a panic: the content is only ever replaced as a whole.
         lock(&self.choice)
     }
 }
@@ -234,7 +234,7 @@ impl Choice {
         Ok(shelved)
     }
 
-    /// What takes the place of a library that could not be loaded; the same one for the same reason.
+    /// Returns the stand-in for a library that could not be loaded, the same one for the same error.
     fn without(&mut self, error: &LibraryError) -> Arc<LoadedLibrary> {
         let trouble = UserError {
             what: text!("shell-library-not-loaded", error = error.to_string()),
@@ -404,7 +404,7 @@ mod tests {
             "{trouble:?}"
         );
         assert!(missing.library.references.is_empty() && missing.shown.is_fixed.is_some());
-        // Reported once.
+        // The same error is reported only once.
         assert!(Arc::ptr_eq(&missing, &library_cache.get()));
         fs::create_dir(&path).expect("made");
         let found = library_cache.get();

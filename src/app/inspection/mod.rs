@@ -1,4 +1,4 @@
-//! A scene, what an inspection of it found, and all that is drawn of the two, prepared in a task: no egui, no session.
+//! A scene, its inspection, and the data drawn for both, prepared in a task: no egui, no session.
 
 pub mod camera;
 pub mod deviation;

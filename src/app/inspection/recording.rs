@@ -1,4 +1,4 @@
-//! The recording in progress: it goes on while one source is followed after another.
+//! The recording in progress, which continues when another source is followed.
 
 use std::{
     path::{Path, PathBuf},
@@ -16,7 +16,7 @@ pub struct SharedRecording(Arc<Mutex<Option<Open>>>);
 
 #[derive(Debug)]
 struct Open {
-    /// The folder that a person chose; the recording is one in it.
+    /// The folder that the user chose; the recording is a folder inside it.
     parent: PathBuf,
     recorder: Recorder,
 }
@@ -24,16 +24,16 @@ struct Open {
 /// What was recorded so far.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recorded {
-    /// Where.
+    /// Folder of the recording.
     pub folder: PathBuf,
-    /// Frames.
+    /// Number of frames.
     pub num_frames: u64,
-    /// Bytes of them.
+    /// Size of the frames, bytes.
     pub num_bytes: u64,
 }
 
 impl SharedRecording {
-    /// Writes the frame into a recording in `parent`, which begins with it unless it is there; ends it without.
+    /// Writes the frame into a recording in `parent`, starting one if necessary; without `parent`, ends the recording.
     pub(in crate::app) fn write(
         &self,
         parent: Option<&Path>,
@@ -75,18 +75,18 @@ impl SharedRecording {
         Ok(Some(recorded))
     }
 
-    /// Ends it: it is whole after every frame.
+    /// Ends the recording, which is complete after every frame.
     pub(in crate::app) fn end(&self) {
         *self.lock() = None;
     }
 
     fn lock(&self) -> MutexGuard<'_, Option<Open>> {
-        // What it holds is only ever replaced whole.
+        // Sound after a panic: the content is only ever replaced as a whole.
         lock(&self.0)
     }
 }
 
-/// A folder's name that sorts by time and that no other recording has.
+/// Returns a folder name that sorts by time and is unique.
 fn name() -> String {
     let now = Timestamp::now().to_zoned(TimeZone::system());
     now.strftime("recording %Y-%m-%d %H.%M.%S.%3f").to_string()

@@ -1,4 +1,4 @@
-//! Writing what a person asked to have as a file: whole, or not at all.
+//! Writes the files that the user asks for, atomically.
 
 use std::{
     io::{self, Cursor},
@@ -36,7 +36,7 @@ use crate::{
     },
 };
 
-/// Writes a picture of a 3-D view as a PNG; says what was written.
+/// Writes a picture of a 3-D view as PNG; returns a message about it.
 pub(in crate::app) fn picture(path: &Path, shot: &ViewShot) -> Result<String, UserError> {
     let picture = shot.take().map_err(|error| UserError::of(&error))?;
     let mut png = Cursor::new(Vec::new());
@@ -52,8 +52,8 @@ pub(in crate::app) fn picture(path: &Path, shot: &ViewShot) -> Result<String, Us
     ))
 }
 
-/// Writes a spray path for the robot, as CSV or JSON, as `partsight inspect --spray` does, or as a program for its
-/// controller, as `--program` does; says what was written.
+/// Writes a spray path for the robot, as CSV or JSON like `partsight inspect --spray`, or as a program for its controller like
+/// `--program`; returns a message about it.
 pub(in crate::app) fn spray_path(
     path: &Path,
     inspected: &Inspected,
@@ -83,7 +83,7 @@ pub(in crate::app) fn spray_path(
             camera_from_part: pose.camera_from_part(),
             is_simulated,
         };
-        // Of an earlier part there must be no program either.
+        // The program of an earlier part must not remain either.
         let is_stale = match &inspected.origin {
             Origin::File { path, .. } => is_stale_file(path),
             Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => {
@@ -120,28 +120,28 @@ pub(in crate::app) fn spray_path(
     ))
 }
 
-/// What runs a program.
+/// Tool, gun and arm that run a program.
 #[derive(Clone, Debug)]
 pub(in crate::app) struct ProgramTarget {
     pub settings: ProgramSettings,
-    /// None: its reach is not checked.
+    /// `None`: reach is not checked.
     pub arm: Option<PlacedArm>,
 }
 
-/// Whose program it is.
+/// The part that a program is for.
 pub(in crate::app) struct ProgramSubject<'a> {
     pub part: &'a str,
-    /// What it was enrolled with, in its own frame.
+    /// Points that it was enrolled with, part frame.
     pub part_points: &'a [Point3<f32>],
-    /// The capture; none for the standard position.
+    /// Name of the scene; `None` for the standard position.
     pub scene: Option<&'a str>,
     pub camera_from_part: RigidTransform,
     pub is_simulated: bool,
 }
 
-/// Writes a carried path as a program for the robot's controller in the language that the file's name ends in; says what
-/// was written. An earlier program of that name is removed first, and nothing is written of a path that the arm does not
-/// reach without a collision.
+/// Writes a carried path as a program for the robot's controller, in the language given by the file's ending; returns a
+/// message about it. First removes an earlier program of that name; writes nothing if the arm cannot run the path without a
+/// collision.
 pub(in crate::app) fn program(
     path: &Path,
     carried: &CarriedPath,
@@ -207,7 +207,7 @@ pub(in crate::app) fn program(
     })
 }
 
-/// The pose report of what the window shows.
+/// Makes the pose report of the shown inspection.
 pub(in crate::app) fn report_of(
     inspected: &Inspected,
     robot: Option<&RobotFrame>,
@@ -238,7 +238,7 @@ pub(in crate::app) fn report_of(
     })
 }
 
-/// By what the files of a report are named.
+/// Returns the name of the scene, which names the files of a report.
 fn scene_name(origin: &Origin) -> PathBuf {
     match origin {
         Origin::File { path, .. } => path.clone(),
@@ -247,9 +247,9 @@ fn scene_name(origin: &Origin) -> PathBuf {
     }
 }
 
-/// Writes an inspection as `partsight inspect --report` and `partsight report` do: a line of JSON, the pictures of its
-/// stages, and the pose report as JSON, PDF and a row of CSV; says what was written. The user did not choose the file names, so
-/// an earlier report in the folder is kept.
+/// Writes an inspection like `partsight inspect --report` and `partsight report`: a line of JSON, the pictures of its stages,
+/// and the pose report as JSON, PDF and a row of CSV; returns a message about it. Because the user did not choose the file
+/// names, an earlier report in the folder is kept.
 pub(in crate::app) fn report(
     folder: &Path,
     inspected: &Inspected,
@@ -301,7 +301,7 @@ pub(in crate::app) fn report(
     })
 }
 
-/// The name of the scene, with a number behind it where a report of that name lies in the folder.
+/// Returns the name of the scene, numbered if the folder has a report of that name.
 fn unused_name(folder: &Path, scene: &Path) -> PathBuf {
     let stem = scene.file_stem().unwrap_or(scene.as_os_str());
     let stem = stem.to_string_lossy();
@@ -314,11 +314,11 @@ fn unused_name(folder: &Path, scene: &Path) -> PathBuf {
     }
     let mut numbered = (2..10_000).map(|number| format!("{stem}-{number}"));
     let free = numbered.find(|stem| !is_taken(stem));
-    // Its ending is cut off again where the files are named.
+    // The ending is removed again when the files are named.
     free.map_or_else(|| scene.to_owned(), |free| format!("{free}.scene").into())
 }
 
-/// The same view in the colours of paper.
+/// Returns the same view with light colours for paper.
 fn on_paper(shot: &ViewShot) -> ViewShot {
     let mut shot = shot.clone();
     shot.style.colours = ViewColours::light();

@@ -12,22 +12,22 @@ use super::source::{HistoryFrame, Origin};
 use crate::app::language::text;
 use crate::{files::file_name, pipeline::NamedRecipe, scan::Shot};
 
-/// The files of a scan, and which of its shots are left out.
+/// The files of a scan, and which of its shots are dropped.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ScanFiles {
     /// A folder, a recording, or the frames themselves.
     pub frames: Vec<PathBuf>,
-    /// The file of the poses; without it they are in the recording or lie beside the frames.
+    /// The file of the poses; `None` if they are in the recording or beside the frames.
     pub poses: Option<PathBuf>,
-    /// Frames that were added, each with the file of its pose.
+    /// Frames added later, each with the file of its pose.
     pub added: Vec<(PathBuf, PathBuf)>,
-    /// Names of the shots that a person dropped.
+    /// Names of the shots that the user dropped.
     pub dropped: BTreeSet<String>,
 }
 
 impl ScanFiles {
-    /// Those of a folder.
+    /// Uses all frames of a folder.
     pub fn of_folder(folder: PathBuf) -> Self {
         Self {
             frames: vec![folder],
@@ -35,7 +35,7 @@ impl ScanFiles {
         }
     }
 
-    /// Those that a past scan came from; of one that a command has written its name alone is known.
+    /// Returns the files of a past scan; for one written by a command only its name is known.
     pub(in crate::app) fn of_past(origin: &Origin) -> Self {
         match origin {
             Origin::Scan { files, .. } if !files.frames.is_empty() => Self {
@@ -46,14 +46,14 @@ impl ScanFiles {
         }
     }
 
-    /// What a person calls it, and what an enrolled part is said to come from.
+    /// Name for the user, also stored as the source of an enrolled part.
     pub fn title(&self) -> String {
         self.frames
             .first()
             .map_or_else(String::new, |first| file_name(first))
     }
 
-    /// The folder, if it is one that needs no other file to be opened again.
+    /// The folder, if it alone is enough to open the scan again.
     pub fn folder(&self) -> Option<&Path> {
         match self.frames.as_slice() {
             [folder] if self.poses.is_none() && self.added.is_empty() => Some(folder),
@@ -62,26 +62,26 @@ impl ScanFiles {
     }
 }
 
-/// Shots that were read, with the files that they came from.
+/// Shots with the files that they were read from.
 #[derive(Debug)]
 pub struct ShotSet {
-    /// The files; who dropped what is in [`ShotChoice`].
+    /// The files; the dropped shots are in [`ShotChoice`].
     pub files: ScanFiles,
-    /// In the order of the files, those added last.
+    /// In the order of the files, with added ones last.
     pub shots: Vec<Shot>,
 }
 
-/// Shots, and which of them are left out.
+/// Shots, and which of them are dropped.
 #[derive(Clone, Debug)]
 pub struct ShotChoice {
     /// All shots.
     pub set: Arc<ShotSet>,
-    /// Places of those that a person dropped.
+    /// Indices of the shots that the user dropped.
     pub dropped: BTreeSet<usize>,
 }
 
 impl ShotChoice {
-    /// The files, to be opened again with the same shots dropped.
+    /// Returns the files for opening the scan again with the same shots dropped.
     pub fn files(&self) -> ScanFiles {
         let shots = self.set.shots.iter().enumerate();
         let dropped = shots.filter(|(place, _)| self.dropped.contains(place));
@@ -91,27 +91,27 @@ impl ShotChoice {
         }
     }
 
-    /// How many shots are not dropped.
+    /// Number of shots that are not dropped.
     pub fn num_taken(&self) -> usize {
         self.set.shots.len() - self.dropped.len()
     }
 }
 
-/// Which shots to put together.
+/// Shots to be put together.
 #[derive(Clone, Debug)]
 pub enum ScanOrder {
-    /// Read these.
+    /// Read these files.
     Open(ScanFiles),
-    /// These are at hand.
+    /// These shots are already in memory.
     Known(ShotChoice),
-    /// Those that the history keeps.
+    /// Read the shots kept in the history.
     Kept(Box<HistoryFrame>),
-    /// One more, with the file of its pose if a person named one.
+    /// Add one frame, with the file of its pose if the user chose one.
     Add(ShotChoice, PathBuf, Option<PathBuf>),
 }
 
 impl ScanOrder {
-    /// What is done for it, for a person.
+    /// Describes the work to the user.
     pub fn title(&self) -> String {
         match self {
             Self::Open(files) => text!("shell-opening", name = files.title()),
@@ -120,7 +120,7 @@ impl ScanOrder {
         }
     }
 
-    /// The same with the poses of this file.
+    /// Uses the poses in this file.
     #[must_use]
     pub fn with_poses(self, file: PathBuf) -> Self {
         match self {
@@ -135,13 +135,13 @@ impl ScanOrder {
     }
 }
 
-/// Put shots together.
+/// A request to put shots together.
 #[derive(Clone, Debug)]
 pub struct ScanRequest {
-    /// Which.
+    /// The shots.
     pub order: ScanOrder,
-    /// The file of the hand-eye calibration: poses of the flange need it.
+    /// The file of the hand-eye calibration, which is needed for poses of the flange.
     pub calibration: Option<PathBuf>,
-    /// All parameters.
+    /// All parameters of segmentation and inspection.
     pub recipe: Arc<NamedRecipe>,
 }

@@ -1,4 +1,4 @@
-//! What is drawn of a scan, prepared in the task: one row per shot, and the figure of the 3-D view.
+//! Data drawn for a scan, prepared in the task: one row per shot, and the figure of the 3-D view.
 
 use std::sync::Arc;
 
@@ -21,16 +21,16 @@ use crate::{
     units::Metres,
 };
 
-/// A shot of the list.
+/// A shot in the list.
 #[derive(Debug)]
 pub struct ShotRow {
-    /// The frame's name.
+    /// Name of the frame.
     pub name: String,
-    /// What the camera saw, the part bright.
+    /// Depth picture with the part highlighted.
     pub picture: RgbImage,
-    /// What became of it.
+    /// Whether and how it was used.
     pub fate: ShotFate,
-    /// Points of the part that it sees.
+    /// Number of the part's points that it sees.
     pub num_points: usize,
     /// Share of the part's points that it sees, 0..1.
     pub seen: f64,
@@ -38,26 +38,26 @@ pub struct ShotRow {
     pub only: f64,
 }
 
-/// What became of a shot.
+/// Whether and how a shot was used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ShotFate {
-    /// It is part of the result.
+    /// The shot is part of the result.
     Used {
-        /// How far the refinement moved what it saw.
+        /// Correction of its pose by the refinement.
         moved: PoseDelta,
-        /// Distance to what the others see of the same surface, of the part where they see that together; `None` if it
-        /// overlaps none.
+        /// Distance to what other shots see of the same surface, on the part if they overlap there; `None` if it overlaps
+        /// none.
         rms: Option<Metres>,
         /// False if segmentation found no part in it.
         has_part: bool,
     },
-    /// It does not fit, and was left out.
+    /// The shot does not fit and was left out.
     Excluded(Excluded),
-    /// A person dropped it.
+    /// The user dropped the shot.
     Dropped,
 }
 
-/// One row per shot of the choice, in its order.
+/// Makes one row per shot of the choice, in its order.
 pub(in crate::app) fn rows(choice: &ShotChoice, scan: &Scan) -> Vec<ShotRow> {
     let part: Vec<u64> = part_masks(scan).collect();
     let num_part = part.len().max(1) as f64;
@@ -97,16 +97,16 @@ fn fate(shot: &ScannedShot) -> ShotFate {
     }
 }
 
-/// Of each point of the part, which shots see it.
+/// Returns for each point of the part a bit mask of the shots that see it.
 fn part_masks(scan: &Scan) -> impl Iterator<Item = u64> {
     let points = scan.cloud.seen_by.iter().zip(&scan.cloud.is_part);
     points.filter(|(_, is)| **is).map(|(mask, _)| *mask)
 }
 
-/// Size of a shot's picture, pixels.
+/// Width and height of a shot's picture, pixels.
 const PICTURE: [u32; 2] = [176, 132];
 
-/// What the camera saw, nearer is brighter; its part stands out if segmentation looked for one.
+/// Draws the depths, nearer is brighter; highlights the part if the shot was segmented.
 fn picture(shot: &Shot, scanned: Option<&ScannedShot>) -> RgbImage {
     let cloud = &shot.scene.cloud;
     let Some(grid) = cloud.grid else {
@@ -141,43 +141,43 @@ fn picture(shot: &Shot, scanned: Option<&ScannedShot>) -> RgbImage {
     })
 }
 
-/// What the 3-D view shows of a scan, in the camera's space of the first shot that was used.
+/// Data of the 3-D view of a scan, in the camera frame of the first used shot.
 #[derive(Debug)]
 pub struct ScanFigure {
-    /// From the robot's base into the view.
+    /// Transform from the robot's base to the frame of the view.
     pub camera_from_base: RigidTransform,
     /// All points, in the order of the scan's cloud.
     pub positions: Arc<[[f32; 3]]>,
-    /// The part, or background.
+    /// Part or background, per point.
     pub labels: Vec<PointLabel>,
-    /// The camera of every shot that was not dropped, with its place among all shots.
+    /// The camera of every shot that was not dropped.
     pub cameras: Vec<CameraFigure>,
-    /// By the place of the shot: the points of the part that it alone sees, a little before them.
+    /// Per shot: the points of the part that only it sees, slightly in front of the surface.
     pub only: Vec<Option<PointSet>>,
-    /// A band beyond the part's outline where no shot sees that the part ends.
+    /// A band beyond the part's outline where no shot shows that the part ends.
     pub open_band: Option<PointSet>,
-    /// Share of the outline where no shot sees that the part ends, 0..1.
+    /// Share of the outline where no shot shows that the part ends, 0..1.
     pub open_share: f64,
 }
 
 /// The camera of a shot.
 #[derive(Debug)]
 pub struct CameraFigure {
-    /// The shot's place.
+    /// Index of the shot.
     pub place: usize,
-    /// Its frustum.
+    /// Frustum of the camera.
     pub lines: LineSet,
-    /// The camera's centre.
+    /// Centre of the camera.
     pub at: Vec3,
 }
 
-/// How far before the surface marked points stand, metres: they cover those beneath.
+/// Offset of marked points from the surface, metres, so that they cover those beneath.
 const BEFORE: f32 = 0.002;
 /// Length of a drawn camera, metres.
 const CAMERA: Metres = Metres(0.1);
-/// Distances from the outline at which the band is drawn, metres.
+/// Distances from the outline of the points of the band, metres.
 const BAND: [f32; 5] = [0.006, 0.013, 0.02, 0.027, 0.034];
-/// Distances along the outline, metres: it is thinned.
+/// Offsets along the outline of the points of the band, metres, because the outline is thinned.
 const ASIDE: [f32; 3] = [-0.007, 0.0, 0.007];
 
 impl ScanFigure {
@@ -199,7 +199,7 @@ impl ScanFigure {
                 PointLabel::Background(0)
             }
         };
-        // Places of the shots that were not dropped, in the order of the scan's.
+        // Indices of the shots that were not dropped, in the scan's order.
         let places: Vec<usize> = (0..choice.set.shots.len())
             .filter(|place| !choice.dropped.contains(place))
             .collect();
@@ -245,7 +245,7 @@ impl ScanFigure {
     }
 }
 
-/// Points that keep their colour however the view is coloured.
+/// Makes points that keep the colour of their role whatever the view's colouring.
 pub(in crate::app) fn marked(points: Vec<[f32; 3]>, role: Role) -> Option<PointSet> {
     (!points.is_empty()).then(|| {
         let set = PointSet::new(points, role);

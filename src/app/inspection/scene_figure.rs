@@ -1,4 +1,5 @@
-//! What the 3-D view shows of a result, made once in the task: points, and the lines that stand for things.
+//! Data of the 3-D view of a result, made once in the task: points, and lines for axes, camera, outline, nozzles and spray
+//! path.
 
 use std::sync::Arc;
 
@@ -21,58 +22,59 @@ use crate::{
     units::Metres,
 };
 
-/// Points and lines of one result, camera space. What the result does not have is not there.
+/// Points and lines of one result, camera frame; `None` for what the result does not have.
 #[derive(Debug)]
 pub struct SceneFigure {
-    /// The scene, with what each point was taken for and how far it is off.
+    /// The scene, with label and deviation of each point.
     pub points: PointSet,
-    /// True when at least one point knows its deviation.
+    /// True if at least one point has a deviation.
     pub has_deviations: bool,
-    /// The axes of the part's middle, where it was found.
+    /// Axes at the part's middle, if it was found.
     pub axes: Option<LineSet>,
-    /// The depth camera and what it sees.
+    /// Frustum of the depth camera.
     pub camera: Option<LineSet>,
-    /// Outline and openings of the enrolled part at the found pose.
+    /// Outline and openings of the reference at the found pose.
     pub outline: Option<LineSet>,
-    /// The taught nozzle over the part's middle, and the one furthest off.
+    /// The taught nozzle over the part's middle, and the one with the largest error of its stand-off.
     pub nozzles: Option<[NozzleFigure; 2]>,
-    /// The part's stored spray path, where one is stored.
+    /// The part's stored spray path, if there is one.
     pub spray: Option<SprayFigure>,
 }
 
-/// A spray path as it has to run now.
+/// A spray path carried to the found pose.
 #[derive(Debug)]
 pub struct SprayFigure {
-    /// The way from mouth to mouth, and each nozzle's ray: in the band solid to the surface, else dashed with a cross.
+    /// The path of the nozzle tip, and each nozzle's ray: solid up to the surface if in the band, else dashed and marked by a
+    /// cross.
     pub lines: LineSet,
-    /// The first mouth, metres.
+    /// The first position of the nozzle tip, metres.
     pub start: Vec3,
-    /// Points in the band.
+    /// Number of points in the band.
     pub num_inside: usize,
-    /// All points.
+    /// Number of all points.
     pub num_points: usize,
 }
 
-/// A nozzle before the part.
+/// A nozzle in front of the part.
 #[derive(Debug)]
 pub struct NozzleFigure {
     /// Nozzle and ray.
     pub lines: LineSet,
-    /// Its mouth, metres.
+    /// Nozzle tip, metres.
     pub mouth: Vec3,
-    /// From there to the part; below 0 with the nozzle in or behind it.
+    /// Distance from there to the part; below 0 if the nozzle is in or behind it.
     pub distance: Metres,
 }
 
-/// What a [`SceneFigure`] is made of.
+/// What a [`SceneFigure`] is made from.
 pub(in crate::app) struct SceneFigureInput<'a> {
     pub(in crate::app) scene: &'a SceneCloud,
-    /// Of a scan, whose points take the place of the scene's.
+    /// The figure of a scan, whose points replace the scene's.
     pub(in crate::app) scan: Option<&'a ScanFigure>,
     pub(in crate::app) inspection: &'a Inspection,
-    /// The best reference.
+    /// The best reference, if any.
     pub(in crate::app) reference: Option<&'a Reference>,
-    /// Middle of its extent, part space.
+    /// Middle of its extent, part frame, metres.
     pub(in crate::app) middle: Option<Point3<f64>>,
     pub(in crate::app) deviations: &'a [f32],
     pub(in crate::app) stand_off: Option<&'a StandOff>,
@@ -80,7 +82,7 @@ pub(in crate::app) struct SceneFigureInput<'a> {
 }
 
 impl SceneFigure {
-    /// Makes it: goes through every point.
+    /// Makes the figure; goes through every point.
     pub(in crate::app) fn of(given: &SceneFigureInput<'_>) -> Self {
         let SceneFigureInput {
             scene,
@@ -110,7 +112,7 @@ impl SceneFigure {
             let shift = nalgebra::Translation3::from(middle.coords);
             furniture::axes(Metres(0.15)).at(&(pose * shift))
         });
-        // A scan shows the cameras of all its shots.
+        // A scan shows the cameras of all its shots instead.
         let camera = scene.intrinsics.as_ref().filter(|_| scan.is_none());
         let placed = inspection.ranking.entries.first();
         let view = placed.and_then(|entry| entry.placements.first());
@@ -131,9 +133,9 @@ impl SceneFigure {
 
 impl SprayFigure {
     fn of(path: &CarriedPath) -> Option<Self> {
-        /// A ray that meets nothing is drawn to here.
+        /// Drawn length of a ray that meets nothing, metres.
         const UNMET: f32 = 0.15;
-        /// Arms of the cross at a mouth that is out of the band.
+        /// Half size of the cross at a nozzle out of the band, metres.
         const CROSS: f32 = 0.008;
         let mouths: Vec<Vec3> = path.points.iter().map(|p| vec3(&p.mouth())).collect();
         let start = *mouths.first()?;
@@ -178,12 +180,12 @@ impl NozzleFigure {
     }
 }
 
-/// Neighbours on a border that lie further apart on the surface than this, metres, are not joined.
+/// Neighbours on a border further apart on the surface than this, metres, are not joined.
 const GAP: f32 = 0.06;
-/// How far before the surface the outline is drawn, metres: noise must not hide it.
+/// Offset of the outline in front of the surface, metres, so that noise does not hide it.
 const BEFORE: f32 = 0.004;
 
-/// The borders of a view of the reference on its surface, at the pose; `None` for a flat shape.
+/// Lifts the borders of a reference view onto its surface, at the pose; `None` for a flat shape.
 fn outline(view: &ReferenceView, camera_from_part: &RigidTransform) -> Option<LineSet> {
     let camera_from_plane: Isometry3<f32> =
         (camera_from_part * view.plane_from_part.inverse()).cast();
@@ -204,10 +206,10 @@ fn outline(view: &ReferenceView, camera_from_part: &RigidTransform) -> Option<Li
     (!lines.is_empty()).then(|| LineSet::new(lines))
 }
 
-/// A closed line whose corners are means over their neighbours, without the steps of the image's pixels; its first
-/// corner is repeated at the end.
+/// Smooths a closed line by means over neighbours, which removes the steps of the image's pixels, and repeats its first corner
+/// at the end.
 fn smoothed(corners: &[Vec3]) -> Vec<Vec3> {
-    /// Neighbours to either side.
+    /// Number of neighbours on either side.
     const REACH: usize = 2;
     let num = corners.len();
     let mean = |i: usize| {
@@ -249,7 +251,7 @@ mod tests {
         let tree = KdTree::new(part);
         let outline = inspected.view.outline.as_ref().expect("an outline");
         let corners: Vec<_> = outline.lines().iter().flat_map(|l| &l.points).collect();
-        // The door's outline and its window.
+        // The outline of the door and of its window.
         assert!(outline.lines().len() >= 2 && corners.len() > 200);
         let near = corners.iter().filter(|p| {
             let p = nalgebra::Point3::new(p.x, p.y, p.z);

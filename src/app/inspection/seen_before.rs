@@ -1,4 +1,4 @@
-//! Whether a file that the window starts with shows a part that was inspected before.
+//! Whether the file that the window starts with shows a part that was inspected before.
 
 use std::fs;
 
@@ -10,11 +10,11 @@ use crate::{
     history::{Filter, HistoryBuffer, Summary},
 };
 
-/// Rows of one file that are looked through, the newest first.
+/// Maximum number of history rows of one file to check, newest first.
 const MAX_ROWS: usize = 20;
 
-/// The part that the same file showed: it has not been written since, and has the same verdict as then. A person who
-/// starts the window again has hung no other part.
+/// Finds the past inspection of the same file, if the file has not been written since and the verdict is the same. Starting
+/// the window again does not mean that another part was hung.
 pub(in crate::app) fn seen_before(
     inspected: &Inspected,
     history: &HistoryBuffer,
@@ -34,7 +34,7 @@ pub(in crate::app) fn seen_before(
         ..Filter::default()
     };
     let is_same = |row: &Summary| row.source == now.source && row.title == now.title;
-    // Why the history cannot be read is reported by the History workspace.
+    // The History workspace reports why the history cannot be read.
     let page = history.page(&filter, 0, MAX_ROWS).ok()?;
     page.rows.into_iter().find(is_same)
 }

@@ -1,4 +1,4 @@
-//! Where scenes come from: the simulated cell, files, and cameras.
+//! Sources of scenes: the simulated cell, files, and cameras.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -30,19 +30,19 @@ pub(in crate::app) use crate::files::file_name;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CellChoice {
-    /// The eight parts one after the other.
+    /// The eight parts in turn.
     #[default]
     InTurn,
     /// Always this part.
     Part(PartKind, Side),
-    /// Always this thing, which is no enrolled part.
+    /// Always this object, which is not an enrolled part.
     Foreign(ObjectKind),
     /// Nothing.
     Empty,
 }
 
 impl CellChoice {
-    /// Every choice, as the source menu lists them.
+    /// All choices, in the order of the source menu.
     pub fn all() -> impl Iterator<Item = Self> {
         let sides = |kind: PartKind| {
             let sides = if kind.is_sided() {
@@ -61,7 +61,7 @@ impl CellChoice {
             .chain([Self::Empty])
     }
 
-    /// What a person calls it.
+    /// Returns the name shown to the user.
     pub fn title(self) -> String {
         match self {
             Self::InTurn => text!("shell-every-part"),
@@ -74,7 +74,7 @@ impl CellChoice {
         }
     }
 
-    /// The same cell as a camera that goes on by itself.
+    /// Returns the same cell as a continuous camera.
     pub fn followed(self) -> SimulatedSpec {
         let mut spec = SimulatedSpec::default();
         match self {
@@ -89,9 +89,9 @@ impl CellChoice {
         spec
     }
 
-    /// What hangs there for the frame of this number, counted from 1.
+    /// Returns what hangs there in the frame of this number, counted from 1.
     pub(in crate::app) fn subject(self, number: u64) -> SimulatedObject {
-        /// The first frame shows a front door, as the first look in a terminal does.
+        /// The first frame shows a front door, like the first example of the command line.
         const FIRST: u64 = 3;
         let part = |kind, side| SimulatedObject::Part {
             kind,
@@ -113,50 +113,50 @@ impl CellChoice {
     }
 }
 
-/// Where a scene came from.
+/// Origin of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Origin {
     /// A frame of the simulated cell.
     Simulated {
-        /// What hung there.
+        /// What hung in the cell.
         choice: CellChoice,
-        /// Its number, which is also its seed.
+        /// Number of the frame, which is also its seed.
         number: u64,
     },
     /// A file.
     File {
-        /// Where it lies.
+        /// Path of the file.
         path: PathBuf,
-        /// True if the file says that no camera was read.
+        /// True if the file says that it is simulated.
         is_simulated: bool,
     },
-    /// The shots of a scan together.
+    /// The shots of a scan, put together.
     Scan {
-        /// What a person calls it.
+        /// Name shown to the user.
         name: String,
-        /// True if no camera was read.
+        /// True if it is simulated.
         is_simulated: bool,
-        /// Their files.
+        /// Files of the shots.
         #[serde(default)]
         files: ScanFiles,
     },
     /// A frame of a camera, a recording or a watched folder.
     Frame {
-        /// What a person calls it.
+        /// Name shown to the user.
         name: String,
-        /// True if no camera was read, now or when it was recorded.
+        /// True if it is simulated, or was when it was recorded.
         is_simulated: bool,
     },
 }
 
 impl Origin {
-    /// What a person calls it, in the language of the window.
+    /// Returns the title in the language of the window.
     pub(in crate::app) fn shown_title(&self) -> String {
         stored_scene(&self.title(), self.is_simulated())
     }
 
-    /// The same as history, cases and reports keep it: in English.
+    /// Returns the title in English, as history, cases and reports store it.
     pub fn title(&self) -> String {
         match self {
             Self::Simulated { number, .. } => format!("Simulated frame {number}"),
@@ -179,7 +179,7 @@ impl Origin {
         }
     }
 
-    /// True if no camera was read.
+    /// True if the scene is simulated.
     pub fn is_simulated(&self) -> bool {
         match self {
             Self::Simulated { .. } => true,
@@ -191,8 +191,8 @@ impl Origin {
 }
 
 impl Origin {
-    /// The same scene again: the frame is simulated as before, the files are read once more. `None` for what a camera
-    /// saw once.
+    /// Returns a source that gives the same scene again, by simulating the same frame or reading the files again. `None` for a
+    /// frame of a camera, which cannot be had again.
     pub fn source(&self) -> Option<SceneOrScan> {
         Some(match self {
             Self::Simulated { choice, number } => SceneOrScan::Scene(SceneSource::Cell {
@@ -208,12 +208,12 @@ impl Origin {
     }
 }
 
-/// A scene to be had.
+/// A source that can deliver a scene.
 #[derive(Clone, Debug)]
 pub enum SceneSource {
     /// A frame of the simulated cell.
     Cell {
-        /// What hangs there.
+        /// What hangs in the cell.
         choice: CellChoice,
         /// Number and seed of the frame.
         number: u64,
@@ -222,52 +222,52 @@ pub enum SceneSource {
     File(PathBuf),
     /// The next frame of a camera, a recording or a watched folder.
     Camera(Box<SourceSpec>),
-    /// A scene that is at hand.
+    /// A scene already in memory.
     AtHand(Arc<SceneCloud>, Origin),
-    /// Another source, whose camera saw this empty cell before.
+    /// Another source, whose camera recorded this empty cell.
     Before(Arc<EmptyCell>, Box<SceneSource>),
-    /// A frame that the history keeps.
+    /// A frame kept in the history.
     Kept(Box<HistoryFrame>),
 }
 
-/// A frame that the history keeps.
+/// A frame kept in the history.
 #[derive(Clone, Debug)]
 pub struct HistoryFrame {
-    /// The folder of kept frames.
+    /// Folder of the kept frames.
     pub folder: PathBuf,
-    /// Its file, and what the file does not tell.
+    /// Its file, and data that the file does not contain.
     pub frame: FrameRecord,
-    /// Where it came from.
+    /// Origin of the scene.
     pub origin: Origin,
 }
 
-/// A scene and where it came from.
+/// A scene and its origin.
 #[derive(Clone, Debug)]
 pub struct Captured {
-    /// The scene.
+    /// The captured scene.
     pub scene: Arc<SceneCloud>,
-    /// Where it came from.
+    /// Origin of the scene.
     pub origin: Origin,
-    /// What was odd about it.
+    /// Problems found while reading it.
     pub warnings: Vec<CaptureWarning>,
 }
 
-/// Why there is no scene.
+/// Why a source delivered no scene.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The camera has no frame.
+    /// The camera delivered no frame.
     #[error(transparent)]
     Camera(#[from] CameraError),
-    /// The history's frame cannot be read.
+    /// The frame in the history cannot be read.
     #[error(transparent)]
     Kept(#[from] FrameError),
-    /// A mesh is nothing that a camera saw.
+    /// The file is a mesh, not a scene of a camera.
     #[error("{}: a mesh, expected what a depth camera saw", path.display())]
     MeshIsNoScene {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
 }
@@ -295,7 +295,7 @@ impl From<SceneError> for TaskError {
 }
 
 impl SceneSource {
-    /// Where its scenes come from, for the history.
+    /// Returns the name of the source for the history.
     pub fn in_words(&self) -> String {
         match self {
             Self::Cell { .. } => "simulated cell".into(),
@@ -307,7 +307,7 @@ impl SceneSource {
         }
     }
 
-    /// Captures, reads or hands over the scene; a frame is waited for until `is_cancelled`.
+    /// Captures, reads or returns the scene; waiting for a frame ends when `is_cancelled`.
     pub fn take(
         &self,
         camera: &Camera,

@@ -1,6 +1,6 @@
-//! Lengths and angles as a person reads them.
+//! Lengths and angles formatted for the user.
 
-/// Units for people.
+/// Units shown to the user.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum UnitSystem {
@@ -12,7 +12,7 @@ pub enum UnitSystem {
 }
 
 impl UnitSystem {
-    /// Its sign.
+    /// Symbols of the units.
     pub fn title(self) -> &'static str {
         match self {
             Self::MillimetresDegrees => "mm · °",
@@ -20,7 +20,7 @@ impl UnitSystem {
         }
     }
 
-    /// The other one.
+    /// Returns the other system.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -29,7 +29,7 @@ impl UnitSystem {
         }
     }
 
-    /// A length in metres, for a person.
+    /// Formats a length given in metres.
     pub fn length(self, metres: f64) -> String {
         match self {
             Self::MillimetresDegrees => format!("{} mm", minus(metres * 1000.0, 1)),
@@ -37,7 +37,7 @@ impl UnitSystem {
         }
     }
 
-    /// Factor from metres, sign and decimals of lengths along an axis.
+    /// Factor from metres, unit symbol and decimals for lengths on an axis.
     pub fn length_axis(self) -> (f64, &'static str, usize) {
         match self {
             Self::MillimetresDegrees => (1000.0, "mm", 0),
@@ -45,7 +45,7 @@ impl UnitSystem {
         }
     }
 
-    /// Factor from radians, sign and decimals of angles along an axis.
+    /// Factor from radians, unit symbol and decimals for angles on an axis.
     pub fn angle_axis(self) -> (f64, &'static str, usize) {
         match self {
             Self::MillimetresDegrees => (1.0_f64.to_degrees(), "°", 0),
@@ -53,7 +53,7 @@ impl UnitSystem {
         }
     }
 
-    /// A difference of lengths in metres, with its sign.
+    /// Formats a difference of lengths given in metres, with its sign.
     pub fn signed_length(self, metres: f64) -> String {
         match self {
             Self::MillimetresDegrees => format!("{} mm", signed(metres * 1000.0, 1)),
@@ -61,7 +61,7 @@ impl UnitSystem {
         }
     }
 
-    /// The size of an angle in radians, for a person.
+    /// Formats the magnitude of an angle given in radians.
     pub fn angle(self, radians: f64) -> String {
         match self {
             Self::MillimetresDegrees => format!("{:.2}°", radians.to_degrees()),
@@ -69,7 +69,7 @@ impl UnitSystem {
         }
     }
 
-    /// An angle in radians, with its sign.
+    /// Formats an angle given in radians, with its sign.
     pub fn signed_angle(self, radians: f64) -> String {
         match self {
             Self::MillimetresDegrees => format!("{}°", signed(radians.to_degrees(), 2)),
@@ -78,13 +78,13 @@ impl UnitSystem {
     }
 }
 
-/// A number with a true minus where it is below 0.
+/// Formats a number, with a minus sign (U+2212) if it is negative.
 fn minus(value: f64, decimals: usize) -> String {
     let text = signed(value, decimals);
     text.strip_prefix('+').map(str::to_owned).unwrap_or(text)
 }
 
-/// A number with its sign, a true minus; what rounds to nothing has none.
+/// Formats a number with its sign, using U+2212 for minus; no sign if it rounds to zero.
 fn signed(value: f64, decimals: usize) -> String {
     let digits = format!("{:.decimals$}", value.abs());
     if digits.bytes().all(|b| matches!(b, b'0' | b'.')) {

@@ -1,4 +1,4 @@
-//! The messages of each language, parsed when its first text is asked for.
+//! The messages of each language, parsed when its first text is requested.
 
 use std::sync::LazyLock;
 
@@ -7,7 +7,7 @@ use unic_langid::LanguageIdentifier;
 
 use super::Language;
 
-/// The areas of a language and what their files hold.
+/// The areas of a language with the contents of their files.
 pub(super) type Files = &'static [(&'static str, &'static str)];
 
 macro_rules! files {
@@ -19,7 +19,7 @@ macro_rules! files {
     };
 }
 
-/// The files of a language.
+/// Returns the files of a language.
 pub(super) fn files(language: Language) -> Files {
     match language {
         Language::English => files!("en"),
@@ -31,7 +31,7 @@ pub(super) fn files(language: Language) -> Files {
 
 type Bundle = FluentBundle<FluentResource>;
 
-/// The messages of a language.
+/// Returns the parsed messages of a language.
 fn bundle(language: Language) -> &'static Bundle {
     static ENGLISH: LazyLock<Bundle> = LazyLock::new(|| parsed(Language::English));
     static GERMAN: LazyLock<Bundle> = LazyLock::new(|| parsed(Language::German));
@@ -49,22 +49,22 @@ fn parsed(language: Language) -> Bundle {
     // Plural rules depend on it.
     let identifier: LanguageIdentifier = language.code().parse().unwrap_or_default();
     let mut bundle = Bundle::new_concurrent(vec![identifier]);
-    // Our typefaces lack the isolating marks for right-to-left text.
+    // Our fonts lack the isolation marks for right-to-left text.
     bundle.set_use_isolating(false);
     for (_, file) in files(language) {
-        // A test fails on a message that cannot be parsed; here the others are kept.
+        // Keep the other messages; a test fails if one cannot be parsed.
         let resource = FluentResource::try_new((*file).to_owned()).unwrap_or_else(|(rest, _)| rest);
         let _ = bundle.add_resource(resource);
     }
     bundle
 }
 
-/// A message without variables.
+/// Formats a message without variables.
 pub(in crate::app) fn plain(id: &str) -> String {
     formatted(id, None)
 }
 
-/// A message with the values of its variables.
+/// Formats a message with the values of its variables.
 pub(in crate::app) fn with<const N: usize>(
     id: &str,
     variables: [(&'static str, FluentValue<'_>); N],

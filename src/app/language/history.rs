@@ -1,4 +1,4 @@
-//! What the history keeps in English, in the language of the window.
+//! Translates texts that the history stores in English into the language of the window.
 
 use super::results::{rejection, rejection_advice, unrecognisable, unrecognisable_advice};
 use crate::{
@@ -6,18 +6,18 @@ use crate::{
     pipeline::{Refusal, RefusalKind},
 };
 
-/// How the title of a mirror image begins.
+/// Beginning of the title of a mirror image.
 const MIRRORED: &str = "Mirror image of ";
-/// How the title of a frame of the simulated cell begins; its number follows.
+/// Beginning of the title of a frame of the simulated cell, followed by its number.
 const FRAME: &str = "Simulated frame ";
-/// How the title of what no camera has read ends.
+/// End of the title of a simulated scene.
 const SIMULATED: &str = ", simulated";
-/// How the title of a scan ends; the number of its shots comes before it.
+/// End of the title of a scan, preceded by the number of its shots.
 const SHOTS: &str = " shots";
-/// Where the frames of the simulated cell come from.
+/// Stored source of the frames of the simulated cell.
 const CELL: &str = "simulated cell";
 
-/// The title of an inspection.
+/// Translates the title of an inspection.
 pub(in crate::app) fn stored_title(past: &Summary) -> String {
     match (past.verdict, stored_part(past)) {
         (StoredVerdict::NotAccepted, Some(part)) => {
@@ -32,7 +32,7 @@ pub(in crate::app) fn stored_title(past: &Summary) -> String {
     }
 }
 
-/// The title that its best guess had.
+/// Returns the title of the best match at that time.
 fn stored_part(past: &Summary) -> Option<&str> {
     let title = past.title.as_str();
     match past.verdict {
@@ -45,7 +45,7 @@ fn stored_part(past: &Summary) -> Option<&str> {
     }
 }
 
-/// The stored title of a scene or its source in the window's language. Names of files and cameras are kept.
+/// Translates the stored title of a scene or its source. Keeps the names of files and cameras.
 pub(in crate::app) fn stored_scene(title: &str, is_simulated: bool) -> String {
     if !is_simulated {
         return stored_scan(title);
@@ -64,7 +64,7 @@ pub(in crate::app) fn stored_scene(title: &str, is_simulated: bool) -> String {
     }
 }
 
-/// The stored title of a scan with its number of shots in the window's language; any other title unchanged.
+/// Translates the number of shots in the stored title of a scan; returns any other title unchanged.
 fn stored_scan(title: &str) -> String {
     let counted = title.strip_suffix(SHOTS);
     if let Some((name, num)) = counted.and_then(|title| title.rsplit_once(" · "))
@@ -75,7 +75,7 @@ fn stored_scan(title: &str) -> String {
     title.to_owned()
 }
 
-/// What [`stored_scene`] shows instead of what is stored: the first of each two for the second, in lower case.
+/// Returns pairs of a text as [`stored_scene`] shows it and as it is stored, in lower case.
 pub(in crate::app) fn shown_for_stored() -> Vec<[String; 2]> {
     let both = [
         (text!("shell-simulated-frame", number = ""), FRAME),
@@ -87,7 +87,7 @@ pub(in crate::app) fn shown_for_stored() -> Vec<[String; 2]> {
         .into()
 }
 
-/// Why an inspection was not accepted, and what to do; in English where no more is kept.
+/// Returns why an inspection was not accepted, and what to do; in English if only the text is stored.
 pub(in crate::app) fn stored_refusal(
     past: &Record,
     title_of: impl Fn(&str) -> String,
@@ -97,7 +97,7 @@ pub(in crate::app) fn stored_refusal(
     let Some(why) = refusal.why.clone() else {
         return Some([refusal.reason.clone(), refusal.advice.clone()]);
     };
-    // The best guess by the same title as in the list, whatever it is called today.
+    // The best match keeps the title that the list shows, whatever it is called today.
     let why = why.renamed(|name| match stored_part(summary) {
         Some(title) if detail.nearest.as_deref() == Some(name) => title.to_owned(),
         _ => title_of(name),
@@ -108,7 +108,7 @@ pub(in crate::app) fn stored_refusal(
     })
 }
 
-/// Refusals of this kind, where they are counted.
+/// Returns the name of a kind of refusal, for counts.
 pub(in crate::app) fn refusal_kind(kind: RefusalKind) -> String {
     match kind {
         RefusalKind::LowScore => text!("results-kind-low-score"),
@@ -154,7 +154,7 @@ mod tests {
         pipeline::Rejection,
     };
 
-    /// A refused front door that was called "Door, left" then.
+    /// A refused front door that was then called "Door, left".
     fn past(refusal: StoredRefusal) -> Record {
         let mut past = history_entry(1, StoredVerdict::NotAccepted, "front_door").record;
         past.summary.title = "Not recognised · nearest Door, left".into();
@@ -204,7 +204,7 @@ mod tests {
                 true,
                 "shots · 3 Aufnahmen, simuliert",
             ),
-            // What files and cameras are called, and what a command has written.
+            // Names of files and cameras, and texts written by commands.
             ("Simulated frame 7", false, "Simulated frame 7"),
             (
                 "Simulated frame of a door",

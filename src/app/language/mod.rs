@@ -1,11 +1,11 @@
-//! The texts of the window in every language, as Mozilla's Fluent: `assets/language/<language>/<area>.ftl`.
+//! The texts of the window in every language, in Mozilla's Fluent format: `assets/language/<language>/<area>.ftl`.
 //!
-//! `text!` names a message and its variables. Which language it answers in is a property of the thread: the window sets it
-//! at the start of each frame, and a task's thread inherits it from whoever starts the task. A message that a language lacks
-//! is shown in English; a test finds it.
+//! `text!` takes a message id and variables. The language is a property of the thread: the window sets it at the start of each
+//! frame, and a task's thread inherits it from whoever starts the task. A message missing in a language is shown in English; a
+//! test reports it.
 
-/// The text of a message in this thread's language, with the values of its variables: whole numbers, which may choose a
-/// plural, and strings. Numbers with decimals are strings: they read the same in every language, with a decimal point.
+/// Formats a message in this thread's language, with the values of its variables: whole numbers, which can select a plural,
+/// and strings. Pass numbers with decimals as strings, so that they have a decimal point in every language.
 macro_rules! text {
     ($id:literal) => {
         $crate::app::language::plain($id)
@@ -31,7 +31,7 @@ pub(in crate::app) use self::catalogue::{plain, with};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Language {
-    /// English, which holds every text.
+    /// English, which has every text.
     #[default]
     English,
     /// German.
@@ -47,10 +47,10 @@ thread_local! {
 }
 
 impl Language {
-    /// In the order in which they are offered.
+    /// All languages, in the order of the menu.
     pub const ALL: [Self; 4] = [Self::English, Self::German, Self::Spanish, Self::Chinese];
 
-    /// What its speakers call it.
+    /// The language's own name.
     pub fn own_name(self) -> &'static str {
         match self {
             Self::English => "English",
@@ -60,7 +60,7 @@ impl Language {
         }
     }
 
-    /// A few letters for it, where there is no room for its name.
+    /// An abbreviation for use where there is no room for the name.
     pub(in crate::app) fn sign(self) -> &'static str {
         match self {
             Self::English => "EN",
@@ -70,7 +70,7 @@ impl Language {
         }
     }
 
-    /// Its code after ISO 639-1, which is also the name of its folder.
+    /// The ISO 639-1 code, which is also the name of the folder.
     fn code(self) -> &'static str {
         match self {
             Self::English => "en",
@@ -80,7 +80,7 @@ impl Language {
         }
     }
 
-    /// The language of a locale such as `de_AT.UTF-8` or `zh-Hans-CN`; `None` for one that the window does not speak.
+    /// The language of a locale such as `de_AT.UTF-8` or `zh-Hans-CN`; `None` if it is not supported.
     pub fn from_locale(locale: &str) -> Option<Self> {
         let code = locale.split(['-', '_', '.', '@']).next()?;
         let of_code = |language: &Self| language.code().eq_ignore_ascii_case(code);
@@ -91,7 +91,7 @@ impl Language {
         }
     }
 
-    /// The first language of the system that the window speaks.
+    /// The first language of the system that is supported, else English.
     pub(in crate::app) fn of_system() -> Self {
         let mut locales = sys_locale::get_locales();
         let spoken = locales.find_map(|locale| Self::from_locale(&locale));
@@ -103,7 +103,7 @@ impl Language {
         CURRENT.get()
     }
 
-    /// Makes this thread speak it.
+    /// Sets the language of this thread.
     pub(in crate::app) fn make_current(self) {
         CURRENT.set(self);
     }
@@ -115,7 +115,7 @@ impl fmt::Display for Language {
     }
 }
 
-/// A title as it stands within a sentence: German nouns keep their capital letters.
+/// Adapts a title for use within a sentence: lower case, except in German, where nouns keep their capitals.
 pub(in crate::app) fn within_sentence(title: &str) -> String {
     match Language::current() {
         Language::German => title.to_owned(),
@@ -123,7 +123,7 @@ pub(in crate::app) fn within_sentence(title: &str) -> String {
     }
 }
 
-/// A shortcut such as `Ctrl Shift Z` as the keyboards of this language name its keys.
+/// Writes a shortcut such as `Ctrl Shift Z` with the key names of this language.
 pub(in crate::app) fn keys(shortcut: &str) -> String {
     let named = |key: &str| match key {
         "Ctrl" => text!("shell-key-ctrl"),

@@ -1,4 +1,4 @@
-//! The parameters of the recipe and of coats. Their English texts are those of their tables ([`Parameters::ALL`]), which the
+//! Texts of the parameters of recipes and coats. In English they equal those of the tables ([`Parameters::ALL`]), which the
 //! command line shows. No two tables share a key.
 
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     pipeline::parameters::{Group, Kind, Parameter, Parameters},
 };
 
-/// What a group of the recipe is called.
+/// Returns the title of a group of recipe parameters.
 pub(in crate::app) fn group(group: Group) -> String {
     match group {
         Group::Segmentation => text!("results-group-segmentation"),
@@ -20,7 +20,7 @@ pub(in crate::app) fn group(group: Group) -> String {
     }
 }
 
-/// What a group of a coat is called.
+/// Returns the title of a group of coat parameters.
 pub(in crate::app) fn coat_group(group: CoatGroup) -> String {
     match group {
         CoatGroup::Gun => text!("coat-group-gun"),
@@ -29,7 +29,7 @@ pub(in crate::app) fn coat_group(group: CoatGroup) -> String {
     }
 }
 
-/// What a parameter is called.
+/// Returns the name of a parameter.
 pub(in crate::app) fn name<R: Parameters>(parameter: &Parameter<R>) -> String {
     match parameter.key {
         "segment.plane_distance" => text!("results-segment-plane-distance"),
@@ -103,7 +103,7 @@ pub(in crate::app) fn name<R: Parameters>(parameter: &Parameter<R>) -> String {
     }
 }
 
-/// What a parameter of a coat is called; `None` for another key.
+/// Returns the name of a coat parameter; `None` for another key.
 fn coat_name(key: &str) -> Option<String> {
     Some(match key {
         "gun.profile" => text!("coat-gun-profile"),
@@ -133,7 +133,7 @@ fn coat_name(key: &str) -> Option<String> {
     })
 }
 
-/// What a parameter does, and what raising it costs.
+/// Describes what a parameter does, and what raising it costs.
 pub(in crate::app) fn help<R: Parameters>(parameter: &Parameter<R>) -> String {
     match parameter.key {
         "segment.plane_distance" => text!("results-segment-plane-distance-help"),
@@ -214,7 +214,7 @@ pub(in crate::app) fn help<R: Parameters>(parameter: &Parameter<R>) -> String {
     }
 }
 
-/// What a parameter of a coat does; `None` for another key.
+/// Describes what a coat parameter does; `None` for another key.
 fn coat_help(key: &str) -> Option<String> {
     Some(match key {
         "gun.profile" => text!("coat-gun-profile-help"),
@@ -244,7 +244,7 @@ fn coat_help(key: &str) -> Option<String> {
     })
 }
 
-/// The options of a choice, in order; none for a number.
+/// Returns the options of a choice, in order; none for a number.
 pub(in crate::app) fn options<R: Parameters>(parameter: &Parameter<R>) -> Vec<String> {
     let Kind::Choice(choice) = &parameter.kind else {
         return Vec::new();
@@ -266,7 +266,7 @@ pub(in crate::app) fn options<R: Parameters>(parameter: &Parameter<R>) -> Vec<St
     choice.options.iter().map(option).collect()
 }
 
-/// A parameter's value in words.
+/// Formats a parameter's value as text.
 pub(in crate::app) fn value<R: Parameters>(parameter: &Parameter<R>, recipe: &R) -> String {
     let mut option = options(parameter).into_iter();
     let option = option.nth(parameter.value(recipe) as usize);
@@ -303,7 +303,7 @@ mod tests {
         for of in CoatGroup::ALL {
             assert_eq!(coat_group(of), of.title());
         }
-        // One text stands for a key, whatever table it is of.
+        // A key has a single text, whichever table it is in.
         for parameter in Coat::ALL {
             let of_recipe = Parameter::<Recipe>::of_key(parameter.key);
             assert!(of_recipe.is_none(), "{}", parameter.key);

@@ -1,6 +1,6 @@
-//! What the library says of a result, in the language of the window. In English it is what the library itself says.
+//! Texts about results in the language of the window. In English they equal those of the library itself.
 //!
-//! Each kind of result is matched in full: a new one does not compile without its text.
+//! Each kind of result is matched exhaustively, so that a new one does not compile without its text.
 
 use crate::{
     error::Advice as _,
@@ -26,7 +26,7 @@ macro_rules! fixed {
     };
 }
 
-/// What a verdict of the history is called.
+/// Returns the name of a stored verdict.
 pub(in crate::app) fn stored_verdict(verdict: StoredVerdict) -> String {
     match verdict {
         StoredVerdict::Accepted => text!("results-accepted"),
@@ -36,7 +36,7 @@ pub(in crate::app) fn stored_verdict(verdict: StoredVerdict) -> String {
     }
 }
 
-/// Which frames are kept.
+/// Describes which frames are kept.
 pub(in crate::app) fn keep_frames(keep: KeepFrames) -> String {
     match keep {
         KeepFrames::All => text!("results-keep-all"),
@@ -45,7 +45,7 @@ pub(in crate::app) fn keep_frames(keep: KeepFrames) -> String {
     }
 }
 
-/// Why a best guess is not accepted.
+/// Explains why a best match is not accepted.
 #[expect(clippy::too_many_lines, reason = "one text for each reason")]
 pub(in crate::app) fn rejection(why: &Rejection) -> String {
     match why {
@@ -188,7 +188,7 @@ pub(in crate::app) fn rejection(why: &Rejection) -> String {
     }
 }
 
-/// What to do about it.
+/// Advises what to do about a rejection.
 pub(in crate::app) fn rejection_advice(why: &Rejection) -> String {
     match why {
         Rejection::LowScore { .. } => text!("results-low-score-advice"),
@@ -222,7 +222,7 @@ pub(in crate::app) fn rejection_advice(why: &Rejection) -> String {
     }
 }
 
-/// Why nothing could be recognised. A fault of the program keeps its own message.
+/// Explains why nothing could be recognised. A fault of the program keeps its own message.
 pub(in crate::app) fn unrecognisable(why: &Unrecognisable) -> String {
     match why {
         Unrecognisable::NoPart(NoPart::TooFewPoints { found, needed }) => {
@@ -263,7 +263,7 @@ pub(in crate::app) fn unrecognisable(why: &Unrecognisable) -> String {
     }
 }
 
-/// What to do about it.
+/// Advises what to do when nothing could be recognised.
 pub(in crate::app) fn unrecognisable_advice(why: &Unrecognisable) -> String {
     match why {
         Unrecognisable::NoPart(NoPart::TooFewPoints { .. }) => {
@@ -289,7 +289,7 @@ pub(in crate::app) fn unrecognisable_advice(why: &Unrecognisable) -> String {
     }
 }
 
-/// How a part could move and still fit.
+/// Describes how a part could move and still fit.
 pub(in crate::app) fn free_motion(freedom: FreeMotion) -> String {
     match freedom {
         FreeMotion::Slide(Axis::Long) => text!("results-slide-long"),
@@ -302,7 +302,7 @@ pub(in crate::app) fn free_motion(freedom: FreeMotion) -> String {
     }
 }
 
-/// Why no pose could be estimated.
+/// Explains why no pose could be estimated.
 pub(in crate::app) fn pose_error(error: &PoseError) -> String {
     let cloud = |which: &CloudRole| match which {
         CloudRole::Source => text!("results-source"),
@@ -352,7 +352,7 @@ pub(in crate::app) fn pose_error(error: &PoseError) -> String {
     }
 }
 
-/// What to do about it.
+/// Advises what to do about a failed estimation of the pose.
 pub(in crate::app) fn pose_error_advice(error: &PoseError) -> String {
     match error {
         PoseError::TooFewPoints { .. } => text!("results-few-points-advice"),
@@ -367,7 +367,7 @@ pub(in crate::app) fn pose_error_advice(error: &PoseError) -> String {
     }
 }
 
-/// Why a pose should not be relied upon.
+/// Explains why a pose is not reliable.
 pub(in crate::app) fn pose_warning(warning: &PoseWarning) -> String {
     match warning {
         PoseWarning::LittleOverlap { overlap, needed } => text!(
@@ -387,7 +387,7 @@ pub(in crate::app) fn pose_warning(warning: &PoseWarning) -> String {
     }
 }
 
-/// Why an estimation ended.
+/// Explains why an estimation ended.
 pub(in crate::app) fn stopped(stopped: Stopped) -> String {
     match stopped {
         Stopped::Converged => text!("results-converged"),
@@ -397,7 +397,7 @@ pub(in crate::app) fn stopped(stopped: Stopped) -> String {
     }
 }
 
-/// Why there is no stand-off.
+/// Explains why there is no stand-off.
 pub(in crate::app) fn stand_off_error(error: &StandOffError) -> String {
     match error {
         StandOffError::NoSurface => text!("inspect-no-surface"),
@@ -407,7 +407,7 @@ pub(in crate::app) fn stand_off_error(error: &StandOffError) -> String {
     }
 }
 
-/// What a check of the cell comes to.
+/// Describes the finding of a check of the cell.
 pub(in crate::app) fn cell_finding(finding: CellFinding) -> String {
     match finding {
         CellFinding::InPlace => text!("results-cell-in-place"),
@@ -418,7 +418,7 @@ pub(in crate::app) fn cell_finding(finding: CellFinding) -> String {
     }
 }
 
-/// What to do about it.
+/// Advises what to do about a finding.
 pub(in crate::app) fn cell_finding_advice(finding: CellFinding) -> String {
     match finding {
         CellFinding::InPlace => text!("results-cell-in-place-advice"),
@@ -429,7 +429,7 @@ pub(in crate::app) fn cell_finding_advice(finding: CellFinding) -> String {
     }
 }
 
-/// Why frames are no baseline of the cell, or cannot be compared with it.
+/// Explains why frames cannot serve as a baseline of the cell or be compared with it.
 pub(in crate::app) fn cell_view_error(error: &CellViewError) -> String {
     match error {
         CellViewError::NoFrame => text!("results-cell-no-frame"),
@@ -454,7 +454,7 @@ pub(in crate::app) fn cell_view_error(error: &CellViewError) -> String {
     }
 }
 
-/// What to do about it.
+/// Advises what to do about such frames.
 pub(in crate::app) fn cell_view_error_advice(error: &CellViewError) -> String {
     match error {
         CellViewError::NoFrame => text!("results-cell-no-frame-advice"),
@@ -464,7 +464,7 @@ pub(in crate::app) fn cell_view_error_advice(error: &CellViewError) -> String {
     }
 }
 
-/// Why a shot was left out, in a few words.
+/// Explains in a few words why a shot was left out.
 pub(in crate::app) fn excluded_in_short(why: &Excluded) -> String {
     match why {
         Excluded::WrongPose { .. } => text!("shots-wrong-pose"),
@@ -473,7 +473,7 @@ pub(in crate::app) fn excluded_in_short(why: &Excluded) -> String {
     }
 }
 
-/// Why a shot was left out.
+/// Explains why a shot was left out.
 pub(in crate::app) fn excluded(why: &Excluded) -> String {
     match why {
         Excluded::WrongPose { moved } => text!(
@@ -490,7 +490,7 @@ pub(in crate::app) fn excluded(why: &Excluded) -> String {
     }
 }
 
-/// What to do about it.
+/// Advises what to do about an excluded shot.
 pub(in crate::app) fn excluded_advice(why: &Excluded) -> String {
     match why {
         Excluded::WrongPose { .. } | Excluded::Contradicts { .. } => {
@@ -500,7 +500,7 @@ pub(in crate::app) fn excluded_advice(why: &Excluded) -> String {
     }
 }
 
-/// What a value of the traceability is, by its name.
+/// Returns the label of a traceability field.
 pub(in crate::app) fn traced(name: &str) -> String {
     match name {
         "serial" => text!("inspect-serial"),
@@ -510,7 +510,7 @@ pub(in crate::app) fn traced(name: &str) -> String {
     }
 }
 
-/// By which name a recipe goes; the name itself is what a person or the program calls it everywhere.
+/// Returns the name of a recipe, marked if it was modified; the name itself is not translated.
 pub(in crate::app) fn recipe_label(label: &RecipeLabel) -> String {
     if label.is_changed {
         text!("inspect-recipe-modified", name = &label.name)
@@ -519,7 +519,7 @@ pub(in crate::app) fn recipe_label(label: &RecipeLabel) -> String {
     }
 }
 
-/// What may hang in the simulated cell without being enrolled.
+/// Returns the name of an object that is not enrolled but may hang in the simulated cell.
 pub(in crate::app) fn object(kind: ObjectKind) -> String {
     match kind {
         ObjectKind::Hood => text!("results-object-hood"),

@@ -1,4 +1,5 @@
-//! Every text of the code is in every language, with the same variables, and every text of the files is used.
+//! Checks that every text of the code exists in every language with the same variables, and that every text of the files is
+//! used.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -16,10 +17,10 @@ use super::{
 };
 use crate::app::task::{Task, TaskEvent, TaskRunner};
 
-/// The names of a message's variables.
+/// Names of a message's variables.
 type Variables = BTreeSet<String>;
 
-/// The messages of the files, each with its variables; every line that begins one is counted.
+/// Reads the messages of the files with their variables; checks that their ids are unique and begin with the area.
 fn messages(files: Files) -> BTreeMap<String, Variables> {
     let mut messages: BTreeMap<String, Variables> = BTreeMap::new();
     for (area, file) in files {
@@ -44,7 +45,7 @@ fn messages(files: Files) -> BTreeMap<String, Variables> {
     messages
 }
 
-/// The messages that the code asks for.
+/// Collects the messages that the code uses.
 fn asked_for() -> BTreeMap<String, Variables> {
     let mut sources = Vec::new();
     rust_files(
@@ -69,7 +70,7 @@ fn asked_for() -> BTreeMap<String, Variables> {
     asked
 }
 
-/// The message and the variables of a call, from behind its opening bracket; `None` where no message is named.
+/// Parses a call after its opening bracket into message id and variables; `None` if it does not name a message.
 fn call_of(call: &str) -> Option<(String, Variables)> {
     let (id, rest) = call.trim_start().strip_prefix('"')?.split_once('"')?;
     let mut variables = Variables::new();
@@ -105,7 +106,7 @@ fn rust_files(folder: &Path, found: &mut Vec<PathBuf>) {
         if path.is_dir() {
             rust_files(&path, found);
         } else if path.extension().is_some_and(|ending| ending == "rs")
-            // This file speaks of the calls.
+            // This file mentions calls without making them.
             && !path.ends_with("language/tests.rs")
         {
             found.push(path);

@@ -21,72 +21,72 @@ use crate::{
     robot::Convention,
 };
 
-/// Something that happened.
+/// An action of the user or of the shell itself.
 #[derive(Debug)]
 pub enum Action {
     /// Take a scene from the source and inspect it.
     Capture,
-    /// Capture from the simulated cell, with this in it.
+    /// Capture from the simulated cell with this content.
     UseCell(CellChoice),
-    /// Take the scene in front as the empty cell: what stands in it is not taken for a part from now on.
+    /// Take the scene in front as the empty cell, so that nothing in it is taken for a part from now on.
     TakeEmptyCell,
-    /// Forget the empty cell.
+    /// Discard the empty cell.
     ForgetEmptyCell,
-    /// Have a person choose a file or folder.
+    /// Ask the user to choose a file or folder.
     Ask(DialogRequest),
-    /// A person chose it.
+    /// The user chose this file or folder.
     Chosen(DialogRequest, PathBuf),
     /// Open this file, or the scan in this folder, and inspect or enrol it.
     Open(PathBuf),
-    /// Use the library that is found without choosing one.
+    /// Use the library that is found when none is chosen.
     UseFoundLibrary,
-    /// Cancel what the inspector is at.
+    /// Cancel the running inspection.
     CancelInspection,
     /// Bring a workspace to the front.
     GoTo(WorkspaceKind),
-    /// Ask where the report of the inspection in front goes.
+    /// Ask where to save the report of the inspection in front.
     Export,
-    /// Close what lies on top: the shortcuts, then an enlarged stage.
+    /// Close what is on top: the shortcuts, then an enlarged stage.
     CloseTop,
-    /// Change the units.
+    /// Switch the units.
     SwitchUnits,
-    /// Change the colours.
+    /// Switch the colours.
     SwitchTheme,
-    /// Speak another language.
+    /// Use another language.
     Speak(Language),
     /// Open or close the list of shortcuts.
     ToggleHelp,
-    /// Take a notice away.
+    /// Remove the notice at this index.
     Dismiss(usize),
-    /// Open the file of this notice again, read as it offers.
+    /// Open the file of the notice at this index again, as the notice offers.
     Reread(usize),
     /// Show a notice.
     Notify(Notice),
     /// Close the window.
     Quit,
-    /// Close it, whatever is not saved.
+    /// Close the window, discarding unsaved data.
     CloseAnyway,
-    /// Leave it open after all.
+    /// Keep the window open.
     StayOpen,
-    /// Tell the robot poses in these numbers.
+    /// Give poses to the robot in this convention.
     UseConvention(Convention),
-    /// Of the source and of following it.
+    /// An action on the followed source.
     Live(LiveAction),
-    /// Of whose window it is.
+    /// An action on the roles.
     Role(RoleAction),
-    /// Take back what the last notice offers to.
+    /// Undo what the last notice offers to undo.
     Undo,
-    /// The key at this place of a workspace's own was pressed.
+    /// The key at this index of a workspace's own keys was pressed.
     Press(WorkspaceKind, usize),
-    /// Cancel what a workspace is at.
+    /// Cancel the running work of a workspace.
     CancelTask(WorkspaceKind),
-    /// The engineer's view, which a workspace asked for, is there.
+    /// The engineer's view, requested by a workspace, was granted.
     EngineerIn(WorkspaceKind),
-    /// Of the robot's cell.
+    /// An action on the robot's cell.
     Robot(RobotAction),
 }
 
-/// What a person is asked to choose.
+/// A choice of a file or folder by the user.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DialogRequest {
     /// A captured scene to open.
@@ -97,7 +97,7 @@ pub enum DialogRequest {
     Recording,
     /// A folder to watch for captures.
     WatchedFolder,
-    /// The folder that the source is recorded in.
+    /// The folder to record the source into.
     RecordTo,
     /// The folder of another library.
     Library,
@@ -105,30 +105,30 @@ pub enum DialogRequest {
     Part,
 }
 
-/// What is to be done outside the state.
+/// Work to be done outside the state.
 #[derive(Clone, Debug)]
 pub enum Effect {
     /// Show the system's dialog.
     ShowDialog(DialogRequest),
-    /// Have a workspace do what its key at this place does.
+    /// Perform the key at this index of a workspace's own keys.
     Press(WorkspaceKind, usize),
-    /// Have a workspace cancel what it is at.
+    /// Cancel the running work of a workspace.
     CancelTask(WorkspaceKind),
-    /// Have the workspace in front take this.
+    /// Hand a scene or scan with this title to the workspace in front.
     Take(SceneOrScan, String),
-    /// Have this file inspected, or enrolled while that is in front.
+    /// Inspect this file, or enrol it if Enrol is in front.
     TakeFile(PathBuf),
-    /// Have this done about the robot's cell.
+    /// Carry out an action on the robot's cell.
     Robot(RobotAction),
-    /// Tell every workspace.
+    /// Send an event to every workspace.
     Tell(Event),
-    /// Tell this workspace that the engineer's view is there.
+    /// Tell this workspace that the engineer's view was granted.
     EngineerIn(WorkspaceKind),
     /// Close the window.
     Close,
 }
 
-/// More notices than this push the oldest out.
+/// Maximum number of notices; the oldest is dropped for another.
 const MAX_NOTICES: usize = 4;
 
 /// Carries out an action.
@@ -206,9 +206,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
     None
 }
 
-/// What follows from the file or folder that was chosen.
+/// Handles the file or folder that was chosen.
 fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect> {
-    // It is remembered, and the next start may be in another folder.
+    // The path is remembered, and the next start may be in another working folder.
     let path = path::absolute(&path).unwrap_or(path);
     match ask {
         DialogRequest::Scene | DialogRequest::Part => {
@@ -244,7 +244,7 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
 
 /// Shows a notice.
 pub(in crate::app) fn notify(state: &mut State, notice: Notice) {
-    // The same again says nothing new.
+    // Replace an identical notice.
     state.notices.retain(|known| *known != notice);
     state.notices.push(notice);
     let num_over = state.notices.len().saturating_sub(MAX_NOTICES);

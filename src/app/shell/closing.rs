@@ -1,4 +1,4 @@
-//! The question before the window closes over something that was not saved.
+//! The question before the window closes with unsaved data.
 
 use egui::{Button, Context, RichText};
 
@@ -15,9 +15,9 @@ pub enum Closing {
     /// No close was requested.
     #[default]
     No,
-    /// This would be lost, in words: a person is asked.
+    /// The user is asked; the text says what would be lost.
     Asked(String),
-    /// It closes, whatever is lost.
+    /// The window closes, whatever is lost.
     Confirmed,
 }
 

@@ -1,33 +1,33 @@
-//! What the shell lends a workspace while it draws or takes in a result.
+//! What the shell lends to a workspace while it draws or handles results.
 
 use super::{file_dialog::DialogLock, message::Message, notice::Notice, session::Session};
 use crate::app::{inspection::library_cache::LibraryCache, ui::theme::Theme};
 
-/// What tasks share. Clones go into jobs.
+/// Data shared by tasks. Clones go into jobs.
 #[derive(Clone, Debug)]
 #[cfg_attr(test, derive(Default))]
 pub struct Services {
     /// The library, the camera, the recording and the history in use.
     pub library_cache: LibraryCache,
-    /// Keeps a second file dialog from opening behind the first.
+    /// Allows only one file dialog at a time.
     pub dialogs: DialogLock,
 }
 
-/// What the shell lends a workspace.
+/// What the shell lends to a workspace.
 pub struct ShellContext<'a> {
-    /// egui's.
+    /// Context of egui.
     pub egui: &'a egui::Context,
-    /// What the workspaces share.
+    /// State shared by the workspaces.
     pub session: &'a Session,
-    /// Colours.
+    /// Colours of the current theme.
     pub theme: &'static Theme,
-    /// What tasks share.
+    /// Data shared by tasks.
     pub services: &'a Services,
     messages: &'a mut Vec<Message>,
 }
 
 impl<'a> ShellContext<'a> {
-    /// `messages` takes what is sent.
+    /// Makes a context; sent messages are added to `messages`.
     pub fn new(
         egui: &'a egui::Context,
         session: &'a Session,
@@ -43,25 +43,25 @@ impl<'a> ShellContext<'a> {
         }
     }
 
-    /// Asks something of the shell; it is done before the next frame.
+    /// Sends a request to the shell, which carries it out before the next frame.
     pub fn send(&mut self, message: Message) {
         self.messages.push(message);
     }
 
-    /// Has a notice shown.
+    /// Shows a notice.
     pub fn notify(&mut self, notice: impl Into<Notice>) {
         self.send(Message::Notify(notice.into()));
     }
 }
 
-/// A shell for tests of a workspace without a window.
+/// A shell for testing a workspace without a window.
 #[cfg(test)]
 #[derive(Default)]
 pub(in crate::app) struct TestShell {
     pub(in crate::app) egui: egui::Context,
     pub(in crate::app) session: Session,
     pub(in crate::app) services: Services,
-    /// What was sent.
+    /// Messages sent so far.
     pub(in crate::app) messages: Vec<Message>,
 }
 
@@ -76,7 +76,7 @@ impl TestShell {
         )
     }
 
-    /// What the notices say that were sent.
+    /// Texts of the notices that were sent.
     pub(in crate::app) fn notices(&self) -> Vec<&str> {
         let notices = self.messages.iter().filter_map(|message| match message {
             Message::Notify(notice) => Some(notice.what.as_str()),

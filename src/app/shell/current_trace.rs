@@ -1,5 +1,5 @@
-//! The serial number, the order and the operator that the next inspection is of: typed in the operator's view, or sent by a
-//! scanner.
+//! Traceability of the next inspection: serial number, production order and operator, typed in the operator's view or sent by
+//! a scanner.
 
 use std::sync::{Arc, Mutex};
 
@@ -14,25 +14,25 @@ use crate::{
     history::Traceability,
 };
 
-/// Width of what stands before a field, logical pixels.
+/// Width of the label before a field, logical pixels.
 const NAME: f32 = 76.0;
 
-/// What the next inspection is of. Clones share it: whoever inspects takes it where the verdict counts.
+/// Traceability of the next inspection. Clones share it; whoever inspects takes it when the verdict counts.
 #[derive(Clone, Debug, Default)]
 pub struct CurrentTrace(Arc<Mutex<Traceability>>);
 
 impl CurrentTrace {
-    /// Begins with this.
+    /// Starts with these values.
     pub fn starting(trace: Traceability) -> Self {
         Self(Arc::new(Mutex::new(trace)))
     }
 
-    /// What is written now.
+    /// The current values.
     pub fn get(&self) -> Traceability {
         lock(&self.0).clone()
     }
 
-    /// What is remembered from one start to the next: all but the serial number.
+    /// The values kept from one start to the next: all but the serial number.
     pub fn remembered(&self) -> Traceability {
         Traceability {
             serial: String::new(),
@@ -40,13 +40,13 @@ impl CurrentTrace {
         }
     }
 
-    /// A scanner or a person has written the serial number of the part that hangs there.
+    /// Sets the serial number of the part that hangs there, from a scanner or typed.
     pub fn set_serial(&self, serial: &str) {
         lock(&self.0).serial = Traceability::cleaned(serial);
     }
 
-    /// What an inspection is of. Its serial number is used up, so that the next part never has it; where no part was
-    /// found it waits for one.
+    /// Takes the values for an inspection. Uses up the serial number, so that the next part never gets it; if no part was
+    /// found, the number waits for one.
     pub fn take(&self, is_part: bool) -> Traceability {
         let mut trace = lock(&self.0);
         let serial = if is_part {
@@ -62,7 +62,7 @@ impl CurrentTrace {
     }
 }
 
-/// The fields.
+/// Draws the input fields.
 pub(in crate::app) fn fields(ui: &mut Ui, trace: &CurrentTrace, theme: &Theme) {
     let before = trace.get();
     let mut now = before.clone();

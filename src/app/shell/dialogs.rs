@@ -1,4 +1,4 @@
-//! What the whole window asks in the system's file dialogs.
+//! The requests of the window's own file dialogs.
 
 use super::{
     action::DialogRequest,
@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{app::language::text, files::SCENE_ENDINGS};
 
-/// The dialog that asks this.
+/// Returns the request for a choice.
 pub(in crate::app) fn request(ask: DialogRequest) -> FileRequest {
     let (title, choice): (_, FileChoice) = match ask {
         DialogRequest::Scene => (text!("shell-open-scene"), FileChoice::File),

@@ -1,4 +1,4 @@
-//! The system's file dialogs, asked without waiting for them.
+//! The system's file dialogs, polled without blocking.
 
 use std::{
     cell::{Cell, RefCell, RefMut},
@@ -15,50 +15,50 @@ use super::{notice::Notice, path_entry::PathEntry};
 use crate::files::{POINT_ENDINGS, disk, folder_of, words_of};
 use crate::{app::language::text, error::lock};
 
-/// A kind of files: its name, and the endings.
+/// A kind of files: its name and its endings.
 pub type FileFilter = (String, &'static [&'static str]);
 
 /// What a file dialog asks for.
 #[derive(Clone, Debug)]
 pub struct FileRequest {
-    /// Its title.
+    /// Title of the dialog.
     pub title: String,
-    /// Kinds of files.
+    /// Kinds of files to offer.
     pub filters: Vec<FileFilter>,
-    /// What is chosen.
+    /// Whether a file or a folder is chosen, to read or to write.
     pub choice: FileChoice,
 }
 
-/// What is chosen in a file dialog.
+/// The choice made in a file dialog.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileChoice {
     /// A file to read.
     File,
     /// A folder to read.
     Folder,
-    /// A file to write, with this name unless a person writes another.
+    /// A file to write, with this suggested name.
     NewFile(&'static str),
     /// A folder to write into.
     FolderToWrite,
 }
 
-/// A filter that lets every file through.
+/// A filter that accepts every file.
 pub fn all_files() -> FileFilter {
     (text!("shell-all-files"), &["*"])
 }
 
-/// A filter for whatever holds points.
+/// A filter for all files that hold points.
 pub fn points() -> FileFilter {
     (text!("shell-scenes-clouds-meshes"), POINT_ENDINGS)
 }
 
-/// The file dialog of one owner, who tells its questions apart by `K`.
+/// The file dialog of one owner, who distinguishes its requests by `K`.
 pub struct FileDialog<K> {
     open: Option<(K, OpenDialog)>,
 }
 
-/// Keeps a second dialog from opening: it would hide behind the first. Clones share it, and the path that is typed where
-/// the system has no dialog.
+/// Allows only one dialog at a time, because a second would hide behind the first. Clones share it, and the path being typed
+/// where the system has no dialog.
 #[derive(Clone, Debug, Default)]
 pub struct DialogLock(Rc<SharedDialog>);
 
@@ -66,7 +66,7 @@ pub struct DialogLock(Rc<SharedDialog>);
 struct SharedDialog {
     is_open: Cell<bool>,
     typed: RefCell<Option<PathEntry>>,
-    /// Where the last path was typed: of what is read, and of what is written.
+    /// Folders of the last typed paths: to read, and to write.
     folders: RefCell<[Option<PathBuf>; 2]>,
 }
 
@@ -98,7 +98,7 @@ impl<K: Copy> FileDialog<K> {
         }
     }
 
-    /// What was chosen, or why nothing can be; `None` while the dialog is open and after it was closed.
+    /// Returns the chosen path, or why none can be chosen; `None` while the dialog is open and after it was cancelled.
     pub fn poll(&mut self) -> Option<(K, Result<PathBuf, Notice>)> {
         let (asked, dialog) = self.open.as_mut()?;
         let asked = *asked;
@@ -116,12 +116,12 @@ impl DialogLock {
         self.0.is_open.get()
     }
 
-    /// The path that is being typed, if one is.
+    /// The path being typed, if any.
     pub(super) fn typed(&self) -> RefMut<'_, Option<PathEntry>> {
         self.0.typed.borrow_mut()
     }
 
-    /// Where the typing of a path begins.
+    /// Folder in which typing a path starts.
     fn folder(&self, choice: FileChoice) -> PathBuf {
         let known = self.0.folders.borrow()[usize::from(choice.is_written())].clone();
         known.unwrap_or_else(|| usual_folder(choice))
@@ -140,7 +140,7 @@ impl DialogLock {
     }
 }
 
-/// Gives the lock back when the dialog is closed.
+/// Releases the lock when the dialog is closed.
 struct DialogGuard(DialogLock);
 
 impl Drop for DialogGuard {
@@ -151,25 +151,25 @@ impl Drop for DialogGuard {
     }
 }
 
-/// A dialog that is open.
+/// An open dialog.
 struct OpenDialog {
     request: FileRequest,
     answer: Answer<PathBuf>,
     waker: Arc<DialogWaker>,
-    /// When it was polled first: only then does it open.
+    /// When it was first polled, which is what opens it.
     opened: Option<Instant>,
-    /// True once it has failed to open, and a path is typed instead.
+    /// True once it has failed to open and a path is typed instead.
     is_typed: bool,
     guard: DialogGuard,
 }
 
-/// What a person chose, once they have.
+/// Resolves to the chosen path.
 type Answer<T> = Pin<Box<dyn Future<Output = Option<T>>>>;
 
-/// Nobody closes a dialog as quickly as this: it never opened.
+/// No user closes a dialog faster than this: it never opened.
 const TOO_QUICK: Duration = Duration::from_millis(250);
 
-/// Woken by the dialog's own thread as soon as it has closed, however much later the next frame comes.
+/// Woken by the dialog's own thread as it closes, however much later the next frame comes.
 struct DialogWaker {
     egui: egui::Context,
     closed: Mutex<Option<Instant>>,
@@ -221,7 +221,7 @@ impl OpenDialog {
         }
     }
 
-    /// Ready once it was closed, with what follows from it, if anything.
+    /// Ready once the dialog was closed, with the result, if any.
     fn poll(&mut self) -> Poll<Option<Result<PathBuf, Notice>>> {
         if !self.is_typed {
             let opened = *self.opened.get_or_insert_with(Instant::now);
@@ -250,7 +250,7 @@ impl OpenDialog {
             .map(|path| path.map(|path| self.made(path)))
     }
 
-    /// The path that was typed, with the folder to write into: what writes a file does not make it.
+    /// Creates the folder to write into for a typed path, because writing a file does not create it.
     fn made(&self, path: PathBuf) -> Result<PathBuf, Notice> {
         let choice = self.request.choice;
         let folder = match choice {
@@ -272,7 +272,8 @@ impl OpenDialog {
         Ok(path)
     }
 
-    /// How long it was open. The clock of frames would not tell: behind Live, one may take longer than failing does.
+    /// How long the dialog was open. Timing by frames would be wrong: with Live running, a frame may take longer than failing
+    /// does.
     fn open_time(&self, opened: Instant) -> Duration {
         let closed = self.waker.closed().unwrap_or_else(Instant::now);
         closed.saturating_duration_since(opened)
@@ -285,7 +286,7 @@ impl FileChoice {
     }
 }
 
-/// Where the first path is typed: what is written goes to a folder of its own.
+/// Folder for the first typed path: the home folder to read, a folder of its own to write.
 fn usual_folder(choice: FileChoice) -> PathBuf {
     let Some(user) = directories::UserDirs::new() else {
         return PathBuf::from("/");
@@ -303,7 +304,7 @@ mod tests {
 
     use super::*;
 
-    /// A dialog that closes by itself after this time, with nothing chosen.
+    /// Makes a dialog that closes by itself after this time with nothing chosen.
     fn closing_after(time: Duration) -> OpenDialog {
         let mut thread = None;
         let answer = poll_fn(move |context| {
@@ -327,7 +328,7 @@ mod tests {
         OpenDialog::of(request, Box::pin(answer), guard, &egui)
     }
 
-    /// What follows where the next frame comes only once the dialog has long closed.
+    /// Polls the dialog again only long after it has closed.
     fn after_a_slow_frame(dialog: &mut OpenDialog) -> Poll<Option<Result<PathBuf, Notice>>> {
         thread::sleep(TOO_QUICK);
         assert!(dialog.poll().is_pending());
@@ -352,7 +353,7 @@ mod tests {
         assert!(matches!(answer, Poll::Ready(Some(Ok(path))) if path == typed));
         drop(failed);
         assert!(lock.typed().is_none() && !lock.is_open());
-        // The next one begins there.
+        // The next path starts there.
         assert_eq!(lock.folder(FileChoice::File), Path::new("/captures"));
         let mut cancelled = closing_after(2 * TOO_QUICK);
         assert!(matches!(

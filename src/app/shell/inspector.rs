@@ -38,32 +38,32 @@ use crate::{
 #[derive(Debug)]
 pub struct Inspector {
     task: Task<InspectorResult>,
-    /// Loads the library at the start, and again once another program has changed it.
+    /// Loads the library at the start, and again after another program has changed it.
     pub loader: LibraryLoader,
     library_cache: LibraryCache,
-    /// The number of the newest run, which is that of its result.
+    /// Generation of the newest run and its result.
     generation: u64,
-    /// What the newest run is for.
+    /// Purpose of the newest run.
     purpose: ReinspectionPurpose,
-    /// How many frames of the simulated cell were asked for.
+    /// Number of frames captured from the simulated cell.
     pub num_captures: u64,
-    /// True while the window starts: a file that it opens then may show a part that was inspected before.
+    /// True while the window starts, when an opened file may show a part that was inspected before.
     pub is_start: bool,
 }
 
-/// What a run comes to.
+/// Result of a run.
 #[derive(Debug)]
 enum InspectorResult {
-    /// A scene with everything that was found in it.
+    /// A scene with everything found in it.
     Inspected(Arc<Inspected>),
-    /// The poses of these shots were not found: a person has to name their file.
+    /// The poses of these shots were not found: the user has to choose their file.
     PosesWanted(Box<ScanOrder>, UserError),
-    /// The library that is in use now, and the folder that was chosen for it, if any.
+    /// The library now in use, and the folder that was chosen for it, if any.
     Library(Arc<LibraryView>, Option<PathBuf>),
 }
 
 impl Inspector {
-    /// Before the first capture.
+    /// Makes the inspector before the first capture.
     pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
         Self {
             task: Task::new("inspect", runner),
@@ -76,7 +76,7 @@ impl Inspector {
         }
     }
 
-    /// What is at work, if anything.
+    /// The running inspection, if any.
     pub fn running(&self) -> Option<&Running> {
         self.task.running()
     }
@@ -93,8 +93,8 @@ impl Inspector {
 }
 
 impl State {
-    /// Takes a scene from the source: to be inspected, or to be enrolled while that is in front. To be inspected it is a
-    /// single one, and ends following the source.
+    /// Takes a scene from the source, to be inspected, or to be enrolled if Enrol is in front. Capturing for inspection stops
+    /// following the source.
     pub(in crate::app) fn capture(&mut self) -> Option<Effect> {
         let (source, title) = match &self.session.source {
             Source::Cell(choice) => {
@@ -138,7 +138,7 @@ impl State {
         None
     }
 
-    /// Inspects a scene or a scan as one of a part of its own; ends following the source.
+    /// Inspects a scene or a scan as a hung part of its own; stops following the source.
     fn inspect(&mut self, title: String, job: InspectJob) {
         let part = if self.inspector.is_start {
             PartAtHand::MaybeSeen
@@ -148,8 +148,8 @@ impl State {
         self.inspect_part(title, job, ReinspectionPurpose::New, part);
     }
 
-    /// Inspects something once more: of the part that the history knows, else as one of a part of its own; ends following
-    /// the source.
+    /// Inspects something again, as an inspection of `hung` if given, else as a hung part of its own; stops following the
+    /// source.
     pub(in crate::app) fn inspect_again_as(
         &mut self,
         title: String,
@@ -180,13 +180,13 @@ impl State {
         });
     }
 
-    /// Cancels what the inspector is at.
+    /// Cancels the running inspection.
     pub(in crate::app) fn cancel_inspection(&mut self) {
         self.inspector.task.cancel();
         self.session.inspecting = None;
     }
 
-    /// Inspects the scene in front again: something that its result rests on has changed.
+    /// Repeats the inspection of the scene in front because something that it depends on has changed.
     pub(in crate::app) fn inspect_again(&mut self) {
         if self.session.is_live() {
             live::restart_consensus(self);
@@ -198,8 +198,8 @@ impl State {
         }
     }
 
-    /// Inspects the scene in front once more, with what holds now: another verdict on the same part. One from the history
-    /// hangs there no longer, and gets none.
+    /// Inspects the scene in front again with the current settings: another verdict on the same hung part. A scene from the
+    /// history hangs there no longer, so its inspection is only repeated, not new.
     pub(in crate::app) fn inspect_shown(&mut self, title: &str, purpose: ReinspectionPurpose) {
         if let Some(shown) = &self.session.shown {
             let purpose = if shown.is_past {
@@ -213,7 +213,7 @@ impl State {
         }
     }
 
-    /// The part in front, if this is its scene.
+    /// The hung part in front, if this is its scene.
     fn part_in(&self, saved: &SceneOrScan) -> Option<PartAtHand> {
         let inspected = &self
             .session
@@ -233,7 +233,7 @@ impl State {
         is_it.then(|| PartAtHand::of(inspected))
     }
 
-    /// Uses the library that was changed, and inspects what was saved in it, else the scene in front.
+    /// Uses the changed library and inspects what was saved in it, else the scene in front.
     pub(in crate::app) fn library_changed(
         &mut self,
         library: &Arc<LibraryView>,
@@ -243,7 +243,7 @@ impl State {
         let (title, purpose) = (text!("shell-inspecting-again"), ReinspectionPurpose::New);
         if let Some(saved) = saved {
             let part = self.part_in(&saved);
-            // What is enrolled is no part of an order.
+            // An enrolled part does not belong to an order.
             let part = part.unwrap_or_else(|| PartAtHand::Past(Traceability::default()));
             let job = self.session.inspect_job(saved);
             self.inspect_part(title, job, purpose, part);
@@ -252,8 +252,8 @@ impl State {
         }
     }
 
-    /// Loads the library in this folder, else the one that is found without choosing; one that cannot be loaded leaves the
-    /// old one in use, and is not remembered.
+    /// Loads the library in this folder, or the one found when none is chosen. If that fails, the old library stays in use and
+    /// the choice is not remembered.
     pub(in crate::app) fn open_library(&mut self, chosen: Option<PathBuf>) {
         let title = text!("shell-opening-library");
         let library_cache = self.begins(&title, ReinspectionPurpose::Repeated);
@@ -265,7 +265,7 @@ impl State {
         });
     }
 
-    /// Writes down that a run begins, and hands over what it works with.
+    /// Records the start of a run; returns the shared data that it works with.
     fn begins(&mut self, title: &str, purpose: ReinspectionPurpose) -> LibraryCache {
         self.generation += 1;
         self.session.failed = None;
@@ -293,7 +293,7 @@ impl State {
         live::give_way(self);
     }
 
-    /// The scene in front becomes the empty cell.
+    /// Takes the scene in front as the empty cell.
     pub(in crate::app) fn take_empty_cell(&mut self) {
         let Some(shown) = &self.session.shown else {
             return;
@@ -325,16 +325,16 @@ impl State {
     }
 }
 
-/// Which part an inspection is of.
+/// Which hung part an inspection belongs to.
 #[derive(Debug)]
 enum PartAtHand {
-    /// One of its own: it takes the serial number that is written now.
+    /// A new one, which takes the current serial number.
     New(CurrentTrace),
-    /// This one: it still hangs there, or the history knows it.
+    /// This one, which still hangs there or is in the history.
     Known(HungId, Traceability),
-    /// One of its own that is traced by this.
+    /// A new one with this traceability.
     Past(Traceability),
-    /// The one that was inspected before if its file is the same, else one of its own.
+    /// The one inspected before if the file is the same, else a new one.
     MaybeSeen,
 }
 
@@ -344,7 +344,7 @@ impl PartAtHand {
     }
 }
 
-/// What the task does.
+/// Runs the job of the task.
 fn run(
     job: &InspectJob,
     part: PartAtHand,
@@ -385,7 +385,7 @@ fn run(
     Ok(InspectorResult::Inspected(Arc::new(inspected)))
 }
 
-/// Polls the tasks; returns the event that every workspace receives.
+/// Polls the tasks; returns the event for all workspaces.
 pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
     library_loader::update(state);
     let event = state.inspector.task.poll();
@@ -408,7 +408,7 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
         TaskEvent::Failed(error) => {
             state.session.failed = Some(error.clone());
             notify(state, error.into());
-            // A file that could not be inspected is no recent one.
+            // A file that could not be inspected does not count as recent.
             let session = &mut state.session;
             if let Source::File(path) = &session.source {
                 session.recent.retain(|known| known != path);
@@ -418,7 +418,7 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
     None
 }
 
-/// Shows a result made elsewhere as an inspection of its own; what is at work is cancelled.
+/// Shows a result made elsewhere as a new inspection; cancels a running one.
 pub(in crate::app) fn show_made(state: &mut State, inspected: Arc<Inspected>) -> Event {
     state.generation += 1;
     let inspector = &mut state.inspector;
@@ -456,7 +456,7 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         ..
     } = state.inspector;
     state.session.failed = None;
-    // One from the history stays one, by whichever recipe or library it is looked at.
+    // A result from the history stays past, with whatever recipe or library it is inspected again.
     let was_past = state
         .session
         .shown
@@ -476,10 +476,10 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
     Event::Inspected { inspected, purpose }
 }
 
-/// Recent files that are remembered.
+/// Maximum number of recent files.
 const MAX_RECENT: usize = 8;
 
-/// Puts a file first among the recent ones.
+/// Moves a file to the front of the recent ones.
 fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
     recent.retain(|known| known != path);
     recent.insert(0, path.to_owned());

@@ -1,36 +1,36 @@
-//! Keys, and what they do.
+//! Keys and their effects.
 
 use egui::{Key, Modifiers};
 
-/// A key, and how the list of shortcuts names it.
+/// A key, with its texts in the list of shortcuts.
 #[derive(Clone, Copy, Debug)]
 pub struct KeyBinding {
-    /// Keys held down with it.
+    /// Modifiers held down with the key.
     pub modifiers: Modifiers,
     /// The key.
     pub key: Key,
-    /// Both, for a person.
+    /// Name of key and modifiers for the user.
     pub keys: fn() -> String,
-    /// What it does, for a person.
+    /// Description of the effect for the user.
     pub does: fn() -> String,
 }
 
 /// A key and the action that it causes.
 pub struct Shortcut<A> {
-    /// Keys held down with it.
+    /// Modifiers held down with the key.
     pub modifiers: Modifiers,
     /// The key.
     pub key: Key,
-    /// Both, for a person.
+    /// Name of key and modifiers for the user.
     pub keys: fn() -> String,
-    /// What it does, for a person.
+    /// Description of the effect for the user.
     pub does: fn() -> String,
     /// Makes the action.
     pub action: fn() -> A,
 }
 
 impl<A> Shortcut<A> {
-    /// The key alone.
+    /// The key without the action.
     pub fn binding(&self) -> KeyBinding {
         KeyBinding {
             modifiers: self.modifiers,

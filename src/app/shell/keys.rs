@@ -42,7 +42,7 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
         does: || text!("shell-does-record"),
         action: || Action::Live(LiveAction::ToggleRecording),
     },
-    // Before Ctrl O, which would take it too.
+    // Before Ctrl O, which would match it too.
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::O,
@@ -115,7 +115,7 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
     },
 ];
 
-/// Keys of the 3-D view and of the focus, for the list alone.
+/// Keys of the 3-D view and of the focus, only for the list.
 fn other_keys() -> [[String; 2]; 7] {
     [
         [text!("shell-keys-tab"), text!("shell-does-tab")],
@@ -128,7 +128,7 @@ fn other_keys() -> [[String; 2]; 7] {
     ]
 }
 
-/// Keys of the picture and the 3-D view in which a part is corrected, for the list alone.
+/// Keys of the picture and the 3-D view for correcting a part, only for the list.
 fn picture_keys() -> [[String; 2]; 3] {
     [
         [text!("shell-keys-drawing"), text!("shell-does-drawing")],
@@ -137,7 +137,7 @@ fn picture_keys() -> [[String; 2]; 3] {
     ]
 }
 
-/// The keys of the rail, in its order.
+/// Keys of the workspaces, in the order of the rail.
 const RAIL_KEYS: [(Key, &str); 6] = [
     (Key::Num1, "1"),
     (Key::Num2, "2"),
@@ -147,23 +147,23 @@ const RAIL_KEYS: [(Key, &str); 6] = [
     (Key::Num6, "6"),
 ];
 
-/// What of the window's height the list leaves free, for its heading, its button, the edges, and a notice above it.
+/// Part of the window's height that the list leaves free, for heading, button, edges, and a notice above it, logical pixels.
 const HELP_MARGIN: f32 = 230.0;
 
-/// What a key causes.
+/// Effect of a key.
 #[derive(Clone, Copy)]
 enum Pressed {
-    /// What the workspace says, by the place of the key among its own.
+    /// The workspace's own key at this index.
     Own(usize),
-    /// This.
+    /// This action.
     Named(fn() -> Action),
 }
 
-/// What the keys cause. Called after the panels, so that a focused control has its keys first.
+/// Collects the actions of pressed keys. Called after the panels, so that a focused control gets its keys first.
 ///
-/// The space bar presses a focused control; `space_is_free` says that what has the focus does not use it. While a
-/// person writes, only keys with Ctrl are shortcuts; the Enter that ends the writing is the text's, too. Behind a dialog
-/// there are none: the dialog has the keys.
+/// The space bar presses a focused control; `space_is_free` means that the focused one does not use it. While the user types
+/// text, only keys with Ctrl are shortcuts; the Enter that ends typing belongs to the text, too. Behind a dialog there are no
+/// shortcuts: the dialog gets the keys.
 pub(in crate::app) fn shortcuts(
     ctx: &egui::Context,
     state: &State,
@@ -186,10 +186,10 @@ pub(in crate::app) fn shortcuts(
         .map(|shortcut| (shortcut.binding(), Pressed::Named(shortcut.action)));
     for (binding, pressed) in own.chain(named) {
         let is_plain = binding.modifiers.is_none();
-        // In a text that is being written, Ctrl Z takes back what was written.
+        // In a text field, Ctrl Z undoes typing.
         let is_of_text = is_plain || binding.key == Key::Z;
         let presses = matches!(binding.key, Key::Space | Key::Enter);
-        // A text has no use for Escape but to be left: what is open closes by the same press.
+        // Escape does nothing in a text field but leave it, so that the same press may also close what is open.
         let is_taken = is_writing || was_writing && binding.key != Key::Escape;
         if presses && is_pressing || is_of_text && is_taken {
             continue;
@@ -212,9 +212,9 @@ pub(in crate::app) fn shortcuts(
     }
 }
 
-/// True if a text had the focus when this frame began, and remembers for the next whether one has it now.
+/// Returns whether a text field had the focus when this frame began, and remembers whether one has it now.
 ///
-/// A text of one line gives the focus away in the very frame in which Enter is pressed.
+/// A single-line text field loses the focus in the same frame in which Enter is pressed.
 fn remember_writing(ctx: &egui::Context, is_writing: bool) -> bool {
     let id = Id::unique("a text is being written");
     ctx.data_mut(|data| {
@@ -224,7 +224,7 @@ fn remember_writing(ctx: &egui::Context, is_writing: bool) -> bool {
     })
 }
 
-/// The list of shortcuts.
+/// Draws the list of shortcuts.
 pub(in crate::app) fn help(
     ctx: &egui::Context,
     state: &State,
@@ -251,7 +251,7 @@ pub(in crate::app) fn help(
             .spacing(vec2(24.0, 6.0));
         let list_area = ScrollArea::vertical().max_height(room);
         list_area.min_scrolled_height(room).show(ui, |ui| {
-            // The scroll bar floats over what lies on the right.
+            // The scroll bar floats over the right edge of the content.
             ui.set_max_width(ui.available_width() - space::MEDIUM);
             list.show(ui, |ui| {
                 let own = own.iter().map(|own| [(own.keys)(), (own.does)()]);

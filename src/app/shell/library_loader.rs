@@ -1,4 +1,4 @@
-//! Loads the library at the start, and again once another program has changed it.
+//! Loads the library at the start, and again after another program has changed it.
 
 use std::sync::Arc;
 
@@ -12,21 +12,21 @@ use crate::app::{
     task::{Task, TaskEvent, TaskRunner},
 };
 
-/// Keeps the library in use the one that is on the disk.
+/// Keeps the library in use in step with its folder.
 #[derive(Debug)]
 pub struct LibraryLoader {
     loading: Task<Arc<LibraryView>>,
     reloading: Task<Option<Arc<LibraryView>>>,
     watch: FolderWatch,
-    /// It has changed, and is loaded again as soon as it may be.
+    /// True if the folder has changed and the library is not reloaded yet.
     is_changed: bool,
-    /// False while a part is being enrolled: nothing changes under the hands.
+    /// False while a part is being enrolled, so that the library does not change meanwhile.
     pub may_reload: bool,
     library_cache: LibraryCache,
 }
 
 impl LibraryLoader {
-    /// Loads nothing yet.
+    /// Makes the loader without loading anything yet.
     pub(super) fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
         Self {
             loading: Task::new("library", runner),
@@ -38,7 +38,7 @@ impl LibraryLoader {
         }
     }
 
-    /// True while nothing is loaded.
+    /// True while nothing is being loaded.
     pub(super) fn is_idle(&self) -> bool {
         self.loading.running().is_none() && self.reloading.running().is_none()
     }
@@ -63,24 +63,24 @@ impl LibraryLoader {
 }
 
 impl State {
-    /// Loads the library, whatever is in front and whatever becomes of the first scene.
+    /// Loads the library, independently of the workspace in front and of the first scene.
     pub(in crate::app) fn load_library(&mut self) {
         self.inspector.loader.load();
     }
 
-    /// Shows this library, and reports once what had to be set aside in it.
+    /// Uses this library, and reports its problems once.
     pub(in crate::app) fn use_library(&mut self, library: &Arc<LibraryView>) {
         let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);
         if self.session.library.as_ref().is_none_or(is_other) {
             self.session.library = Some(Arc::clone(library));
-            // The operator's view says what is wrong with the library, if nothing can be recognised.
+            // The operator's view only shows problems that make recognition impossible.
             if self.session.role == UserRole::Engineer {
                 self.report_library();
             }
         }
     }
 
-    /// Reports what had to be set aside in the library, and what is odd about it.
+    /// Reports entries of the library that were set aside, and other oddities.
     pub(in crate::app) fn report_library(&mut self) {
         let library = self.session.library.clone();
         for trouble in library.iter().flat_map(|library| &library.troubles) {
@@ -89,10 +89,10 @@ impl State {
     }
 }
 
-/// Shows what was loaded, and inspects what is in front with a library that another program has changed.
+/// Takes over a loaded library; after a reload, inspects the scene in front again.
 pub(super) fn update(state: &mut State) {
     match state.inspector.loader.loading.poll() {
-        // One that came with a result, or that a person chose, is newer.
+        // A library that came with a result or that the user chose is newer.
         Some(TaskEvent::Partial(library) | TaskEvent::Done(library))
             if state.session.library.is_none() =>
         {
@@ -119,7 +119,7 @@ pub(super) fn update(state: &mut State) {
             state.inspect_again();
         }
     }
-    // What is being inspected was compared with the library of before, and would bring that back.
+    // A running inspection uses the former library and would bring that back.
     let is_free = state.inspector.running().is_none();
     let library = state.session.library.as_ref();
     let loader = &mut state.inspector.loader;

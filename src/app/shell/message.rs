@@ -1,4 +1,4 @@
-//! What workspaces and shell tell each other.
+//! Messages from the workspaces to the shell, and events from the shell to the workspaces.
 
 use std::sync::Arc;
 
@@ -19,101 +19,100 @@ use crate::{
     robot::{Convention, RobotFrame},
 };
 
-/// What a workspace asks of the shell.
+/// A request of a workspace to the shell.
 #[derive(Clone, Debug)]
 pub enum Message {
     /// Show a notice.
     Notify(Notice),
-    /// Take this notice away, if it is still shown.
+    /// Remove this notice, if it is still shown.
     Retract(Notice),
-    /// No notice offers any more to take something back.
+    /// Remove the offer to undo from all notices.
     WithdrawUndo,
-    /// Put this on the clipboard.
+    /// Copy this to the clipboard.
     CopyText(String),
     /// Bring this workspace to the front.
     GoTo(WorkspaceKind),
-    /// Take scenes from here at the next capture.
+    /// Take scenes from this source from the next capture on.
     UseSource(Source),
-    /// Have a person choose the folder of a scan, and take it as if it were captured.
+    /// Ask the user for the folder of a scan, then handle it like a capture.
     OpenScan,
-    /// Inspect scenes with this recipe from now on.
+    /// Use this recipe from now on.
     UseRecipe(Arc<NamedRecipe>),
-    /// Use this calibration of the robot's cell, with where the camera stands by it.
+    /// Use this calibration of the robot's cell, with the robot frame that it gives.
     UseCalibration(RememberedCell, Option<Arc<RobotFrame>>),
-    /// Answer robots that ask like this.
+    /// Answer robots with these settings.
     UseAnswering(AnswerSetup),
-    /// Tell the robot poses in these numbers.
+    /// Give poses to the robot in this convention.
     UseConvention(Convention),
     /// Write robot programs for this arm and gun.
     UseProgramSetup(ProgramSetup),
-    /// Record the source that is followed, or no longer.
+    /// Start or stop recording the followed source.
     ToggleRecording,
-    /// The library was changed: use it, and inspect what was saved, else the scene in front unless another one is being
-    /// inspected.
+    /// The library was changed: use it, and inspect `saved`, or else the scene in front unless another inspection is running.
     LibraryChanged {
-        /// The library as it is now.
+        /// The changed library.
         library: Arc<LibraryView>,
-        /// What was saved in it, if it can be inspected.
+        /// The saved scene or scan, if it can be inspected.
         saved: Option<SceneOrScan>,
     },
     /// Inspect this, and show the result.
     Inspect {
-        /// What is being done, for a person.
+        /// Description for the user.
         title: String,
-        /// What to inspect.
+        /// The scene or scan to inspect.
         job: InspectJob,
-        /// What for.
+        /// Purpose of the inspection.
         purpose: ReinspectionPurpose,
-        /// The part in the history, if this is an inspection of it.
+        /// The hung part in the history, if this is an inspection of it.
         hung: Option<HungId>,
-        /// Serial number, order and operator of the inspection that is made again.
+        /// Traceability of the inspection that is repeated.
         trace: Traceability,
     },
-    /// Inspect the scene in front once more, as an inspection of its own.
+    /// Inspect the scene in front again, as a new inspection.
     InspectShown {
-        /// What is being done, for a person.
+        /// Description for the user.
         title: String,
     },
-    /// Show a past inspection in the Inspect workspace.
+    /// Show a past inspection in Inspect.
     ShowPast(Arc<Inspected>),
-    /// Ask for the engineer's view; once it is there, [`Event::EngineerIn`] answers.
+    /// Ask for the engineer's view; [`Event::EngineerIn`] follows once it is granted.
     AskEngineer,
 }
 
-/// What a scene is inspected for. It comes back with the result.
+/// Purpose of an inspection, returned with its result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ReinspectionPurpose {
-    /// An inspection of its own.
+    /// A new inspection.
     #[default]
     New,
-    /// The scene in front once more: something else has changed that the result rests on.
+    /// Repeats the inspection of the scene in front because something that it depends on has changed.
     Repeated,
-    /// A past inspection once more.
+    /// Repeats a past inspection.
     Past,
-    /// Other shots of the scan that Inspect shows.
+    /// Uses other shots of the scan that Inspect shows.
     Shots,
 }
 
-/// What the shell tells a workspace.
+/// An event that the shell sends to workspaces.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// A scene was inspected.
     Inspected {
         /// The result.
         inspected: Arc<Inspected>,
-        /// What it was inspected for.
+        /// Purpose of the inspection.
         purpose: ReinspectionPurpose,
     },
-    /// A part left the source that is followed before its verdict counted.
+    /// A part left the followed source before its verdict counted.
     Left(Box<NewEntry>),
-    /// The poses of these shots were not found: a person has to name their file.
+    /// The poses of these shots were not found: the user has to choose their file.
     PosesWanted(ScanOrder),
-    /// Ask where the report of the inspection in front goes.
+    /// Ask the user where to save the report of the inspection in front.
     Export,
-    /// Esc was pressed while nothing lay over the workspaces.
+    /// Esc was pressed with nothing on top of the workspaces.
     Escape,
-    /// The engineer's view, which this workspace asked for, is there.
+    /// The engineer's view, requested by this workspace, was granted.
     EngineerIn,
-    /// A person takes back what the last notice offered to.
+    /// The user wants to undo what the last notice offers to undo.
     Undo,
 }

@@ -1,5 +1,5 @@
-//! What every workspace stands on, and what stands around them: the session that they share, messages, file dialogs,
-//! notices and keys; the bars, the inspector, the source that is followed, the robot's cell, and whose window it is.
+//! The basis of the workspaces (the session that they share, messages, file dialogs, notices and keys) and everything around
+//! them (the bars, the inspector, the followed source, the robot's cell, and the roles).
 //!
 //! A control outside the workspaces causes an [`action`], which changes the window's [`state`].
 

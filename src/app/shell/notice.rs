@@ -1,4 +1,4 @@
-//! What a person should know: the notices in the strip below the work.
+//! Notices for the user, shown in the strip below the work.
 
 use std::path::{Path, PathBuf};
 
@@ -7,33 +7,33 @@ use crate::{
     files::{FileWarning, import::ImportOptions},
 };
 
-/// What a notice is about.
+/// Kind of a notice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NoticeKind {
-    /// Something deserves a look.
+    /// Something needs attention.
     #[default]
     Look,
     /// Something was done.
     Done,
-    /// Something was done that can be taken back.
+    /// Something was done and can be undone.
     Undoable,
 }
 
-/// Something that a person should know.
+/// A notice for the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
-    /// What it is about.
+    /// Decides mark and display time.
     pub kind: NoticeKind,
     /// What happened.
     pub what: String,
     /// What to do about it; may be empty.
     pub advice: String,
-    /// The file that it is about, as it can be read in millimetres instead.
+    /// The path with the suffix that reads it in millimetres, if that is offered.
     pub in_millimetres: Option<PathBuf>,
 }
 
 impl Notice {
-    /// Something deserves a look.
+    /// Makes a notice that needs attention.
     pub fn look(what: impl Into<String>, advice: impl Into<String>) -> Self {
         Self {
             kind: NoticeKind::Look,
@@ -43,7 +43,7 @@ impl Notice {
         }
     }
 
-    /// What is odd about a file.
+    /// Makes a notice of a warning about a file.
     pub fn of_file(path: &Path, warning: &FileWarning) -> Self {
         let mut notice = Self::from(UserError::of(warning));
         if matches!(warning, FileWarning::TooWideForMetres { .. }) {
@@ -54,7 +54,7 @@ impl Notice {
         notice
     }
 
-    /// Something was done.
+    /// Makes a notice that something was done.
     pub fn done(what: impl Into<String>) -> Self {
         Self {
             kind: NoticeKind::Done,
@@ -64,7 +64,7 @@ impl Notice {
         }
     }
 
-    /// Something was done that can be taken back.
+    /// Makes a notice that something was done and can be undone.
     pub fn undoable(what: impl Into<String>) -> Self {
         Self {
             kind: NoticeKind::Undoable,

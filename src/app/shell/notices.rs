@@ -1,4 +1,4 @@
-//! What a person should know, in a strip below the work: it makes way while there are notices, and nothing is covered.
+//! The strip of notices below the work: the work shrinks to make room, so that nothing is covered.
 
 use egui::{
     Align, Area, Button, Context, Frame, Id, Layout, Margin, Order, Panel, Rect, RichText, Sense,
@@ -17,12 +17,12 @@ use crate::app::ui::{
     widgets::{Mark, mark, sentence},
 };
 
-/// Between the notices and what is beside them, logical pixels.
+/// Margin around the notices, logical pixels.
 const EDGE: f32 = 6.0;
-/// The pointer is at rest once it has not moved for so long, seconds.
+/// Time without motion after which the pointer is at rest, seconds.
 const REST: f32 = 0.6;
 
-/// How long a notice stays, seconds; what deserves a look stays until it was looked at.
+/// How long a notice is shown, seconds; `None` for one that stays until it is dismissed.
 fn display_seconds(kind: NoticeKind) -> Option<f64> {
     match kind {
         NoticeKind::Look => None,
@@ -31,7 +31,7 @@ fn display_seconds(kind: NoticeKind) -> Option<f64> {
     }
 }
 
-/// Leaves room for them at the foot of what is left of the window; [`ui`] draws them there.
+/// Reserves room at the bottom of the window; [`ui`] draws the notices there.
 pub(in crate::app) fn room(ui: &mut Ui, state: &State, theme: &Theme) -> Option<Rect> {
     let wanted = if state.notices.is_empty() {
         0.0
@@ -39,7 +39,7 @@ pub(in crate::app) fn room(ui: &mut Ui, state: &State, theme: &Theme) -> Option<
         height(ui.ctx())
     };
     let height = unhurried(ui.ctx(), wanted);
-    // There with and without notices: what comes after it keeps its ids, and a text its focus.
+    // The panel exists even without notices, so that later widgets keep their ids, and text fields their focus.
     let room = Panel::bottom("room for notices")
         .exact_size(height)
         .resizable(false)
@@ -49,7 +49,7 @@ pub(in crate::app) fn room(ui: &mut Ui, state: &State, theme: &Theme) -> Option<
     (!state.notices.is_empty()).then(|| room.inner.shrink(EDGE))
 }
 
-/// This height, unless it is less than before while a hand is at the pointer: nothing moves away under it.
+/// Returns the wanted height, but does not shrink while the pointer is in use, so that nothing moves away under it.
 fn unhurried(ctx: &Context, wanted: f32) -> f32 {
     let id = Id::unique("room for notices");
     let before: f32 = ctx.data(|data| data.get_temp(id)).unwrap_or_default();
@@ -67,13 +67,13 @@ fn unhurried(ctx: &Context, wanted: f32) -> f32 {
     height
 }
 
-/// The height that they took when they were drawn last.
+/// The height of the notices when they were last drawn.
 fn height(ctx: &Context) -> f32 {
     let known = ctx.data(|data| data.get_temp(Id::unique("height of notices")));
     known.unwrap_or(space::TARGET + 2.0 * EDGE)
 }
 
-/// Draws them in this room, and takes away what has been there long enough.
+/// Draws the notices in this room and dismisses expired ones.
 pub(in crate::app) fn ui(
     ctx: &Context,
     room: Option<Rect>,
@@ -88,7 +88,7 @@ pub(in crate::app) fn ui(
     if ctx.memory(|memory| memory.top_modal_layer().is_some()) {
         return over_dialog(ctx, room, state, theme, actions);
     }
-    // Menus lie over them.
+    // Below menus.
     let drawn = Area::new(Id::unique("notices"))
         .order(Order::Middle)
         .fixed_pos(room.min)
@@ -106,7 +106,8 @@ pub(in crate::app) fn ui(
     }
 }
 
-/// The newest, over the top bar and the dialog: dialogs are tall, and what one has caused must be read and dismissed.
+/// Draws the newest notice on top of the bar and a dialog: dialogs are tall, and the notice that one causes must be readable
+/// and dismissible.
 fn over_dialog(ctx: &Context, room: Rect, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let Some((place, notice)) = state.notices.iter().enumerate().next_back() else {
         return;
@@ -167,12 +168,12 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut
     });
 }
 
-/// A notice and since when it is there, seconds of egui's clock.
+/// Notices with the time when they appeared, seconds of egui's clock.
 type TimedNotice = Vec<(Notice, f64)>;
 
 fn expire(ctx: &Context, room: Option<Rect>, notices: &[Notice], actions: &mut Vec<Action>) {
     let now = ctx.input(|input| input.time);
-    // None moves away under the pointer.
+    // No notice disappears under the pointer.
     let pointer = ctx.pointer_latest_pos();
     let is_pointed_at = room
         .zip(pointer)
@@ -188,7 +189,7 @@ fn expire(ctx: &Context, room: Option<Rect>, notices: &[Notice], actions: &mut V
         }
         since.clone()
     });
-    // From the last to the first, so that places stay what they are.
+    // From last to first, so that the indices stay valid.
     for (place, notice) in notices.iter().enumerate().rev() {
         let begun = since.iter().find(|(known, _)| known == notice);
         let (Some(display_seconds), Some((_, begun))) = (display_seconds(notice.kind), begun)

@@ -1,4 +1,4 @@
-//! Above and below the operator's view: the parts of this shift, what is at work, and the few things that an operator does.
+//! The bars above and below the operator's view: the parts of this shift, the running work, and the operator's few controls.
 
 use egui::{
     Align, Button, Frame, Layout, Margin, Panel, RichText, Sense, Ui, Vec2, WidgetInfo, vec2,
@@ -25,10 +25,10 @@ use crate::app::{
 
 /// Height of the lower bar, logical pixels.
 pub(in crate::app) const LOWER: f32 = 76.0;
-/// Height of its buttons.
+/// Height of its buttons, logical pixels.
 const BUTTON: f32 = 52.0;
 
-/// Draws both.
+/// Draws both bars.
 pub(in crate::app) fn ui(
     ui: &mut Ui,
     state: &State,
@@ -66,7 +66,7 @@ fn upper(
 ) {
     ui.label(RichText::new("Partsight").font(font::body_strong()));
     ui.add_space(space::LARGE);
-    // Not as high as the bar.
+    // Otherwise the row would be as high as the bar.
     ui.horizontal(|ui| counts(ui, &state.session.shift, theme));
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let key = RichText::new(keys("Ctrl K")).font(font::small());
@@ -94,7 +94,7 @@ fn upper(
     });
 }
 
-/// How many parts this shift has had, and how many were accepted.
+/// Draws the number of parts of this shift, and how many were accepted.
 fn counts(ui: &mut Ui, shift: &ShiftParts, theme: &Theme) {
     let Some(since) = &shift.since else {
         return;
@@ -138,7 +138,7 @@ fn lower(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let key = |text: &str| RichText::new(text).font(font::small());
     let is_live = state.session.is_live();
     let (name, space) = (text!("shell-capture"), keys("Space"));
-    // The accent is for what is pressed next: while frames are followed, nothing is.
+    // The accent marks the next button to press; while a source is followed, there is none.
     let capture = if is_live {
         Button::new(text(&name)).shortcut_text(key(&space).color(theme.weak_text))
     } else {
@@ -189,7 +189,7 @@ fn labelled_large(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Respons
     response
 }
 
-/// Where frames come from, and whether they do.
+/// Draws the source, and whether frames arrive.
 fn source(ui: &mut Ui, session: &Session, theme: &Theme) {
     let text = |text: String| egui::Label::new(RichText::new(text).color(theme.weak_text));
     if session.is_live() {

@@ -1,4 +1,4 @@
-//! A path that is typed: it takes the place of the system's file dialog where the desktop offers none.
+//! A typed path, in place of the system's file dialog where the desktop has none.
 
 use std::{
     path::{self, Path, PathBuf},
@@ -25,26 +25,26 @@ use crate::{
 /// Width of the dialog, logical pixels.
 const WIDTH: f32 = 560.0;
 
-/// A path that is being typed.
+/// A path being typed.
 #[derive(Debug)]
 pub(super) struct PathEntry {
     request: FileRequest,
-    /// The folder it began with.
+    /// The folder in which typing started.
     folder: PathBuf,
     text: String,
     trouble: Option<String>,
-    /// The file that would be replaced, once a person was told.
+    /// The existing file that would be replaced, once the user was warned.
     replaced: Option<PathBuf>,
-    /// What was confirmed; none if it was cancelled.
+    /// The confirmed path; `None` inside if cancelled.
     pub(super) outcome: Poll<Option<PathBuf>>,
     is_new: bool,
 }
 
 impl PathEntry {
-    /// Begins in this folder.
+    /// Starts in this folder.
     pub(super) fn new(request: FileRequest, folder: PathBuf) -> Self {
         let begun = match request.choice {
-            // With a separator at its end.
+            // With a separator at the end.
             FileChoice::File | FileChoice::Folder => folder.join(""),
             FileChoice::NewFile(name) => free(&folder, name),
             FileChoice::FolderToWrite => folder.clone(),
@@ -60,13 +60,13 @@ impl PathEntry {
         }
     }
 
-    /// Replaces what is typed.
+    /// Replaces the text.
     fn write(&mut self, text: &str) {
         text.clone_into(&mut self.text);
         (self.trouble, self.replaced) = (None, None);
     }
 
-    /// Takes what is typed, or says what is wrong with it.
+    /// Accepts the text as a path, or shows what is wrong with it.
     fn confirm(&mut self) {
         let typed = Path::new(self.text.trim());
         let typed = match (typed.strip_prefix("~"), directories::UserDirs::new()) {
@@ -110,7 +110,7 @@ impl PathEntry {
     }
 }
 
-/// A path of this name in the folder that nothing has yet.
+/// Returns an unused path with this name in the folder.
 fn free(folder: &Path, name: &str) -> PathBuf {
     let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
     let numbered = (2..1000).map(|number| folder.join(format!("{stem}-{number}.{ending}")));
@@ -120,7 +120,7 @@ fn free(folder: &Path, name: &str) -> PathBuf {
         .unwrap_or_else(|| folder.join(name))
 }
 
-/// Draws the path that is being typed, if one is.
+/// Draws the dialog while a path is being typed.
 pub(in crate::app) fn ui(ctx: &Context, lock: &DialogLock, theme: &Theme) {
     let mut typed = lock.typed();
     let Some(entry) = typed.as_mut() else {
@@ -205,7 +205,7 @@ mod tests {
             let said = opened.trouble.as_deref().unwrap_or_default();
             assert!(said.contains(says), "{said}");
         }
-        // How a file is meant may stand behind its path.
+        // A suffix after the path may say how to read the file.
         let with_words = PathBuf::from(format!("{}#units=mm", file.display()));
         let mut in_millimetres = entry(FileChoice::File, folder.path());
         let taken = confirmed(&mut in_millimetres, &with_words);
@@ -225,7 +225,7 @@ mod tests {
         let shared = lock.clone();
         let mut has_fonts = false;
         let mut harness = Harness::builder().build_ui(move |ui| {
-            // They are there from the next frame on.
+            // The fonts are available from the next frame on.
             if !std::mem::replace(&mut has_fonts, true) {
                 Theme::install_fonts(ui.ctx());
                 return;
@@ -243,7 +243,7 @@ mod tests {
         harness.get_by_label_contains("This is a folder");
         let path = folder.path().join("door.pcd");
         std::fs::write(&path, "x").expect("written");
-        // The cursor is behind what is there.
+        // The cursor is behind the existing text.
         let input = harness.get_by_role_and_label(Role::TextInput, "Path");
         input.type_text("door.pcd");
         harness.run_steps(4);

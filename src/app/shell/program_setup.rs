@@ -1,4 +1,4 @@
-//! The arm, the nozzle and the gun that robot programs are written for, and what they have to stay clear of.
+//! The arm, the nozzle and the gun that robot programs are written for, and the obstacles that they avoid.
 
 use std::{ops::RangeInclusive, path::Path};
 
@@ -18,22 +18,22 @@ use crate::{
     units::Metres,
 };
 
-/// What a person set up for robot programs; remembered with the settings.
+/// Settings for robot programs; kept with the settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ProgramSetup {
-    /// The arm, by its name or as a TOML file; none: reach is not checked.
+    /// Name or TOML file of the arm; `None`: reach is not checked.
     pub arm: Option<String>,
-    /// Where the nozzle is on the flange, as a person wrote it: `kuka X Y Z A B C`, or the 16 numbers of a matrix.
+    /// Pose of the nozzle on the flange, as typed: `kuka X Y Z A B C`, or the 16 numbers of a matrix.
     pub nozzle: String,
-    /// The rail that the arm stands on, as a person wrote it: axis, from, to and, if it moves along the path, top speed and
-    /// acceleration, such as `y,-2000,2000,1000,2000`; empty: that of the arm's file.
+    /// The rail that the arm stands on, as typed: axis, from, to and, if it moves along the path, top speed and acceleration,
+    /// such as `y,-2000,2000,1000,2000`; empty: the rail of the arm's file.
     pub rail: String,
-    /// The boxes of the cell and its floor, as a TOML file; none: only the part is an obstacle.
+    /// TOML file with the boxes of the cell and its floor; `None`: only the part is an obstacle.
     pub obstacles: Option<String>,
-    /// How near gun and arm may come to part, boxes and floor, mm.
+    /// Minimum clearance of gun and arm from part, boxes and floor, mm.
     pub clearance_mm: f64,
-    /// What the gun fills around the line from the flange to the nozzle's mouth, mm.
+    /// Radius of the gun around the line from the flange to the nozzle tip, mm.
     pub gun_radius_mm: f64,
     /// The tool on the controller; empty: the controller's first.
     pub tool: String,
@@ -41,9 +41,9 @@ pub struct ProgramSetup {
     pub gun_output: u16,
     /// Speed where the path sets none, mm/s.
     pub speed_mm_s: f64,
-    /// How far before the first and behind the last point the program begins and ends, mm.
+    /// Distance of the approach points from the first and the last point, mm.
     pub approach_mm: f64,
-    /// Radius within which the robot may cut corners, mm.
+    /// Blend radius of the robot at corners, mm.
     pub blend_mm: f64,
 }
 
@@ -67,20 +67,20 @@ impl Default for ProgramSetup {
 }
 
 impl ProgramSetup {
-    /// Millimetres.
+    /// Valid clearances, mm.
     pub const CLEARANCE: RangeInclusive<f64> = 0.0..=500.0;
-    /// Millimetres.
+    /// Valid radii of the gun, mm.
     pub const GUN_RADIUS: RangeInclusive<f64> = 0.0..=500.0;
-    /// Millimetres per second.
+    /// Valid speeds, mm/s.
     pub const SPEED: RangeInclusive<f64> = 1.0..=2000.0;
-    /// Millimetres.
+    /// Valid distances of the approach points, mm.
     pub const APPROACH: RangeInclusive<f64> = 10.0..=1000.0;
-    /// Millimetres.
+    /// Valid blend radii, mm.
     pub const BLEND: RangeInclusive<f64> = 0.0..=100.0;
 
-    /// With the default in place of each number that is not within its range, as a file may have it.
+    /// Replaces each number out of its range, as a file may contain, by its default.
     ///
-    /// What is not a number would never equal itself: settings would be written and the reach checked without end.
+    /// NaN never equals itself, so that settings would be written and the reach checked without end.
     #[must_use]
     pub(in crate::app) fn checked(mut self) -> Self {
         let usual = Self::default();
@@ -102,7 +102,7 @@ impl ProgramSetup {
         self
     }
 
-    /// What the arm is called; that of a file by the file, which is not read: the window asks in every frame.
+    /// Title of the arm, or the name of its file, which is not read because the window asks every frame.
     pub fn arm_title(&self) -> Option<String> {
         let arm = self.arm.as_deref()?;
         let known = ARM_NAMES.contains(&arm).then(|| Arm::named(arm));
@@ -112,13 +112,13 @@ impl ProgramSetup {
         })
     }
 
-    /// What the file of boxes is called.
+    /// Name of the file of obstacles.
     pub fn obstacles_title(&self) -> Option<String> {
         let file = self.obstacles.as_deref()?;
         Some(file_name(Path::new(file)))
     }
 
-    /// Boxes and floor of the cell.
+    /// Reads the boxes and the floor of the cell.
     fn boxes(&self) -> Result<Obstacles, UserError> {
         let file = self.obstacles.as_deref().map(Path::new);
         let read = file.map(Obstacles::read).transpose();
@@ -129,7 +129,7 @@ impl ProgramSetup {
         Ok(obstacles)
     }
 
-    /// The arm of this name on its rail.
+    /// Loads an arm and puts it on the rail.
     fn arm_on_rail(&self, name: &str) -> Result<Arm, ArmError> {
         let mut arm = Arm::named(name)?;
         if !self.rail.trim().is_empty() {
@@ -138,7 +138,7 @@ impl ProgramSetup {
         Ok(arm)
     }
 
-    /// Where the nozzle is on the flange; none where nothing was written.
+    /// Parses the pose of the nozzle on the flange; `None` if nothing was typed.
     fn flange_from_nozzle(&self) -> Result<Option<RigidTransform>, UserError> {
         if self.nozzle.trim().is_empty() {
             return Ok(None);
@@ -148,8 +148,8 @@ impl ProgramSetup {
         Ok(Some(written.pose))
     }
 
-    /// Tool and gun of a program, and the arm whose reach is checked: its base is where the calibration has the robot's. The
-    /// part is not among its obstacles yet.
+    /// Returns the settings of a program, and the arm whose reach is checked, with its base as in the calibration. The part is
+    /// not among its obstacles yet.
     pub(in crate::app) fn target(&self) -> Result<ProgramTarget, UserError> {
         let tool = self.tool.trim();
         let flange_from_nozzle = self.flange_from_nozzle()?;
@@ -183,12 +183,12 @@ impl ProgramSetup {
     }
 }
 
-/// A filter for robot programs, for a file dialog.
+/// Returns the filter for robot programs in a file dialog.
 pub(in crate::app) fn program_files() -> FileFilter {
     (text!("program-files"), &PROGRAM_ENDINGS)
 }
 
-/// What a program is called unless a person writes another name: in the language of the robot whose numbers are in use.
+/// Suggests the name of a program, with the ending of the robot that the convention belongs to.
 pub(in crate::app) fn program_file_name(convention: Convention) -> &'static str {
     let all = ProgramFormat::ALL.into_iter();
     let mut all = all.filter(|format| format.convention() == convention);

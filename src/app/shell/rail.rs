@@ -1,4 +1,4 @@
-//! The rail on the left: the workspaces, of which the operator sees their own.
+//! The rail on the left: the workspaces; the operator sees only theirs.
 
 use egui::{Color32, Frame, Painter, Panel, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 
@@ -11,7 +11,7 @@ use super::{
 };
 use crate::app::ui::theme::{Theme, font, space};
 
-/// The rail on the left.
+/// Draws the rail.
 pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let frame = Frame::new().fill(theme.panel);
     Panel::left("rail")
@@ -19,7 +19,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
         .resizable(false)
         .frame(frame)
         .show(ui, |ui| {
-            // The others are reached by their keys, which ask for the engineer's view.
+            // The keys of the other workspaces still work and ask for the engineer's view.
             let is_engineer = state.session.role == UserRole::Engineer;
             let listed = |workspace: &WorkspaceKind| is_engineer || is_operators(*workspace);
             for workspace in WorkspaceKind::ALL.into_iter().filter(listed) {
@@ -53,7 +53,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
         });
 }
 
-/// The name below a sign, smaller where it is long in a language.
+/// Draws a name below a sign, in a smaller font if it is too long.
 pub(super) fn label(painter: &Painter, rect: Rect, name: &str, colour: Color32) {
     let laid_out = |font| painter.layout_no_wrap(name.to_owned(), font, colour);
     let mut galley = laid_out(font::small());
@@ -64,7 +64,7 @@ pub(super) fn label(painter: &Painter, rect: Rect, name: &str, colour: Color32) 
     painter.galley(at, galley, colour);
 }
 
-/// The workspace's sign.
+/// Draws the sign of a workspace.
 fn sign(painter: &Painter, workspace: WorkspaceKind, centre: Pos2, stroke: Stroke) {
     let at = |x: f32, y: f32| pos2(centre.x + x, centre.y + y);
     match workspace {

@@ -1,16 +1,16 @@
-//! A barcode scanner: to the window a keyboard that types a code within some milliseconds and ends it with Enter.
+//! A barcode scanner: acts as a keyboard that types a code within milliseconds and ends it with Enter.
 //!
-//! In the operator's view no field needs the focus for it. What is typed is held back for a moment: a code that is ended
-//! in time is the serial number; anything else was a hand's, and goes on to the shortcuts.
+//! In the operator's view no field needs the focus for it. Typed keys are held back for a moment: a code that ends in time is
+//! the serial number; anything else was typed by hand and is passed on to the shortcuts.
 
 use egui::{Context, Event, Id, Key};
 
-/// A hand leaves more time than this between two keys, seconds.
+/// Maximum time between two keys of a scanner, seconds; typing by hand is slower.
 const GAP: f64 = 0.15;
-/// A shorter code is none.
+/// Minimum number of letters of a code.
 const LEAST_LETTERS: usize = 3;
 
-/// What was typed and is held back.
+/// Typed keys that are held back.
 #[derive(Clone, Debug, Default)]
 struct Held {
     events: Vec<Event>,
@@ -18,7 +18,7 @@ struct Held {
     last: f64,
 }
 
-/// The code that a scanner has sent, if one is complete. Called before anything else reads the keys.
+/// Returns the code of a scanner once it is complete. Must be called before anything else reads the keys.
 pub(in crate::app) fn listen(ctx: &Context) -> Option<String> {
     let id = Id::unique("scanner");
     let mut held: Held = ctx
@@ -81,7 +81,7 @@ impl Held {
     }
 }
 
-/// True of a key that writes something; a blank only within a code.
+/// True for a key that types a character; a blank counts only within a code.
 fn is_letter(key: Key, text: &str) -> bool {
     match key {
         Key::Space => !text.is_empty(),
@@ -105,7 +105,7 @@ mod tests {
         }
     }
 
-    /// As a scanner types it, with its Enter.
+    /// The events of a scanner that types a code and Enter.
     fn typed(code: &str) -> Vec<Event> {
         let letters = code.chars().flat_map(|letter| {
             let pressed = Key::from_name(&letter.to_uppercase().to_string()).map(key);
@@ -142,7 +142,7 @@ mod tests {
         let before = events.clone();
         assert_eq!(held.hold_back(&mut events, 2.0, false), None);
         assert_eq!(events, before);
-        // While a person writes into a field, all of it is the field's.
+        // While the user types into a field, all keys belong to the field.
         let mut events = typed("4711");
         let before = events.clone();
         assert_eq!(held.hold_back(&mut events, 3.0, true), None);

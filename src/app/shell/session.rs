@@ -1,4 +1,4 @@
-//! What the workspaces share. They read it; the shell alone changes it.
+//! State shared by the workspaces. They read it; only the shell changes it.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -31,63 +31,63 @@ use crate::{
     stages::scene::EmptyCell,
 };
 
-/// What the workspaces share.
+/// State shared by the workspaces.
 #[derive(Debug, Default)]
 pub struct Session {
-    /// What Capture takes a scene from.
+    /// Where Capture takes a scene from.
     pub source: Source,
-    /// What the camera saw without a part, if that was taken.
+    /// The empty cell, if one was captured.
     pub empty_cell: Option<Arc<EmptyCell>>,
-    /// Scenes opened last, the newest first.
+    /// Recently opened scenes, newest first.
     pub recent: Vec<PathBuf>,
-    /// The last result.
+    /// The result in front.
     pub shown: Option<Shown>,
-    /// What the inspector is at.
+    /// What the inspector is working on.
     pub inspecting: Option<Inspecting>,
-    /// Why the last run of the inspector came to no result.
+    /// Why the last run of the inspector failed.
     pub failed: Option<UserError>,
-    /// Of the source that is followed.
+    /// State of the followed source.
     pub live: LiveState,
     /// The library in use, once loaded.
     pub library: Option<Arc<LibraryView>>,
-    /// The library's folder that a person chose in the window.
+    /// The library's folder, if the user chose one in the window.
     pub chosen_library: Option<PathBuf>,
-    /// The parameters that scenes are inspected with.
+    /// The recipe for inspections.
     pub recipe: Arc<NamedRecipe>,
-    /// In which numbers the robot is told a pose.
+    /// The convention of poses for the robot.
     pub convention: Convention,
     /// The arm and the gun of robot programs.
     pub program: ProgramSetup,
-    /// Where the camera stands in the robot's base frame, if the cell is calibrated.
+    /// The robot frame, with the camera's pose in the robot's base, if the cell is calibrated.
     pub robot: Option<Arc<RobotFrame>>,
-    /// Whether robots that ask are answered, and where.
+    /// Whether and where robots are answered.
     pub answering: AnswerSetup,
     /// Which calibration of the robot's cell is used.
     pub cell: RememberedCell,
-    /// Where the user's own calibration is; none: nowhere, and nothing is written.
+    /// File of the user's own calibration; `None` if there is no place for it, and then nothing is written.
     pub usual_cell: Option<PathBuf>,
-    /// Units that lengths and angles are shown in.
+    /// Units of shown lengths and angles.
     pub units: UnitSystem,
-    /// Colours.
+    /// The colour theme.
     pub theme: ThemeChoice,
-    /// The language that the window speaks.
+    /// The language of the window.
     pub language: Language,
-    /// The one that was chosen in it; none: the system's.
+    /// The language that the user chose; `None` for the system's.
     pub chosen_language: Option<Language>,
-    /// Whose window it is.
+    /// Role of the current user.
     pub role: UserRole,
-    /// What the next inspection is of.
+    /// Traceability of the next inspection.
     pub trace: CurrentTrace,
     /// When shifts start.
     pub shift_starts: ShiftStarts,
-    /// The parts of this shift, while it is the operator's.
+    /// The parts of this shift, counted in the operator's view.
     pub shift: ShiftParts,
     /// The workspace in front.
     pub workspace: WorkspaceKind,
 }
 
 impl Session {
-    /// The order to inspect something by the recipe and the calibration in use.
+    /// Makes a job to inspect something with the recipe and the calibration in use.
     pub fn inspect_job(&self, source: SceneOrScan) -> InspectJob {
         match source {
             SceneOrScan::Scene(source) => InspectJob::Scene(InspectRequest {
@@ -98,7 +98,7 @@ impl Session {
         }
     }
 
-    /// The order to put shots together by the calibration and the recipe in use.
+    /// Makes a request to put shots together with the recipe and the calibration in use.
     pub fn scan_request(&self, order: ScanOrder) -> ScanRequest {
         ScanRequest {
             order,
@@ -107,17 +107,17 @@ impl Session {
         }
     }
 
-    /// True while the operator's view takes the place of the bars, the rail and the panels of Inspect.
+    /// True while the operator's view replaces the bars, the rail and the panels of Inspect.
     pub fn is_operator_view(&self) -> bool {
         self.role == UserRole::Operator && self.workspace == WorkspaceKind::Inspect
     }
 
-    /// True while the result shown is not what was asked for last.
+    /// True while a newer result than the one shown is on its way.
     pub fn is_old(&self) -> bool {
         self.inspecting.is_some() && self.shown.is_some()
     }
 
-    /// Where the camera stood in the robot's base frame: a scan says so itself, else the cell's calibration does.
+    /// The robot frame of an inspection: from the scan itself, else from the calibration of the cell.
     pub fn robot_of<'a>(&'a self, inspected: &'a Inspected) -> Option<&'a Arc<RobotFrame>> {
         match &inspected.scan {
             Some(scan) => Some(&scan.robot),
@@ -125,7 +125,7 @@ impl Session {
         }
     }
 
-    /// The file of the calibration in use, also while it is being loaded.
+    /// File of the calibration in use, even while it is still being loaded.
     pub fn calibration_path(&self) -> Option<PathBuf> {
         match &self.cell {
             RememberedCell::Usual => self.usual_cell.clone().filter(|path| path.exists()),
@@ -135,25 +135,25 @@ impl Session {
     }
 }
 
-/// Which calibration a window starts with.
+/// The calibration that the window starts with.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RememberedCell {
-    /// The user's own, if there is one.
+    /// The user's own, if it exists.
     #[default]
     Usual,
-    /// None: a person had it forgotten.
+    /// None, because the user discarded it.
     Forgotten,
     /// The one in this file.
     File(PathBuf),
 }
 
-/// What the inspector is at.
+/// What the inspector is working on.
 #[derive(Clone, Debug)]
 pub struct Inspecting {
-    /// What is being done, for a person.
+    /// Description for the user.
     pub title: String,
-    /// What for.
+    /// Purpose of the inspection.
     pub purpose: ReinspectionPurpose,
 }
 
@@ -166,7 +166,7 @@ pub enum Source {
     File(PathBuf),
     /// The shots of a scan, read again at each capture.
     Scan(ScanFiles),
-    /// A camera, a recording, a watched folder, or the simulated cell as somebody has set it up.
+    /// A camera, a recording, a watched folder, or a simulated cell with settings of its own.
     Camera(Box<SourceSpec>),
 }
 
@@ -176,16 +176,16 @@ impl Default for Source {
     }
 }
 
-/// A result, and the number by which what was made for it is known.
+/// The result in front, with its generation.
 #[derive(Clone, Debug)]
 pub struct Shown {
-    /// Another one for each result.
+    /// A number that differs for each result, so that data derived from it can be matched.
     pub generation: u64,
     /// The result.
     pub inspected: Arc<Inspected>,
-    /// True if it was taken out of the history.
+    /// True if it comes from the history.
     pub is_past: bool,
-    /// Of a frame among others: which session of following it belongs to.
+    /// The session of following that it belongs to, if it is a frame of a followed source.
     pub session: Option<u64>,
 }
 
@@ -193,23 +193,23 @@ pub struct Shown {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WorkspaceKind {
-    /// The operator's: which part is it, and is it accepted?
+    /// Which part hangs there, and whether it is accepted; for the operator.
     #[default]
     Inspect,
-    /// New parts.
+    /// Enrols new parts.
     Enrol,
-    /// The engineer's: why was this taken for that?
+    /// Shows why a scene was recognised as it was; for the engineer.
     Compare,
-    /// Methods of pose estimation side by side.
+    /// Compares methods of pose estimation.
     Align,
     /// Spray paths over enrolled parts, and their film.
     Paint,
-    /// What was inspected before.
+    /// Past inspections.
     History,
 }
 
 impl WorkspaceKind {
-    /// Every workspace, in the order of the rail and of the number keys.
+    /// All workspaces, in the order of the rail and of the number keys.
     pub const ALL: [Self; 6] = [
         Self::Inspect,
         Self::Enrol,
@@ -219,7 +219,7 @@ impl WorkspaceKind {
         Self::History,
     ];
 
-    /// What a person calls it.
+    /// Returns the name shown to the user.
     pub fn title(self) -> String {
         match self {
             Self::Inspect => text!("shell-inspect"),
@@ -232,11 +232,11 @@ impl WorkspaceKind {
     }
 }
 
-/// Who stands before the window.
+/// Role of the user.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum UserRole {
-    /// Watches verdicts, captures, exports.
+    /// Watches verdicts, captures and exports.
     Operator,
     /// May change everything.
     #[default]
@@ -244,7 +244,7 @@ pub enum UserRole {
 }
 
 impl UserRole {
-    /// What a person calls it.
+    /// Returns the name shown to the user.
     pub fn title(self) -> String {
         match self {
             Self::Operator => text!("shell-operator"),

@@ -1,4 +1,4 @@
-//! What is remembered from one start of the window to the next: a text file that a person can read and mend.
+//! Settings kept from one start of the window to the next, in a text file that people can read and edit.
 
 use std::{
     io::{self, Read as _},
@@ -36,62 +36,62 @@ use crate::{
     robot::Convention,
 };
 
-/// The version of the file.
+/// Version of the file format.
 const SCHEMA: u32 = 1;
-/// A larger file is no settings.
+/// Maximum size of the file, bytes.
 const MAX_BYTES: u64 = 1 << 20;
-/// Sides of a window, logical pixels: beyond these a broken file or another desktop speaks.
+/// Valid sides of a window, logical pixels: other values come from a broken file or another desktop.
 const SIDES: std::ops::RangeInclusive<f32> = 320.0..=16_384.0;
 
-/// What is remembered.
+/// The remembered settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
-    /// Version of the file; a newer one is not read.
+    /// Version of the file format; a newer one is not read.
     pub schema: u32,
-    /// Colours.
+    /// The colour theme.
     pub theme: ThemeChoice,
     /// Units that are shown.
     pub units: UnitSystem,
-    /// The language chosen in the window; none: the system's.
+    /// The language chosen in the window; `None` for the system's.
     pub language: Option<Language>,
-    /// In which numbers the robot is told a pose.
+    /// The convention of poses for the robot.
     pub convention: Convention,
     /// The arm and the gun of robot programs.
     pub program: ProgramSetup,
     /// The workspace in front.
     pub workspace: WorkspaceKind,
-    /// The library chosen in the window; none: the one found as on the command line.
+    /// The library chosen in the window; `None` for the one that the command line would find.
     pub library: Option<PathBuf>,
-    /// Scenes opened last, the newest first.
+    /// Recently opened scenes, newest first.
     pub recent: Vec<PathBuf>,
     /// Inner width and height of the window, logical pixels.
     pub window: Option<[f32; 2]>,
-    /// What Capture takes a scene from.
+    /// Where Capture takes a scene from.
     pub source: RememberedSource,
-    /// Parameters of the inspection; none: the program's own, whatever they are in its version.
+    /// Parameters of the inspection; `None` for the defaults of the running version.
     pub recipe: Option<Recipe>,
-    /// By which name the parameters go.
+    /// The name of the recipe.
     pub recipe_label: RecipeLabel,
-    /// Frames that depth is averaged over while a source is followed.
+    /// Number of frames that depth is averaged over while a source is followed.
     pub average: usize,
-    /// Minutes without a hand on the window until it is the operator's again.
+    /// Minutes without input after which the window returns to the operator's view.
     pub lock_after: u32,
-    /// What the engineer's view asks for; none: nothing.
+    /// PIN of the engineer's view, if one is set.
     pub pin: Option<Pin>,
-    /// Whose the window was last; with a PIN it starts as the operator's all the same.
+    /// The last role; with a PIN the window starts in the operator's view regardless.
     pub role: UserRole,
-    /// When shifts start, such as 06:00; the operator's view counts the parts since.
+    /// Starts of the shifts, such as 06:00; the operator's view counts the parts since the last one.
     pub shifts: ShiftStarts,
-    /// Which calibration of the robot's cell is used.
+    /// The calibration of the robot's cell in use.
     pub cell: RememberedCell,
-    /// Whether robots that ask are answered, and where.
+    /// Whether and where robots are answered.
     pub answering: AnswerSetup,
-    /// The order that is worked on, and the operator.
+    /// Production order and operator; the serial number is not kept.
     pub traceability: Traceability,
 }
 
-/// A source, as the file has it.
+/// A source as stored in the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RememberedSource {
@@ -101,7 +101,7 @@ pub enum RememberedSource {
     File(PathBuf),
     /// The shots of a scan.
     Scan(ScanFiles),
-    /// A camera, a recording, a watched folder, or the simulated cell as somebody has set it up.
+    /// A camera, a recording, a watched folder, or a simulated cell with settings of its own.
     Camera(SourceSpec),
 }
 
@@ -140,7 +140,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// What of the state is remembered.
+    /// Extracts the settings from the state.
     pub fn of(state: &State, window: Option<[f32; 2]>) -> Self {
         Self {
             schema: SCHEMA,
@@ -173,7 +173,7 @@ impl Settings {
         }
     }
 
-    /// True if nothing of this has changed.
+    /// True if the settings equal those of the state.
     pub fn is_of(&self, state: &State, window: Option<[f32; 2]>) -> bool {
         let has_source = match (&self.source, &state.session.source) {
             (RememberedSource::Cell(a), Source::Cell(b)) => a == b,
@@ -207,7 +207,7 @@ impl Settings {
             && self.window == window
     }
 
-    /// The state to start in; its tasks are run by `runner` and share `library_cache`.
+    /// Makes the state to start with; its tasks run on `runner` and share `library_cache`.
     pub fn into_state(self, runner: &TaskRunner, library_cache: &LibraryCache) -> State {
         let roles = RoleState::starting(self.pin.clone(), self.lock_after);
         let role = roles.first_role(self.role);
@@ -250,7 +250,7 @@ impl Settings {
     }
 }
 
-/// The file of the user's settings, if the system has a place for it.
+/// Path of the user's settings, if the system has a place for them.
 pub fn users_file() -> Option<PathBuf> {
     Some(user_folders()?.config_dir().join("settings.toml"))
 }
@@ -268,14 +268,14 @@ enum BadSettings {
     Newer { found: u32 },
 }
 
-/// All that every version of the file has.
+/// The part of the file that all versions share.
 #[derive(Deserialize)]
 struct Versioned {
     #[serde(default)]
     schema: u32,
 }
 
-/// Reads the file. One that is not there is no trouble; a bad one is set aside, its place is free for the next.
+/// Reads the file. A missing one is no error; an unusable one is set aside, which frees its name.
 pub fn load(path: &Path) -> (Settings, Option<UserError>) {
     match read(path) {
         Ok(settings) => (settings, None),
@@ -303,7 +303,7 @@ pub fn load(path: &Path) -> (Settings, Option<UserError>) {
     }
 }
 
-/// The size that the window had last, without judging the file.
+/// Returns the last size of the window, without reporting problems with the file.
 pub(in crate::app) fn window_size(path: &Path) -> Option<[f32; 2]> {
     read(path).ok()?.window
 }
@@ -330,7 +330,7 @@ fn read(path: &Path) -> Result<Settings, BadSettings> {
     Ok(settings)
 }
 
-/// Moves a file to a free name beside it.
+/// Renames a file to a free name beside it.
 pub(in crate::app) fn set_aside(path: &Path) -> io::Result<PathBuf> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     for number in 1..1000 {
@@ -343,7 +343,7 @@ pub(in crate::app) fn set_aside(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("a thousand were set aside before"))
 }
 
-/// Writes the file, whole or not at all.
+/// Writes the file atomically.
 pub fn save(path: &Path, settings: &Settings) -> Result<(), UserError> {
     let not_kept = |why: String, advice: &str| UserError {
         what: text!("shell-settings-not-kept", why = why),

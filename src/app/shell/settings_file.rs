@@ -1,4 +1,4 @@
-//! Keeping the settings file up to date, without the window waiting for the disk.
+//! Keeps the settings file up to date without making the window wait for the disk.
 
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ use crate::app::{
     task::{Task, TaskEvent, TaskRunner},
 };
 
-/// Writes the settings whenever they have changed, on a thread of its own.
+/// Writes the settings whenever they change, in a task.
 pub(in crate::app) struct Memory {
     path: Option<PathBuf>,
     writing: Task<()>,
@@ -21,7 +21,7 @@ pub(in crate::app) struct Memory {
 }
 
 impl Memory {
-    /// Without a path nothing is remembered.
+    /// Without a path nothing is kept.
     pub(in crate::app) fn new(path: Option<PathBuf>, kept: Settings, runner: &TaskRunner) -> Self {
         Self {
             path,
@@ -31,7 +31,7 @@ impl Memory {
         }
     }
 
-    /// Has what changed written down, and says what went wrong. Costs a comparison in a frame without a change.
+    /// Writes changed settings; returns a notice if writing failed. Costs only a comparison in a frame without changes.
     pub(in crate::app) fn keep(&mut self, state: &State, ctx: &egui::Context) -> Option<Notice> {
         let path = self.path.as_ref()?;
         let window = ctx.input(|input| input.viewport().inner_rect.map(|rect| rect.size()));
@@ -51,12 +51,12 @@ impl Memory {
         }
     }
 
-    /// Writes down what may still wait to be written.
+    /// Writes what may not have been written yet.
     pub(in crate::app) fn finish(&self) {
         if let Some(path) = &self.path
             && self.has_changed
         {
-            // The window is closing: nobody is left to read why it failed.
+            // The window is closing, so that an error can no longer be shown.
             let _ = save(path, &self.kept);
         }
     }

@@ -15,10 +15,10 @@ use crate::{
     history::{Filter, HistoryBuffer, HistoryError, StoredVerdict, Summary},
 };
 
-/// Parts that are listed at most.
+/// Maximum number of parts listed.
 const MAX_LISTED: usize = 12;
 
-/// The times of day at which shifts start, by the local clock; without any a shift is a day.
+/// The local times of day at which shifts start; without any, a shift is a day.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<String>", into = "Vec<String>")]
 pub struct ShiftStarts(Vec<civil::Time>);
@@ -51,7 +51,8 @@ impl From<ShiftStarts> for Vec<String> {
 }
 
 impl ShiftStarts {
-    /// When the shift of this moment began, and when it ends. A start that the clock skips on a day comes as much later.
+    /// Returns start and end of the shift at this moment. A start that the clock skips (summer time) is delayed by the skipped
+    /// time.
     pub(in crate::app) fn around(&self, now: &Zoned) -> [Option<Zoned>; 2] {
         let midnight = [civil::Time::midnight()];
         let times = if self.0.is_empty() {
@@ -75,13 +76,13 @@ impl ShiftStarts {
 /// The parts of this shift.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ShiftParts {
-    /// When it began; `None` until they were counted.
+    /// Start of the shift; `None` until the parts were counted.
     pub since: Option<Zoned>,
     /// Accepted parts.
     pub num_ok: usize,
     /// Parts that were not accepted.
     pub num_not_ok: usize,
-    /// The last of both, the newest first.
+    /// The last parts, accepted or not, newest first.
     pub last: Vec<Summary>,
 }
 
@@ -89,12 +90,12 @@ pub struct ShiftParts {
 #[derive(Debug)]
 pub struct ShiftWatch {
     counting: Task<ShiftParts>,
-    /// The state of the history and the shift that were counted last.
+    /// The revision of the history and the shift of the last count.
     counted: Option<(u64, Timestamp)>,
 }
 
 impl ShiftWatch {
-    /// Nothing is counted yet.
+    /// Makes a watch that has counted nothing yet.
     pub fn new(runner: &TaskRunner) -> Self {
         Self {
             counting: Task::new("shift", runner),
@@ -102,15 +103,15 @@ impl ShiftWatch {
         }
     }
 
-    /// True while nothing is counted.
+    /// True while nothing is being counted.
     pub fn is_idle(&self) -> bool {
         self.counting.running().is_none()
     }
 }
 
-/// Takes in what was counted, and counts anew in the operator's view if it is out of date.
+/// Takes over a finished count, and counts again in the operator's view if it is outdated.
 pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ctx: &egui::Context) {
-    // Why the history cannot be read is reported by the History workspace.
+    // The History workspace reports why the history cannot be read.
     if let Some(TaskEvent::Done(parts) | TaskEvent::Partial(parts)) =
         state.shift_watch.counting.poll()
     {
@@ -140,7 +141,7 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
     }
 }
 
-/// An empty cell is no part; inspections of one hung part are one part.
+/// Counts the parts since a moment: all inspections of a hung part are one part, and an empty cell is none.
 fn count(history: &HistoryBuffer, since: Zoned) -> Result<ShiftParts, HistoryError> {
     let mut parts = ShiftParts::default();
     for verdict in StoredVerdict::ALL {
@@ -191,7 +192,7 @@ mod tests {
             at("22:30:00"),
             ["2026-11-21T21:00:00Z", "2026-11-22T05:00:00Z"]
         );
-        // Without starts a shift is a day.
+        // Without starts, a shift is a day.
         let day = around(&[], "2026-11-21T15:00:00+01:00[Europe/Berlin]");
         assert_eq!(day, ["2026-11-20T23:00:00Z", "2026-11-21T23:00:00Z"]);
     }

@@ -1,4 +1,4 @@
-//! What Capture and Live take scenes from: the menu that it is chosen in.
+//! The menu that chooses the source of Capture and Live.
 
 use std::mem::discriminant;
 
@@ -22,14 +22,14 @@ use crate::{
 
 /// Width of a column, logical pixels.
 const COLUMN: f32 = 230.0;
-/// Frames that depth can be averaged over: the noise falls with the root.
+/// Numbers of frames that depth can be averaged over: the noise falls with the square root.
 const AVERAGED: [usize; 4] = [1, 4, 8, 16];
-/// What of the window's height the menu leaves free, logical pixels.
+/// Part of the window's height that the menu leaves free, logical pixels.
 const MARGIN: f32 = 90.0;
-/// Letters of a source that a narrow window has room for beside the word before it.
+/// Maximum number of letters of a source for which a narrow window shows the word before it, too.
 const SHORT: usize = 14;
 
-/// What stands on the button: in a narrow window the bar has room for so many letters and no more.
+/// Returns the text on the button, shortened in a narrow window.
 fn title(ui: &Ui, source: &str) -> String {
     let is_narrow = ui.ctx().content_rect().width() < NARROW;
     if is_narrow && source.chars().count() > SHORT {
@@ -68,7 +68,7 @@ fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// What the source in use is called.
+/// Returns the name of the source in use.
 pub(super) fn now(source: &Source) -> String {
     match source {
         Source::Cell(CellChoice::InTurn) => text!("shell-simulated-cell"),
@@ -225,7 +225,7 @@ fn cameras(ui: &mut Ui, chosen: Option<&SourceSpec>, actions: &mut Vec<Action>) 
     }
 }
 
-/// Taking and forgetting the empty cell.
+/// Draws the entries for capturing and discarding the empty cell.
 fn empty_cell(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     heading(ui, text!("shell-empty-cell"));
     let take = Button::new(text!("shell-capture-empty-cell"));

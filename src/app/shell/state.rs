@@ -1,4 +1,4 @@
-//! The state of the window outside the workspaces: the session that they share, and what changes it.
+//! State of the window outside the workspaces: the session that they share, and the parts that change it.
 
 use super::{
     closing::Closing, inspector::Inspector, live::Follower, notice::Notice, roles::RoleState,
@@ -6,24 +6,24 @@ use super::{
 };
 use crate::app::{inspection::library_cache::LibraryCache, task::TaskRunner};
 
-/// The state of the window outside the workspaces. [`apply`](super::action::apply) changes it.
+/// State of the window outside the workspaces. [`apply`](super::action::apply) changes it.
 #[derive(Debug)]
 pub struct State {
-    /// What the workspaces share.
+    /// State shared by the workspaces.
     pub session: Session,
-    /// Captures, opens and inspects; meanwhile the result shown is old.
+    /// Captures, opens and inspects scenes.
     pub inspector: Inspector,
     /// Follows the source.
     pub follower: Follower,
-    /// What a person should know, oldest first.
+    /// Notices, oldest first.
     pub notices: Vec<Notice>,
     /// Whether the list of shortcuts is open.
     pub help: HelpPage,
     /// Whether the window may close.
     pub closing: Closing,
-    /// Counts runs of the inspector and results shown.
+    /// The last generation number given to a run of the inspector or a result.
     pub generation: u64,
-    /// Whose window it is.
+    /// PIN, lock and open question of the roles.
     pub roles: RoleState,
     /// Counts the parts of this shift.
     pub shift_watch: ShiftWatch,
@@ -37,7 +37,7 @@ impl Default for State {
 }
 
 impl State {
-    /// Before the first capture.
+    /// Makes the state before the first capture.
     pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
         Self {
             session: Session::default(),
@@ -56,9 +56,9 @@ impl State {
 /// Whether the list of shortcuts is open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum HelpPage {
-    /// Not open.
+    /// The list is closed.
     #[default]
     Closed,
-    /// Open.
+    /// The list is open.
     Open,
 }

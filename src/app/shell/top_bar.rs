@@ -1,4 +1,4 @@
-//! Above the workspaces: the top bar.
+//! The top bar above the workspaces.
 
 use egui::{Align, Button, Color32, Frame, Layout, Margin, Panel, RichText, Ui, Vec2};
 
@@ -18,18 +18,18 @@ use crate::app::{
     ui::theme::{Theme, ThemeChoice, font, space},
 };
 
-/// In a narrower window the bar has no room for every key.
+/// Width of the window, logical pixels, below which the bar has no room for keys.
 pub(in crate::app) const NARROW: f32 = 1100.0;
 
-/// What the bar says of the work going on.
+/// The running work shown in the bar.
 pub(in crate::app) struct Progress {
     /// The work.
     pub(in crate::app) running: Running,
-    /// What cancels it, if it can be.
+    /// The action that cancels it, if there is one.
     pub(in crate::app) cancel: Option<Action>,
 }
 
-/// The bar at the top.
+/// Draws the top bar.
 pub(in crate::app) fn ui(
     ui: &mut Ui,
     state: &State,
@@ -59,7 +59,7 @@ pub(in crate::app) fn ui(
                 robot_button(ui, state, robot, theme, actions);
                 let name = text!("shell-capture");
                 let capture = RichText::new(&name).font(font::body_strong());
-                // The accent is for what is pressed next: while frames are followed, nothing is.
+                // The accent marks the next button to press; while a source is followed, there is none.
                 let capture = if state.session.is_live() {
                     with_key(ui, Button::new(capture), "Space", theme.weak_text)
                 } else {
@@ -86,7 +86,7 @@ pub(in crate::app) fn ui(
         });
 }
 
-/// The button with the key that presses it, where there is room for that.
+/// Adds the key to a button if there is room.
 fn with_key<'a>(ui: &Ui, button: Button<'a>, key: &str, colour: Color32) -> Button<'a> {
     if ui.ctx().content_rect().width() < NARROW {
         return button;
@@ -95,7 +95,7 @@ fn with_key<'a>(ui: &Ui, button: Button<'a>, key: &str, colour: Color32) -> Butt
     button.shortcut_text(key.color(colour))
 }
 
-/// Follows the source, or stops.
+/// Draws the button that starts and stops following the source.
 fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let is_live = state.session.is_live();
     let colour = if is_live { theme.on_accent } else { theme.text };
@@ -123,7 +123,7 @@ fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Acti
     }
 }
 
-/// The cell's calibration: whether there is one, and the dialog about it.
+/// Draws the button of the robot's cell, which shows whether it is calibrated.
 fn robot_button(
     ui: &mut Ui,
     state: &State,
@@ -143,7 +143,7 @@ fn robot_button(
     }
 }
 
-/// From right to left: help, colours, units, library.
+/// Draws help, colours, units and library, from right to left.
 fn settings(
     ui: &mut Ui,
     state: &State,
@@ -178,14 +178,14 @@ fn settings(
         actions.push(Action::SwitchUnits);
     }
     language_menu(ui, state, actions);
-    // What is at work, and the way out of it, come first.
+    // Running work and its cancel button take precedence.
     let has_room = !is_at_work || ui.available_width() > 480.0;
     if let Some(library) = state.session.library.as_ref().filter(|_| has_room) {
         library_menu(ui, state, library, actions);
     }
 }
 
-/// The languages, each as its speakers call it.
+/// Draws the menu of languages, each by its own name.
 pub(super) fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     let now = state.session.language;
     let menu = ui.menu_button(format!("{} ▼", now.sign()), |ui| {
@@ -203,7 +203,7 @@ pub(super) fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action
     button.on_hover_text(text!("shell-language-says"));
 }
 
-/// Which library is in use, and others to use.
+/// Draws the menu of the library in use and others.
 fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut Vec<Action>) {
     let num = library.parts.len();
     let opened = |text: String| format!("{text} ▼");
@@ -239,7 +239,7 @@ fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut
     });
 }
 
-/// What is being worked on, and the way out.
+/// Draws the running work and its cancel button.
 pub(super) fn progress(
     ui: &mut Ui,
     state: &State,
@@ -248,7 +248,7 @@ pub(super) fn progress(
     actions: &mut Vec<Action>,
 ) {
     let Some(Progress { running, cancel }) = work else {
-        // There the verdict card says it.
+        // In Inspect the verdict card shows it.
         if state.session.is_live() && state.session.workspace != WorkspaceKind::Inspect {
             live::chip(ui, &state.session, theme);
         }

@@ -1,4 +1,4 @@
-//! The entries of a menu in which a person chooses what a scene truly shows.
+//! Menu entries for choosing the true label of a scene.
 
 use egui::{ScrollArea, Ui, WidgetInfo};
 
@@ -7,7 +7,7 @@ use crate::{
     library::Truth,
 };
 
-/// What a truth is called where it is chosen; without one it is not set.
+/// Returns the title of a true label; `None` if it is not set.
 pub(in crate::app) fn truth_title(truth: Option<&Truth>, library: &LibraryView) -> String {
     match truth {
         None => text!("shell-truth-not-set"),
@@ -17,8 +17,8 @@ pub(in crate::app) fn truth_title(truth: Option<&Truth>, library: &LibraryView) 
     }
 }
 
-/// Draws the entries: `first`, so that they are in sight however many parts there are, then every enrolled part. `choose`
-/// gets the one that is pressed.
+/// Draws the entries: `first` at the top, so that they are visible however many parts there are, then every enrolled part.
+/// Calls `choose` with the pressed one.
 pub(in crate::app) fn truth_entries(
     ui: &mut Ui,
     chosen: Option<&Truth>,
@@ -29,7 +29,7 @@ pub(in crate::app) fn truth_entries(
     let mut entry = |ui: &mut Ui, truth: Option<Truth>| {
         let title = truth_title(truth.as_ref(), library);
         let response = ui.selectable_label(chosen == truth.as_ref(), &title);
-        // Other lists name the same parts.
+        // Other lists contain the same part names.
         response.widget_info(|| {
             let label = text!("shell-actual-part", part = &title);
             WidgetInfo::labeled(egui::Role::Button, true, label)

@@ -1,4 +1,4 @@
-//! The list of the shots: what each contributes, how far its pose was refined, whether it is used and why not.
+//! The list of shots: what each contributes, how far its pose was corrected, and whether it is used.
 
 use std::sync::Arc;
 
@@ -29,23 +29,23 @@ use crate::app::{
 
 /// Width of a shot in the list, logical pixels.
 const CARD: f32 = 240.0;
-/// Its picture.
+/// Size of its picture, logical pixels.
 const PICTURE: Vec2 = Vec2::new(80.0, 60.0);
-/// Letters of its name.
+/// Maximum number of letters of its name.
 const LETTERS: usize = 22;
 
-/// The scan in front, and what its workspace knows of it.
+/// The scan in front, with the state that its workspace keeps for it.
 #[derive(Clone, Copy)]
 pub(in crate::app) struct ShownShots<'a> {
     pub(in crate::app) fused: &'a Arc<FusedShots>,
-    /// Which shots shall be used.
+    /// The shots that the user wants to use.
     pub(in crate::app) choice: &'a ShotChoice,
     pub(in crate::app) shots: &'a ShotsState,
     pub(in crate::app) session: &'a Session,
     pub(in crate::app) theme: &'a Theme,
 }
 
-/// The list, and the textures of its pictures.
+/// The list, with the textures of its pictures.
 #[derive(Default)]
 pub(in crate::app) struct ShotList {
     made: Option<(Arc<FusedShots>, Vec<TextureHandle>)>,
@@ -55,7 +55,7 @@ impl ShotList {
     /// Height of the list with its row of tabs, logical pixels.
     pub(in crate::app) const HEIGHT: f32 = 162.0;
 
-    /// Draws the row above the strip: what the strip shows, and what changes the shots. True if it shows the list.
+    /// Draws the row above the strip, which switches the strip and changes the shots. True if the strip shows the list.
     pub(in crate::app) fn tabs(
         ui: &mut Ui,
         scan: ShownShots<'_>,
@@ -90,7 +90,7 @@ impl ShotList {
                 {
                     actions.push(ShotsAction::Ask(ShotsFile::Shot));
                 }
-                // Enrol has its own, for corrections and shots alike.
+                // Enrol has its own buttons, for corrections and shots alike.
                 if session.workspace != WorkspaceKind::Enrol {
                     for (text, label, can, action) in [
                         (
@@ -124,7 +124,7 @@ impl ShotList {
         shown == StripTab::Shots
     }
 
-    /// Draws the list.
+    /// Draws the list of shots.
     pub(in crate::app) fn ui(
         &mut self,
         ui: &mut Ui,
@@ -133,7 +133,7 @@ impl ShotList {
     ) {
         self.make(ui.ctx(), scan.fused);
         let textures = self.made.as_ref().map_or(&[][..], |(_, textures)| textures);
-        // A wheel turns it as well.
+        // Let a vertical wheel scroll it, too.
         ui.style_mut().always_scroll_the_only_direction = true;
         ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
             ui.horizontal_top(|ui| {
@@ -161,7 +161,7 @@ impl ShotList {
     }
 }
 
-/// How many shots there are, and how well they agree.
+/// Describes how many shots there are, and how well they agree.
 fn caption(fused: &FusedShots, units: UnitSystem) -> String {
     let num = fused.rows.len();
     let used = match fused.num_used() {
@@ -227,7 +227,7 @@ fn card(
         });
 }
 
-/// The picture; a press marks in the view what this shot alone sees.
+/// Draws the picture; a press marks in the view what only this shot sees.
 fn picture(
     ui: &mut Ui,
     place: usize,
@@ -258,7 +258,7 @@ fn picture(
     }
 }
 
-/// What the shot contributes, or why it does not.
+/// Draws what the shot contributes, or why it does not.
 fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem, theme: &Theme) {
     ui.spacing_mut().interact_size.y = 0.0;
     ui.spacing_mut().item_spacing.y = 1.0;
@@ -284,7 +284,7 @@ fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem, theme: &
                 why = sentence(&excluded(&why)),
                 advice = excluded_advice(&why)
             );
-            // The card of the workspace has the rest.
+            // The card of the workspace shows the details.
             let short = text!("shots-left-out", why = excluded_in_short(&why));
             said(ui, short, &all);
         }

@@ -1,12 +1,11 @@
-//! Scans in the window: several shots of one part, put together, and the list in which shots are dropped and taken back.
+//! Scans in the window: several shots of one part put together, and the list in which shots are dropped and restored.
 //!
 //! ```text
 //! ShotsAction ─► ShotsState::apply ─► ScanOrder ─► fuse, in the task of Inspect or Enrol ─► FusedShots ─► list, 3-D view,
 //!                                                                                          verdict or draft
 //! ```
 //!
-//! Inspect and Enrol each own a [`ShotsState`]; the list, the summary and the
-//! legend are the same in both.
+//! Inspect and Enrol each own a [`ShotsState`]; they share the list, the summary and the legend.
 
 mod list;
 mod overlay;

@@ -1,4 +1,4 @@
-//! What a 3-D view shows of a scan beside its points: cameras, what one shot alone sees, what none does, and the legend.
+//! What a 3-D view of a scan shows besides its points: cameras, surface that only one shot or no shot sees, and the legend.
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, vec2};
 
@@ -14,19 +14,20 @@ use crate::{
     units::Metres,
 };
 
-/// Diameter of the points of a scan: they are the means of voxels of 4 mm, whose diagonal is longer.
+/// Diameter of a scan's points: they are means over voxels of 4 mm, whose diagonal is longer.
 pub(in crate::app) const POINT_SIZE: PointSize = PointSize::Metres(Metres(0.006));
 
-/// What is shown over the points of a scan.
+/// Overlay of the points of a scan.
 pub(in crate::app) struct Overlay<'a> {
     pub(in crate::app) fused: &'a FusedShots,
-    /// Surface of the recognised part that no shot shows, and its share; without a recognised part the open outline.
+    /// Surface of the recognised part that no shot has seen, and its share; `None` without a recognised part, and then the
+    /// open outline is shown.
     pub(in crate::app) unseen: Option<(&'a PointSet, f64)>,
-    /// The shot whose own surface is marked.
+    /// Index of the shot whose own surface is marked.
     pub(in crate::app) looked_at: Option<usize>,
     /// Whether the cameras are drawn.
     pub(in crate::app) has_cameras: bool,
-    /// Whether what was not seen is drawn.
+    /// Whether unseen surface is drawn.
     pub(in crate::app) has_unseen: bool,
 }
 
@@ -47,7 +48,7 @@ impl Overlay<'_> {
         self.figure().only.get(self.looked_at?)?.as_ref()
     }
 
-    /// Adds it to a view that shows the points of the scan and nothing else of it.
+    /// Adds the overlay to a view that shows only the points of the scan.
     pub(in crate::app) fn add_to(&self, scene: &mut ViewScene) {
         scene.points.extend(self.unseen_points().cloned());
         scene.points.extend(self.own_points().cloned());
@@ -63,7 +64,7 @@ impl Overlay<'_> {
         }
     }
 
-    /// What the colours stand for, each with its share.
+    /// Returns the colours of the legend with their texts.
     fn entries(&self, colours: &ViewColours) -> Vec<(Color32, String)> {
         let percent = |share: f64| match share * 100.0 {
             percent if percent > 0.0 && percent < 1.0 => "< 1 %".to_owned(),
@@ -90,7 +91,7 @@ impl Overlay<'_> {
         entries
     }
 
-    /// Draws the legend with its lower left corner here.
+    /// Draws the legend with its lower left corner at `corner`.
     pub(in crate::app) fn legend(
         &self,
         painter: &Painter,

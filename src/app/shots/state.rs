@@ -1,4 +1,4 @@
-//! What a person asked for about the shots of a scan, and what changes it.
+//! State of the choice of shots in a workspace, and its actions.
 
 use std::path::{Path, PathBuf};
 
@@ -12,71 +12,71 @@ use crate::app::{
     },
 };
 
-/// What a workspace knows of its scan beside the result.
+/// State that a workspace keeps for its scan, besides the result.
 #[derive(Debug, Default)]
 pub struct ShotsState {
-    /// What the strip shows.
+    /// Content of the strip.
     pub strip: StripTab,
-    /// The shot whose own surface is marked in the view, by its place.
+    /// Index of the shot whose own surface is marked in the view.
     pub looked_at: Option<usize>,
-    /// What the run is for that was started last.
+    /// What the last started run was asked for.
     asked: Option<Asked>,
-    /// Choices before the present one, the latest last.
+    /// Former choices, latest last.
     done: Vec<ShotChoice>,
-    /// Choices that were taken back, the latest last.
+    /// Choices that were undone, latest last.
     undone: Vec<ShotChoice>,
-    /// What waits for a person to name the file of the poses.
+    /// The request that waits for the user to choose the file of the poses.
     wants_poses: Option<ScanOrder>,
 }
 
-/// Another choice, until its result is there.
+/// A choice whose result is pending.
 #[derive(Debug)]
 pub struct Asked {
     choice: Option<ShotChoice>,
     way: Way,
 }
 
-/// Which way to a choice.
+/// How a choice was reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Way {
-    /// For the first time.
+    /// By a new change.
     First,
-    /// Taken back.
+    /// By undo.
     Back,
-    /// Done again.
+    /// By redo.
     Again,
 }
 
-/// What the strip at the bottom shows while a scan is in front.
+/// Content of the strip at the bottom while a scan is in front.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StripTab {
     /// The list of shots.
     #[default]
     Shots,
-    /// What it shows without a scan: the stages, or the enrolled parts.
+    /// The content without a scan: the stages, or the enrolled parts.
     Usual,
 }
 
-/// Something that happened.
+/// Actions on the shots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ShotsAction {
-    /// Drop the shot at this place, or take it back.
+    /// Drop the shot at this index, or restore it.
     Toggle(usize),
-    /// Mark what the shot at this place alone sees, or no longer.
+    /// Mark what only the shot at this index sees, or remove the mark.
     LookAt(usize),
     /// Show this in the strip.
     Strip(StripTab),
-    /// Take the last change of the shots back.
+    /// Undo the last change of the shots.
     Undo,
-    /// Do it again.
+    /// Redo it.
     Redo,
-    /// Have a person choose a file.
+    /// Ask the user to choose a file.
     Ask(ShotsFile),
-    /// A person chose it.
+    /// The user chose this file.
     Chosen(ShotsFile, PathBuf),
 }
 
-/// What a person is asked to choose.
+/// A file that the user is asked to choose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShotsFile {
     /// A frame to add to the scan in front.
@@ -105,13 +105,13 @@ impl ShotsFile {
     }
 }
 
-/// More steps than this are forgotten, the oldest first.
+/// Maximum number of undo steps; the oldest are dropped.
 const MAX_STEPS: usize = 30;
-/// With fewer shots nothing can be put together.
+/// Minimum number of shots that can be put together.
 const LEAST_SHOTS: usize = 2;
 
 impl Asked {
-    /// Shots that no person has chosen from the list.
+    /// A request for shots that were not chosen from the list.
     pub fn first() -> Self {
         Self {
             choice: None,
@@ -121,28 +121,28 @@ impl Asked {
 }
 
 impl ShotsState {
-    /// True if there is something to be taken back.
+    /// True if a change can be undone.
     pub fn can_undo(&self) -> bool {
         !self.done.is_empty()
     }
 
-    /// True if there is something to be done again.
+    /// True if a change can be redone.
     pub fn can_redo(&self) -> bool {
         !self.undone.is_empty()
     }
 
-    /// The choice that the run is for that was started last; it counts until that run ends.
+    /// The choice that the last started run was asked for, until that run ends.
     pub fn asked_choice(&self) -> Option<&ShotChoice> {
         self.asked.as_ref()?.choice.as_ref()
     }
 
-    /// True if this is a file of poses, and one is waited for.
+    /// True if a file of poses is awaited and this may be one.
     pub fn wants(&self, file: &Path) -> bool {
         let ending = file.extension();
         self.wants_poses.is_some() && ending.is_some_and(|is| is.eq_ignore_ascii_case("json"))
     }
 
-    /// Carries out an action while these shots are used; says what is to be put together for it.
+    /// Carries out an action; `used` are the shots in use. Returns what is to be put together for it.
     pub fn apply(
         &mut self,
         action: ShotsAction,
@@ -199,7 +199,7 @@ impl ShotsState {
         })
     }
 
-    /// Another run has been started, for this if it is about shots.
+    /// Notes that another run was started; `asked` if it is about shots.
     pub fn started(&mut self, asked: Option<Asked>) {
         if asked.is_some() {
             self.wants_poses = None;
@@ -207,13 +207,13 @@ impl ShotsState {
         self.asked = asked;
     }
 
-    /// The poses of these shots were not found: a person has to name their file.
+    /// Notes that the poses of these shots were not found and the user has to choose their file.
     pub fn ask_for_poses(&mut self, order: ScanOrder) {
         self.wants_poses = Some(order);
     }
 
-    /// A result has come, of these files if it is a scan, in the place of one with the choice `former`: what was asked
-    /// for can be taken back.
+    /// Handles a result, of these files if it is a scan, which replaces one with the choice `former`. A requested change can
+    /// then be undone.
     pub fn settle(&mut self, files: Option<&ScanFiles>, former: Option<ShotChoice>) {
         self.looked_at = None;
         self.wants_poses = None;
@@ -238,7 +238,7 @@ impl ShotsState {
                     self.done.push(former);
                 }
             },
-            // The same again, by another recipe or library.
+            // The same shots again, with another recipe or library.
             (None, Some(_)) => {}
             _ => {
                 self.done.clear();
@@ -248,7 +248,7 @@ impl ShotsState {
     }
 }
 
-/// The source that opens the same shots at the next start, if that is another than now.
+/// Returns the source that opens the same shots at the next start, if it differs from the current one.
 pub(in crate::app) fn source_of(files: &ScanFiles, now: &Source) -> Option<Source> {
     match now {
         Source::Scan(now) if now.frames == files.frames && now != files => {

@@ -1,4 +1,4 @@
-//! What the card of a workspace says about the scan in front.
+//! The section about the scan on the card of a workspace.
 
 use egui::{RichText, Ui};
 
@@ -17,7 +17,7 @@ use crate::app::{
 /// Draws the section.
 pub(in crate::app) fn summary(ui: &mut Ui, fused: &FusedShots, units: UnitSystem, theme: &Theme) {
     heading(ui, theme, &text!("shots-scan"));
-    // Text lies closer than controls do.
+    // Rows of text may be closer together than controls.
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 20.0;
         ui.spacing_mut().item_spacing.y = 3.0;

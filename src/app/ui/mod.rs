@@ -1,5 +1,5 @@
-//! What every panel is drawn with: colours and sizes, widgets, the control of a parameter, plots, the 3-D view. It
-//! knows nothing of sessions and inspections.
+//! Building blocks of the panels: colours and sizes, widgets, parameter controls, plots, the 3-D view. Independent of sessions
+//! and inspections.
 
 pub mod parameter_control;
 pub(in crate::app) mod plot;

@@ -1,4 +1,4 @@
-//! The control of one parameter, as every panel shows those of its table.
+//! The control of one parameter, used by every panel.
 
 use std::cell::Cell;
 
@@ -15,16 +15,16 @@ use crate::{
     pipeline::parameters::{Kind, Number, Parameter, Parameters},
 };
 
-/// What a person did to a parameter.
+/// A change of a parameter by the user.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ParameterChange {
-    /// Gave it a number in the unit shown, or the option at this place.
+    /// A number in the unit shown, or the index of an option.
     Set(f64),
-    /// Gave it its default back.
+    /// Back to the default.
     Reset,
 }
 
-/// A fold whose title has more than one line where the panel is too narrow.
+/// Makes a collapsible section whose title wraps where the panel is too narrow.
 pub(in crate::app) fn fold(ui: &Ui, title: String, colour: Color32) -> CollapsingHeader {
     let font = TextStyle::Button.resolve(ui.style());
     let spacing = ui.spacing();
@@ -32,13 +32,13 @@ pub(in crate::app) fn fold(ui: &Ui, title: String, colour: Color32) -> Collapsin
     CollapsingHeader::new(ui.painter().layout(title, font, colour, width))
 }
 
-/// Width of the number beside a slider.
+/// Width of the number beside a slider, logical pixels.
 const NUMBER: f32 = 92.0;
-/// Least width of the button that resets a parameter.
+/// Minimum width of the button that resets a parameter, logical pixels.
 const RESET: f32 = 58.0;
 
-/// The name of a parameter, its slider or its options and, where it differs from the default, a button that resets it. What
-/// a person does goes to `changed`; a written number may be out of range.
+/// Draws the name of a parameter, its slider or options and, if it differs from the default, a reset button. Passes changes to
+/// `changed`; a typed number may be out of range.
 pub(in crate::app) fn control<R: Parameters>(
     ui: &mut Ui,
     parameter: &Parameter<R>,
@@ -115,7 +115,7 @@ fn hover_text<R: Parameters>(parameter: &Parameter<R>, default: &R) -> String {
     format!("{}\n{valid}", parameters::help(parameter))
 }
 
-/// A slider for the hand, and a number that can be dragged or written.
+/// Draws a slider, and a number that can be dragged or typed.
 fn number_ui<R: Parameters>(
     ui: &mut Ui,
     parameter: &Parameter<R>,
@@ -143,7 +143,7 @@ fn number_ui<R: Parameters>(
         WidgetInfo::slider(true, before, label)
     });
     slider.on_hover_text(hover);
-    // A value out of range is refused, not clamped.
+    // A typed value out of range is reported, not clamped.
     let refused = Cell::new(None);
     let parse = |text: &str| {
         let digits = text.trim().trim_end_matches(number.unit.sign().trim());

@@ -1,5 +1,5 @@
-//! Plots: curves over two axes, by `egui_plot` in the window's colours. A plot neither moves nor zooms, so the wheel
-//! scrolls the panel around it.
+//! Plots: curves over two axes, drawn by `egui_plot` in the window's colours. A plot neither moves nor zooms, so that the
+//! wheel scrolls the panel around it.
 
 use egui::{
     Align2, Color32, FontId, Painter, Pos2, Rangef, Rect, Sense, Shape, Stroke, Ui, UiBuilder,
@@ -16,14 +16,14 @@ use jiff::Zoned;
 use super::theme::{ROUNDING, Theme, font, space};
 use crate::app::language::text;
 
-/// Beyond either end of its range an axis shows this share of it: a line at the end is seen whole.
+/// Margin beyond both ends of an axis, as a share of its range: a line at the end stays fully visible.
 const MARGIN: f64 = 0.03;
-/// More powers of ten than this are marked every second one only.
+/// With more powers of ten than this, only every second one is marked.
 const MANY_POWERS: usize = 8;
 /// Height of a plot over time, logical pixels.
 const OVER_TIME: f32 = 150.0;
 
-/// The range of an axis and the values marked along it.
+/// The range of an axis and its tick marks.
 #[derive(Clone, Debug)]
 pub(in crate::app) struct Axis {
     range: [f64; 2],
@@ -35,7 +35,7 @@ impl Axis {
         Self { range, marks }
     }
 
-    /// A logarithmic axis: `range` and curves are base-10 logarithms.
+    /// Makes a logarithmic axis: `range` and curves are base-10 logarithms.
     pub(in crate::app) fn powers(range: [f64; 2], name: impl Fn(i32) -> String) -> Self {
         let inside = |power: &i32| (range[0]..=range[1]).contains(&f64::from(*power));
         let powers: Vec<i32> = (-20..=20).filter(inside).collect();
@@ -55,7 +55,7 @@ impl Axis {
         let [low, high] = self.in_sight();
         let values: Vec<f64> = self.marks.iter().map(|(value, _)| *value).collect();
         move |_| {
-            // As if far apart: whoever sets the marks sees to it that they have room.
+            // Report a large spacing, so that every mark is labelled; whoever sets the marks leaves room for them.
             let step_size = high - low;
             let mark = |value: &f64| GridMark {
                 value: *value,
@@ -77,7 +77,7 @@ impl Axis {
     }
 }
 
-/// Room for the text of marks, logical pixels.
+/// Returns the space needed for the text of the marks, logical pixels.
 fn text_size<'m>(
     ui: &Ui,
     font: &FontId,
@@ -91,22 +91,22 @@ fn text_size<'m>(
     sizes.fold(Vec2::ZERO, Vec2::max)
 }
 
-/// A plot before its curves are drawn.
+/// A plot without its curves.
 pub(in crate::app) struct Axes<'a> {
-    /// Its title, in pieces with a colour each; without any it has none.
+    /// Title, as pieces of text with a colour each; empty for none.
     pub(in crate::app) title: Vec<(String, Color32)>,
-    /// From left to right.
+    /// Axis from left to right.
     pub(in crate::app) across: Axis,
-    /// From bottom to top.
+    /// Axis from bottom to top.
     pub(in crate::app) up: Axis,
-    /// Of title and marks.
+    /// Font of title and marks.
     pub(in crate::app) font: FontId,
-    /// What is shown beside the pointer at a value of the axis across.
+    /// Makes the text shown beside the pointer from a value of the `across` axis.
     pub(in crate::app) read: Option<Box<dyn Fn(f64) -> String + 'a>>,
 }
 
 impl<'a> Axes<'a> {
-    /// Draws them into a rectangle, then what `draw` adds. The answer says where on the screen a value is.
+    /// Draws the axes into a rectangle, then the curves that `draw` adds. Returns the transform from values to the screen.
     pub(in crate::app) fn show(
         self,
         ui: &mut Ui,
@@ -128,7 +128,7 @@ impl<'a> Axes<'a> {
         let title = ui.painter().layout_job(job);
         let below = text_size(ui, &font, &across.marks);
         let beside = text_size(ui, &font, &up.marks);
-        // Half of the text of the last mark is beyond the end of its axis.
+        // Half of the last mark's text extends beyond the end of its axis.
         let right = text_size(ui, &font, across.marks.last()).x / 2.0;
         let top = title.size().y.max(beside.y / 2.0);
         let bottom = if below.y > 0.0 { 0.0 } else { beside.y / 2.0 };
@@ -139,7 +139,7 @@ impl<'a> Axes<'a> {
             let axis = axis.tick_label_font(font.clone());
             axis.tick_label_color(theme.weak_text)
         };
-        // It holds nothing that has to last, so it may be another one tomorrow.
+        // The plot keeps no lasting state, so its id may change.
         let plot = Plot::new("plot")
             .id(ui.unique_id().with("plot"))
             .min_size(Vec2::ZERO)
@@ -171,7 +171,7 @@ impl<'a> Axes<'a> {
             plot.set_plot_bounds_y(y[0]..=y[1]);
             draw(plot);
         });
-        // Over the curves, or further left where that is too narrow.
+        // Above the curves, or further left if the title is too wide.
         let left = shown.transform.frame().left();
         let left = left.min(rect.right() - title.size().x).max(rect.left());
         let corner = pos2(left, rect.top());
@@ -182,20 +182,20 @@ impl<'a> Axes<'a> {
     }
 }
 
-/// A quantity of the rays of a scene and of an enrolled part.
+/// L or Θ of the rays of a scene and of an enrolled part.
 pub(in crate::app) struct RayCurves<'a> {
     /// L or Θ.
     pub(in crate::app) name: &'static str,
-    /// Factor from stored to shown values, sign and decimals; `None` in a picture too small for text.
+    /// Factor from stored to shown values, unit sign and decimals; `None` in a picture too small for text.
     pub(in crate::app) unit: Option<(f64, &'static str, usize)>,
-    /// The scene's, one value per ray.
+    /// Values of the scene, one per ray.
     pub(in crate::app) scene: &'a [f32],
-    /// The part's.
+    /// Values of the part, one per ray.
     pub(in crate::app) part: Option<&'a [f32]>,
 }
 
 impl RayCurves<'_> {
-    /// Draws both, the part's in dashes.
+    /// Draws both curves, the part's dashed.
     pub(in crate::app) fn show(self, ui: &mut Ui, area: Rect, theme: &Theme) {
         let Self {
             name,
@@ -248,8 +248,8 @@ impl RayCurves<'_> {
     }
 }
 
-/// Curves over moments in their order, with dates along them. Each value is written by a function, and the height shows at
-/// least the span behind it.
+/// Plots curves over moments in time order, with dates along the axis. `written` formats a value; the vertical range spans at
+/// least `least_span`.
 pub(in crate::app) fn over_time(
     ui: &mut Ui,
     at: &[Zoned],
@@ -317,13 +317,13 @@ pub(in crate::app) fn over_time(
     }
 }
 
-/// A curve over evenly spaced values, 0, 1, 2…
+/// Makes a curve of values at 0, 1, 2…
 pub(in crate::app) fn curve(values: &[f32], colour: Color32) -> Line<'static> {
     let points = PlotPoints::from_ys_f32(values);
     Line::new("", points).color(colour).width(1.6)
 }
 
-/// Smallest and largest; 0 and 1 of none.
+/// Returns smallest and largest; 0 and 1 if there are none.
 pub(in crate::app) fn range_of<'v>(values: impl IntoIterator<Item = &'v f32>) -> [f64; 2] {
     let values = values.into_iter().map(|value| f64::from(*value));
     let ends = values.fold(None, |ends: Option<[f64; 2]>, value| {
@@ -333,8 +333,8 @@ pub(in crate::app) fn range_of<'v>(values: impl IntoIterator<Item = &'v f32>) ->
     ends.unwrap_or([0.0, 1.0])
 }
 
-/// Names the curves from the top left corner of a plot down, each behind a piece of its line: colour alone must not tell
-/// them apart.
+/// Draws the names of the curves from the top left corner of a plot down, each after a sample of its line: colour alone must
+/// not distinguish them.
 pub(in crate::app) fn legend<'n>(
     painter: &Painter,
     plot: &PlotTransform,
@@ -349,7 +349,7 @@ pub(in crate::app) fn legend<'n>(
     }
 }
 
-/// As `egui_plot` draws a line of this style.
+/// Draws a line in a style as `egui_plot` does.
 fn line(points: &[Pos2], stroke: Stroke, style: LineStyle) -> Vec<Shape> {
     match style {
         LineStyle::Solid => vec![Shape::line(points.to_vec(), stroke)],

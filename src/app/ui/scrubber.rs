@@ -1,36 +1,37 @@
-//! A place along a line, moved by keys and by a screen reader: the timeline of Paint, the iterations of Align.
+//! A position along a line, moved by keys and by a screen reader: the timeline of Paint, the iterations of Align.
 
 use egui::{EventFilter, Key, Modifiers, Response, Ui, accesskit};
 
-/// What a scrubber is called, and where on its line it is.
+/// The name of a scrubber and its position.
 pub(in crate::app) struct Scrubber {
-    /// Its name for a screen reader.
+    /// Name for a screen reader.
     pub label: String,
-    /// Its keys, in words.
+    /// Description of the keys, for a screen reader.
     pub keys: String,
-    /// Where it is, from 0.
+    /// Position, 0..=`last`.
     pub place: f64,
     /// The end of the line.
     pub last: f64,
 }
 
-/// What a person asked for.
+/// A motion requested by the user.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::app) enum ScrubberInput {
-    /// To the beginning.
+    /// Go to the beginning.
     First,
-    /// To the end.
+    /// Go to the end.
     Last,
-    /// On by arrow keys, or back where it is negative.
+    /// Move by steps (arrow keys); negative moves back.
     Steps(i32),
-    /// On by Page Up and Page Down, or back.
+    /// Move by pages (Page Up, Page Down); negative moves back.
     Pages(i32),
     /// Play or pause.
     TogglePlay,
 }
 
 impl Scrubber {
-    /// Names it for a screen reader and gives what was asked for: by keys while it has the focus, by a screen reader always.
+    /// Describes it for a screen reader and returns the requested motions. Keys count only while it has the focus, requests of
+    /// a screen reader always.
     pub(in crate::app) fn input(&self, ui: &Ui, response: &Response) -> Vec<ScrubberInput> {
         let id = response.id;
         ui.accesskit_node_builder(id, |node| {
@@ -49,7 +50,7 @@ impl Scrubber {
         });
         let mut asked = Vec::new();
         if response.has_focus() {
-            // The arrows are ours; Tab still leaves.
+            // The scrubber uses the horizontal arrow keys; Tab still leaves it.
             let arrows = EventFilter {
                 tab: false,
                 horizontal_arrows: true,

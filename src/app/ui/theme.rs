@@ -1,4 +1,4 @@
-//! All colours, spacing and type of the window, by what they are for. Nothing else names a colour.
+//! All colours, spacing and fonts of the window, by purpose. Nothing else names a colour.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use egui::{
     TextStyle, Visuals, style::WidgetVisuals,
 };
 
-/// Which colours.
+/// Light or dark colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ThemeChoice {
@@ -20,7 +20,7 @@ pub enum ThemeChoice {
 }
 
 impl ThemeChoice {
-    /// What a person calls it.
+    /// Returns the name shown to the user.
     pub fn title(self) -> String {
         match self {
             Self::Dark => text!("shell-dark"),
@@ -28,7 +28,7 @@ impl ThemeChoice {
         }
     }
 
-    /// The other one.
+    /// Returns the other choice.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -41,9 +41,9 @@ impl ThemeChoice {
 /// Colours by role.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Theme {
-    /// Behind the 3-D view and the pictures.
+    /// Background of the 3-D view and the pictures.
     pub canvas: Color32,
-    /// Behind bars and cards.
+    /// Background of bars and cards.
     pub panel: Color32,
     /// Controls at rest.
     pub control: Color32,
@@ -55,9 +55,9 @@ pub struct Theme {
     pub track: Color32,
     /// Text.
     pub text: Color32,
-    /// Text that steps back.
+    /// Less important text.
     pub weak_text: Color32,
-    /// The control that is used most, and what is selected.
+    /// The most used control, and the selection.
     pub accent: Color32,
     /// Text on the accent.
     pub on_accent: Color32,
@@ -65,17 +65,17 @@ pub struct Theme {
     pub accepted: Color32,
     /// A verdict that is not accepted.
     pub rejected: Color32,
-    /// Behind an accepted verdict across the window.
+    /// Background of an accepted verdict across the window.
     pub accepted_back: Color32,
-    /// Behind a verdict across the window that is not accepted.
+    /// Background of a rejected verdict across the window.
     pub rejected_back: Color32,
-    /// What deserves a look.
+    /// Something that needs attention.
     pub warning: Color32,
     /// The scene's curve or outline.
     pub first_series: Color32,
     /// The second curve of the scene.
     pub second_series: Color32,
-    /// What the scene is compared with.
+    /// Curve or outline that the scene is compared with.
     pub reference_series: Color32,
 }
 
@@ -128,13 +128,13 @@ const fn rgb(hex: u32) -> Color32 {
 
 /// Distances, logical pixels.
 pub mod space {
-    /// Between things that belong together.
+    /// Between related items.
     pub const SMALL: f32 = 6.0;
-    /// Between things.
+    /// Between items.
     pub const MEDIUM: f32 = 10.0;
     /// Between groups.
     pub const LARGE: f32 = 18.0;
-    /// Least side of anything that is pressed: gloves.
+    /// Smallest side of anything that can be pressed, for use with gloves.
     pub const TARGET: f32 = 36.0;
     /// Height of the top bar.
     pub const TOP_BAR: f32 = 52.0;
@@ -142,15 +142,15 @@ pub mod space {
     pub const RAIL: f32 = 64.0;
 }
 
-/// Rounding of controls and pictures.
+/// Corner radius of controls and pictures.
 pub const ROUNDING: CornerRadius = CornerRadius::same(5);
 
-/// The family of emphasised text.
+/// Font family of emphasised text.
 fn strong_family() -> FontFamily {
     FontFamily::Name("strong".into())
 }
 
-/// Type by role.
+/// Fonts by role.
 pub mod font {
     use super::{FontFamily, FontId, strong_family};
 
@@ -158,19 +158,19 @@ pub mod font {
     pub fn title() -> FontId {
         FontId::new(27.0, strong_family())
     }
-    /// The name of the part to be read from three metres, the largest first.
+    /// The name of the part, readable from three metres, largest first.
     pub fn far_names() -> [FontId; 4] {
         [48.0, 42.0, 36.0, 30.0].map(|size| FontId::new(size, strong_family()))
     }
-    /// The verdict to be read from there.
+    /// The verdict, readable from three metres.
     pub fn far_verdict() -> FontId {
         FontId::new(26.0, strong_family())
     }
-    /// Why it is not accepted, to be read from there.
+    /// The reason for not accepting, readable from three metres.
     pub fn far_reason() -> FontId {
         FontId::new(18.0, strong_family())
     }
-    /// The name of the part across the window, the largest first.
+    /// The name of the part across the window, largest first.
     pub fn banner_names() -> [FontId; 5] {
         [76.0, 64.0, 52.0, 42.0, 32.0].map(|size| FontId::new(size, strong_family()))
     }
@@ -178,7 +178,7 @@ pub mod font {
     pub fn banner_word() -> FontId {
         FontId::new(40.0, strong_family())
     }
-    /// Why, across the window.
+    /// The reason across the window.
     pub fn banner_reason() -> FontId {
         FontId::new(22.0, FontFamily::Proportional)
     }
@@ -198,11 +198,11 @@ pub mod font {
     pub fn heading() -> FontId {
         FontId::new(12.0, strong_family())
     }
-    /// Text.
+    /// Normal text.
     pub fn body() -> FontId {
         FontId::new(14.0, FontFamily::Proportional)
     }
-    /// Text that matters.
+    /// Emphasised text.
     pub fn body_strong() -> FontId {
         FontId::new(14.0, strong_family())
     }
@@ -210,14 +210,14 @@ pub mod font {
     pub fn small() -> FontId {
         FontId::new(12.0, FontFamily::Proportional)
     }
-    /// Scales of small pictures.
+    /// Axis labels of small pictures.
     pub fn scale() -> FontId {
         FontId::new(10.0, FontFamily::Proportional)
     }
 }
 
 impl Theme {
-    /// The colours of a choice.
+    /// Returns the colours of a choice.
     pub fn of(choice: ThemeChoice) -> &'static Self {
         match choice {
             ThemeChoice::Dark => &DARK,
@@ -225,7 +225,7 @@ impl Theme {
         }
     }
 
-    /// The edge between panels.
+    /// Returns the stroke of edges between panels.
     pub fn edge_stroke(&self) -> Stroke {
         Stroke::new(1.0, self.edge)
     }
@@ -263,7 +263,7 @@ impl Theme {
         visuals
     }
 
-    /// Makes a window look so: cheap, but only called when the choice changes.
+    /// Applies the theme to a window. Cheap, but only called when the choice changes.
     pub fn install(choice: ThemeChoice, ctx: &egui::Context) {
         let egui_theme = match choice {
             ThemeChoice::Dark => egui::Theme::Dark,
@@ -289,7 +289,7 @@ impl Theme {
         ctx.set_style_of(egui_theme, style);
     }
 
-    /// The typefaces, embedded; egui's own follow for signs that they lack.
+    /// Installs the embedded fonts, with egui's own as fallbacks for missing glyphs.
     pub fn install_fonts(ctx: &egui::Context) {
         let mut fonts = FontDefinitions::default();
         let regular = include_bytes!("../../../assets/fonts/Inter-Regular.otf");
@@ -299,7 +299,7 @@ impl Theme {
                 .font_data
                 .insert(name.into(), Arc::new(FontData::from_owned(bytes.to_vec())));
         }
-        // For Chinese, in any language: titles of parts may be written in it.
+        // For Chinese in any language: titles of parts may be written in it.
         let chinese = include_bytes!("../../../assets/fonts/NotoSansSC-Subset.otf");
         let chinese_name = "Noto Sans SC";
         fonts.font_data.insert(
@@ -331,7 +331,7 @@ impl Theme {
 mod tests {
     use super::*;
 
-    /// Relative luminance after WCAG 2.1.
+    /// Relative luminance according to WCAG 2.1.
     fn luminance(colour: Color32) -> f64 {
         let linear = |channel: u8| {
             let c = f64::from(channel) / 255.0;

@@ -1,10 +1,10 @@
-//! A row of tools: buttons that stand together in groups, in as many lines as they need.
+//! A row of tools: buttons in groups, on as many lines as they need.
 
 use egui::{Button, RichText, TextWrapMode, Ui, Vec2, WidgetText};
 
 use super::theme::{font, space};
 
-/// A button that can be the chosen one of several.
+/// Draws a button that can be the selected one of several.
 pub(in crate::app) fn choice(
     ui: &mut Ui,
     text: &str,
@@ -23,21 +23,21 @@ pub(in crate::app) fn choice(
 
 /// One of the tools.
 pub(in crate::app) struct Tool<A> {
-    /// On the button.
+    /// Text on the button.
     pub(in crate::app) text: String,
-    /// For a screen reader.
+    /// Name for a screen reader.
     pub(in crate::app) label: String,
-    /// What it does, while the pointer is over it.
+    /// Tooltip that says what it does.
     pub(in crate::app) hint: Option<String>,
-    /// True for the chosen one of several.
+    /// True for the selected one of several.
     pub(in crate::app) is_chosen: bool,
     /// False if it does nothing now.
     pub(in crate::app) is_enabled: bool,
-    /// What a press causes.
+    /// Caused by a press.
     pub(in crate::app) action: A,
 }
 
-/// Draws sets of groups: as many sets in a line as there is room for, a set never in two.
+/// Draws sets of groups, with as many sets on a line as fit; a set is never split.
 pub(in crate::app) fn tool_row<A>(ui: &mut Ui, sets: Vec<Vec<Vec<Tool<A>>>>, actions: &mut Vec<A>) {
     ui.spacing_mut().button_padding.x = 9.0;
     let room = ui.available_width();
@@ -75,7 +75,7 @@ fn buttons<A>(ui: &mut Ui, groups: Vec<Vec<Tool<A>>>, actions: &mut Vec<A>) {
     }
 }
 
-/// How wide groups are side by side, logical pixels.
+/// Returns the width of groups side by side, logical pixels.
 fn width<A>(ui: &Ui, groups: &[Vec<Tool<A>>], gap: f32) -> f32 {
     let spacing = ui.spacing();
     let of_one = |tool: &Tool<A>| {

@@ -1,4 +1,4 @@
-//! Small things that several panels draw.
+//! Small widgets and helpers that several panels use.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use image::RgbImage;
 
 use super::theme::{ROUNDING, Theme, font, space};
 
-/// What a mark says beside its colour.
+/// The sign of a mark, which repeats what its colour means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::app) enum Mark {
     /// A tick.
@@ -24,7 +24,7 @@ pub(in crate::app) enum Mark {
     Open,
 }
 
-/// A filled disc with a sign in it.
+/// Draws a filled disc with a sign in it.
 pub(in crate::app) fn mark(
     painter: &Painter,
     centre: Pos2,
@@ -64,10 +64,10 @@ pub(in crate::app) fn mark(
     }
 }
 
-/// A name on the left and its value on the right.
+/// Draws a name on the left and its value on the right.
 pub(in crate::app) fn row(ui: &mut Ui, theme: &Theme, name: &str, value: &str) {
     ui.horizontal(|ui| {
-        // Nothing here is pressed.
+        // Nothing here can be pressed, so rows need no minimum height.
         ui.spacing_mut().interact_size.y = 0.0;
         ui.label(RichText::new(name).color(theme.weak_text));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -76,7 +76,7 @@ pub(in crate::app) fn row(ui: &mut Ui, theme: &Theme, name: &str, value: &str) {
     });
 }
 
-/// The heading of a group.
+/// Draws the heading of a group.
 pub(in crate::app) fn heading(ui: &mut Ui, theme: &Theme, text: &str) {
     ui.add_space(super::theme::space::MEDIUM);
     ui.label(
@@ -86,7 +86,7 @@ pub(in crate::app) fn heading(ui: &mut Ui, theme: &Theme, text: &str) {
     );
 }
 
-/// The text with a capital letter first, unless it begins with the name of a file or of a parameter.
+/// Capitalises the first letter, unless the text begins with the name of a file or of a parameter.
 pub(in crate::app) fn sentence(text: &str) -> String {
     let first = text.split_whitespace().next().unwrap_or_default();
     let is_word = |c: char| c.is_alphabetic() || matches!(c, '\'' | '’' | '-' | ',' | ':');
@@ -99,13 +99,13 @@ pub(in crate::app) fn sentence(text: &str) -> String {
     })
 }
 
-/// The largest rectangle of this aspect (width over height) in the middle of another.
+/// Returns the largest rectangle with this aspect ratio (width over height), centred in another.
 pub(in crate::app) fn fitted(outer: Rect, aspect: f32) -> Rect {
     let width = outer.width().min(outer.height() * aspect);
     Rect::from_center_size(outer.center(), vec2(width, width / aspect.max(1e-3)))
 }
 
-/// A straight map from a range of numbers to a stretch of the screen.
+/// A linear map from a range of values to screen coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::app) struct Scale {
     from: [f32; 2],
@@ -128,7 +128,7 @@ impl Scale {
     }
 }
 
-/// Where points of a plane are on the screen: what is within `bounds` as large as it fits into the middle of `rect`, y up.
+/// Returns a map from plane coordinates (y up) to the screen that fits `bounds` centred into `rect`.
 pub(in crate::app) fn plane_in(
     rect: Rect,
     [low, high]: [[f32; 2]; 2],
@@ -140,7 +140,7 @@ pub(in crate::app) fn plane_in(
     move |p| pos2(across.at(p[0]), up.at(p[1]))
 }
 
-/// Shows which hand-drawn control has the focus.
+/// Outlines a hand-drawn control that has the focus.
 pub(in crate::app) fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response, theme: &Theme) {
     if response.has_focus() {
         let stroke = Stroke::new(2.0, theme.accent);
@@ -149,14 +149,14 @@ pub(in crate::app) fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response,
     }
 }
 
-/// A button that is called by its text alone, whatever shortcut it shows.
+/// Draws a button whose accessible name is `label` alone, whatever shortcut it shows.
 pub(in crate::app) fn labelled(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Response {
     let response = ui.add(button.min_size(Vec2::splat(space::TARGET)));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
     response
 }
 
-/// How wide a button with this text is.
+/// Returns the width of a button with this text.
 pub(in crate::app) fn button_width(ui: &Ui, text: &str) -> f32 {
     let font = TextStyle::Button.resolve(ui.style());
     let text = ui
@@ -168,19 +168,19 @@ pub(in crate::app) fn button_width(ui: &Ui, text: &str) -> f32 {
 /// Opening brackets and quotation marks of Chinese, which may not end a row.
 const OPENING: [char; 8] = ['“', '‘', '（', '《', '〈', '「', '『', '【'];
 
-/// A text in as many rows as it needs, none of which ends with an opening bracket or quotation mark.
+/// Draws a text wrapped so that no row ends with an opening bracket or quotation mark.
 ///
-/// epaint 0.37 breaks a row before any Chinese character, even behind such a mark, whatever joiner stands between
-/// them: it only knows what may not begin a row.
+/// epaint 0.37 breaks a row before any Chinese character, even after such a mark and whatever joiner stands between them: it
+/// only knows which characters may not begin a row.
 pub(in crate::app) fn wrapped(ui: &mut Ui, text: &str, font: &FontId, colour: Color32) -> Response {
     let rows = wrapped_rows(ui.painter(), text, font, colour, ui.available_width());
     let label = ui.add(Label::new(rows));
-    // The breaks are no part of it.
+    // The inserted line breaks are not part of the name.
     label.widget_info(|| WidgetInfo::labeled(egui::Role::Label, ui.is_enabled(), text));
     label
 }
 
-/// The rows of such a text.
+/// Lays out the rows of such a text.
 pub(in crate::app) fn wrapped_rows(
     painter: &Painter,
     text: &str,
@@ -198,12 +198,13 @@ pub(in crate::app) fn wrapped_rows(
     }
 }
 
-/// The byte at which marks begin that end a row although the text goes on. A row of nothing else is left as it is.
+/// Returns the byte offset of the first opening marks that end a row although the text goes on. Skips rows of nothing but
+/// marks.
 fn marks_at_end(rows: &Galley) -> Option<usize> {
     let letters: Vec<(usize, char)> = rows.text().char_indices().collect();
     let mut begin = 0;
     for row in &rows.rows {
-        // Every letter has a glyph.
+        // Every character has a glyph.
         let end = begin + row.glyphs.len();
         let in_row = letters.get(begin..end)?;
         let is_mark = |(_, letter): &&(usize, char)| OPENING.contains(letter);
@@ -218,7 +219,7 @@ fn marks_at_end(rows: &Galley) -> Option<usize> {
     None
 }
 
-/// The text, its middle left out where it is too long.
+/// Cuts the middle out of a text longer than `most` characters.
 pub(in crate::app) fn shortened(text: &str, most: usize) -> String {
     let letters: Vec<char> = text.chars().collect();
     if letters.len() <= most {
@@ -233,7 +234,7 @@ pub(in crate::app) fn shortened(text: &str, most: usize) -> String {
     )
 }
 
-/// A dialog over everything.
+/// Shows a modal dialog.
 pub(in crate::app) fn dialog<R>(
     ctx: &Context,
     name: &str,
@@ -249,15 +250,15 @@ pub(in crate::app) fn dialog<R>(
         data.insert_temp(id, size);
         before
     });
-    // egui places and cuts a dialog by the size that it had when it was drawn last.
+    // egui positions and clips a dialog by its size in the previous frame.
     if before.is_some_and(|before| before != size) {
         ctx.request_discard("a dialog has another size");
     }
     modal
 }
 
-/// The button that Enter presses in a dialog while no control has the focus. The Enter that ends the writing of a text, or
-/// that has opened the dialog, is not taken.
+/// Draws the button that Enter presses in a dialog while no control has the focus. Ignores the Enter that ends text input or
+/// that opened the dialog.
 pub(in crate::app) fn default_button(ui: &mut Ui, label: &str, can: bool, theme: &Theme) -> bool {
     let button = Button::new(RichText::new(label).color(theme.on_accent)).fill(theme.accent);
     let is_clicked = ui
@@ -266,11 +267,11 @@ pub(in crate::app) fn default_button(ui: &mut Ui, label: &str, can: bool, theme:
     let id = Id::unique(("default button", label));
     let frame: u64 = ui.ctx().cumulative_frame_nr();
     let has_focus = ui.memory(|memory| memory.focused().is_some());
-    // As of the frame before: a text of one line gives the focus away in the very frame in which Enter is pressed.
+    // Use the focus of the previous frame: a single-line text field loses it in the same frame in which Enter is pressed.
     let was_free = ui.data_mut(|data| {
         let (of, was_free, is_free) = data.get_temp(id).unwrap_or((0, false, false));
         let was_free = match frame.saturating_sub(of) {
-            // Drawn once more, because something has another size.
+            // Drawn again in the same frame, because a size changed.
             0 => was_free,
             1 => is_free,
             _ => false,
@@ -308,7 +309,7 @@ pub(in crate::app) fn texture(
     Some(ctx.load_texture(name, ColorImage::from_rgb(size, image.as_raw()), options))
 }
 
-/// A whole number in groups of three digits.
+/// Formats a whole number in groups of three digits.
 pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();

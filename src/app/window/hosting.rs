@@ -1,4 +1,4 @@
-//! The workspaces that the window knows by their trait: it lends them the shell and does what they ask for.
+//! The window's access to its workspaces through their trait: lends them the shell and handles their messages.
 
 use std::any::Any;
 
@@ -17,13 +17,13 @@ use crate::app::shell::{
 };
 
 impl Window {
-    /// The workspace of this type.
+    /// Returns the workspace of this type.
     pub fn workspace<W: Workspace>(&self) -> Option<&W> {
         let mut all = self.workspaces.iter();
         all.find_map(|workspace| (workspace.as_ref() as &dyn Any).downcast_ref())
     }
 
-    /// Lends the workspace of this type the shell, as when a person does something in it.
+    /// Runs `act` on the workspace of this type, with the shell lent to it, as when the user does something in it.
     pub fn with<W: Workspace, R>(
         &mut self,
         ctx: &egui::Context,
@@ -36,7 +36,7 @@ impl Window {
         })?
     }
 
-    /// The robot's cell, and the dialog about it.
+    /// The robot's cell, with its dialog.
     pub fn robot(&self) -> &RobotCell {
         &self.robot
     }
@@ -46,7 +46,7 @@ impl Window {
         all.find(|workspace| workspace.kind() == kind)
     }
 
-    /// Lends a workspace the shell, and does what it sends.
+    /// Lends a workspace the shell, then handles the messages that it sent.
     pub(super) fn lend<R>(
         &mut self,
         kind: WorkspaceKind,
@@ -62,7 +62,7 @@ impl Window {
         Some(done)
     }
 
-    /// Lends the robot's cell the shell, and does what it sends.
+    /// Lends the robot's cell the shell, then handles the messages that it sent.
     pub(super) fn with_robot<R>(
         &mut self,
         ctx: &egui::Context,
@@ -81,7 +81,7 @@ impl Window {
         }
     }
 
-    /// Does what a workspace asked for.
+    /// Handles a message of a workspace.
     fn deliver(&mut self, message: Message, from: WorkspaceKind, ctx: &egui::Context) {
         match message {
             Message::Notify(notice) => self.act(Action::Notify(notice), ctx),
@@ -109,7 +109,7 @@ impl Window {
                 let was_on = std::mem::replace(&mut session.answering, setup).is_on;
                 let can_follow = !session.is_live() && session.source.followed().is_some();
                 if setup.is_on && !was_on && can_follow {
-                    // Without frames nothing could be answered.
+                    // Without frames no trigger could be answered.
                     self.act(Action::Live(LiveAction::Toggle), ctx);
                 }
             }
@@ -140,7 +140,7 @@ impl Window {
         }
     }
 
-    /// The work that the top bar tells of: the front workspace's own, else any.
+    /// The work shown in the top bar: that of the workspace in front, else any other.
     pub(super) fn work(&self) -> Option<Progress> {
         let of_hosted = |workspace: &dyn Workspace| {
             let running = workspace.running()?.clone();
@@ -169,7 +169,7 @@ impl Window {
         })
     }
 
-    /// True while nothing is at work.
+    /// True while no work is running.
     pub fn is_idle(&self) -> bool {
         let mut all = self.workspaces.iter();
         let session = &self.state.session;

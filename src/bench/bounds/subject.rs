@@ -1,4 +1,4 @@
-//! Parts whose surface is known, enrolled.
+//! Enrolled parts with a known surface.
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
@@ -9,30 +9,30 @@ use crate::{
     simulate::{PartKind, PartModel, Side},
 };
 
-/// A part that is rendered and inspected.
+/// A part to be rendered and inspected.
 #[derive(Clone, Debug)]
 pub struct BoundsPart {
-    /// The name that it is enrolled by.
+    /// Name in the library.
     pub name: String,
-    /// Its surface, centred, its face towards -z: as the simulated cell hangs parts.
+    /// Surface mesh, centred and facing -z, as the simulated cell hangs parts.
     pub mesh: TriangleMesh,
-    /// Takes the reference's space into the mesh's.
+    /// Transform from reference space to mesh space.
     pub mesh_from_part: RigidTransform,
 }
 
-/// Parts enrolled together.
+/// Parts that are enrolled together.
 #[derive(Clone, Debug)]
 pub struct BoundsLibrary {
-    /// How they were enrolled, in a word.
+    /// Short description of how the parts were enrolled.
     pub title: String,
-    /// What they are inspected against.
+    /// The library to inspect against.
     pub library: Library,
     /// The parts, in the library's order.
     pub subjects: Vec<BoundsPart>,
 }
 
 impl BoundsLibrary {
-    /// The eight parts of a car model, each enrolled from one capture.
+    /// Enrols the eight parts of a car model, each from one capture.
     pub fn captured(model_seed: u64) -> Result<Self, EnrolError> {
         let mut all = Self::empty("captured");
         for kind in PartKind::ALL {
@@ -47,7 +47,7 @@ impl BoundsLibrary {
         Ok(all)
     }
 
-    /// The same parts, enrolled from their meshes.
+    /// Enrols the same parts from their meshes.
     pub fn simulated_meshes(model_seed: u64) -> Result<Self, EnrolError> {
         let meshes = PartKind::ALL.map(|kind| {
             let mesh = PartModel::new(kind, Side::Left, model_seed).into_mesh();
@@ -56,7 +56,7 @@ impl BoundsLibrary {
         Self::of_meshes(meshes)
     }
 
-    /// Any meshes, in metres.
+    /// Enrols any meshes, in metres.
     pub fn of_meshes(
         meshes: impl IntoIterator<Item = (String, TriangleMesh)>,
     ) -> Result<Self, EnrolError> {
@@ -99,11 +99,11 @@ impl BoundsLibrary {
     }
 }
 
-/// Less of the area than this faces one way more than the other: the mesh is closed.
+/// A mesh counts as closed if the norm of its summed area vectors is at most this share of its area.
 const LEAST_ONE_SIDED: f64 = 0.2;
 
-/// Centres a mesh and turns its face, the side that more of its area looks to, towards -z: the camera. Of a closed mesh
-/// that is a side of its flattest extent.
+/// Centres a mesh and turns its face, the side that more of its area points to, towards -z: the camera. A closed mesh
+/// is turned by its axis of least extent.
 pub(in crate::bench) fn hung_from_mesh(mesh: &TriangleMesh) -> RigidTransform {
     let corner = |i: u32| mesh.vertices[i as usize].cast::<f64>();
     let facing = mesh.triangles.iter().fold(Vector3::zeros(), |sum, t| {

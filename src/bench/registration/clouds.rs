@@ -1,4 +1,4 @@
-//! The clouds that are registered.
+//! Clouds for registration.
 
 use nalgebra::{Point3, Vector3};
 use rand::{RngExt as _, SeedableRng as _, seq::SliceRandom as _};
@@ -19,7 +19,7 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// The surface sampled anew, every coordinate with normal noise.
+/// Samples the surface anew, with normal noise on every coordinate.
 pub(super) fn noisy_sample(mesh: &TriangleMesh, noise: Metres, seed: u64) -> PointCloud {
     let sample = mesh.sample_evenly(NUM_POINTS, seed);
     let sample = sample.expect("a part's mesh has an area");
@@ -31,14 +31,14 @@ pub(super) fn noisy_sample(mesh: &TriangleMesh, noise: Metres, seed: u64) -> Poi
     PointCloud::from_points(points)
 }
 
-/// Normally distributed with variance 1 (G. E. P. Box and M. E. Muller, "A note on the generation of random normal
-/// deviates", Annals of Mathematical Statistics 29(2), 1958).
+/// Draws from the standard normal distribution (G. E. P. Box and M. E. Muller, "A note on the generation of random
+/// normal deviates", Annals of Mathematical Statistics 29(2), 1958).
 fn normal(rng: &mut Pcg64) -> f64 {
     let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
     radius * (std::f64::consts::TAU * rng.random::<f64>()).cos()
 }
 
-/// Takes away the share of the points that lies farthest in some direction.
+/// Removes the share of the points that lies farthest in a random direction.
 pub(super) fn hide(cloud: &mut PointCloud, share: f64, seed: u64) {
     let mut rng = Pcg64::seed_from_u64(seed ^ 0x41de);
     let direction = Vector3::from([(); 3].map(|()| normal(&mut rng) as f32));
@@ -49,7 +49,7 @@ pub(super) fn hide(cloud: &mut PointCloud, share: f64, seed: u64) {
     cloud.points.shuffle(&mut rng);
 }
 
-/// Puts a share of the points anywhere in a box half as large again as the cloud's.
+/// Moves a share of the points to random places in a box 1.5 times the size of the cloud's.
 pub(super) fn stray(cloud: &mut PointCloud, share: f64, seed: u64) {
     let Some((low, high)) = cloud.bounds() else {
         return;
@@ -64,7 +64,7 @@ pub(super) fn stray(cloud: &mut PointCloud, share: f64, seed: u64) {
     }
 }
 
-/// What the simulated camera sees of a part from within 60° of its front, thinned, and the pose that puts it back.
+/// Returns what the simulated camera sees of a part from within 60° of its front, thinned, and the true pose.
 pub(super) fn view(mesh: &TriangleMesh, seed: u64) -> (PointCloud, RigidTransform) {
     let mut rng = Pcg64::seed_from_u64(seed);
     let shot = drawn_shot(mesh, Radians::from_degrees(60.0), None, &mut rng);
@@ -75,7 +75,7 @@ pub(super) fn view(mesh: &TriangleMesh, seed: u64) -> (PointCloud, RigidTransfor
     (PointCloud::from_points(points), camera_from_part.inverse())
 }
 
-/// A frame of the part that shows all of one side of it, from within an angle of its front.
+/// Draws a frame that shows one whole side of the part, from within an angle of its front.
 fn drawn_shot(
     mesh: &TriangleMesh,
     most: Radians,
@@ -108,14 +108,14 @@ fn part_points(shot: &SimulatedFrame) -> Vec<Point3<f32>> {
         .collect()
 }
 
-/// Points at random places of the whole surface.
+/// Draws points at random places of the whole surface.
 pub(super) fn random_sample(mesh: &TriangleMesh, rng: &mut Pcg64) -> PointCloud {
     let sample = mesh.sample_evenly(NUM_DENSE, rng.random());
     let dense = sample.expect("a part's mesh has an area").points;
     disturbed(dense, rng)
 }
 
-/// Points at random places of what a perfect camera sees from within 75° of the outside, in the part's space.
+/// Draws points of what a perfect camera sees from within 75° of the outside, in part space.
 pub(super) fn seen_from_outside(mesh: &TriangleMesh, rng: &mut Pcg64) -> PointCloud {
     let shot = drawn_shot(
         mesh,
@@ -129,14 +129,14 @@ pub(super) fn seen_from_outside(mesh: &TriangleMesh, rng: &mut Pcg64) -> PointCl
     disturbed(seen.collect(), rng)
 }
 
-/// Points from which a random few are at random places: neighbours in an even sample avoid each other.
+/// Number of evenly sampled points to draw from at random: in an even sample itself, neighbours repel each other.
 const NUM_DENSE: usize = 8 * NUM_POINTS;
-/// Points of a random sample at least, and its noise at least and at most, metres.
+/// Fewest points of a random sample, and its least and greatest noise, metres.
 const FEWEST_POINTS: f64 = 1_500.0;
 const LEAST_NOISE: f64 = 0.0005;
 const MOST_NOISE: f64 = 0.004;
 
-/// A random number of the points, with as random a noise along and across the surface.
+/// Keeps a random number of the points and adds noise of a random size along and across the surface.
 fn disturbed(mut points: Vec<Point3<f32>>, rng: &mut Pcg64) -> PointCloud {
     let mut between =
         |low: f64, high: f64| (low.ln() + rng.random::<f64>() * (high / low).ln()).exp();

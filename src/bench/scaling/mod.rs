@@ -1,12 +1,12 @@
-//! Serial and parallel: one query ranked over a growing number of references by one and by several workers.
+//! Serial and parallel ranking: one query over a growing number of references, with one and with several workers.
 //!
-//! The paper's Fig. 7(a) and (b): over eight parts its parallel version was slower than the serial one, over many
-//! samples faster. The question here is from how many references on several workers pay; the default of
-//! [`RankParams::parallel_from`](crate::stages::rank::RankParams::parallel_from) is the answer.
+//! Corresponds to the paper's Fig. 7(a) and (b): over eight parts its parallel version was slower than the serial one,
+//! over many samples faster. This measures from how many references on several workers pay off, which sets the default
+//! of [`RankParams::parallel_from`](crate::stages::rank::RankParams::parallel_from).
 //!
 //! # The times
-//! The numbers of workers rank in turns, so that a disturbance hits all of them. The quickest ranking of each decides:
-//! whatever else the machine does makes rankings slower, never quicker. The medians are kept beside it.
+//! The worker counts take turns, so that a disturbance affects all of them. The fastest ranking of each decides, since
+//! other load on the machine makes rankings slower, never faster. The medians are reported too.
 
 mod references;
 
@@ -29,56 +29,56 @@ use crate::{
     },
 };
 
-/// Numbers of workers that are compared; the first is serial.
+/// The worker counts compared; the first is serial.
 pub const WORKERS: [usize; 4] = [1, 2, 4, 8];
-/// The most references that the default measures.
+/// Default for the largest number of references.
 pub const MOST: usize = 10_000;
 
-/// What a ranking took.
+/// Ranking times for one number of references.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScalingRow {
-    /// References ranked.
+    /// Number of references ranked.
     pub num_references: usize,
-    /// The quickest ranking per number of workers, in the order of [`WORKERS`], milliseconds.
+    /// Fastest ranking per worker count, in the order of [`WORKERS`], milliseconds.
     pub least_ms: [f64; 4],
-    /// The same for the median.
+    /// Median per worker count, milliseconds.
     pub median_ms: [f64; 4],
-    /// Rankings per number of workers.
+    /// Rankings per worker count.
     pub num_runs: usize,
 }
 
-/// What ranking takes over a growing number of references.
+/// Ranking times for a growing number of references.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scaling {
-    /// By which matcher.
+    /// The matcher that ranks.
     pub matcher: Matcher,
-    /// Cores of this machine: more workers than these share them.
+    /// Cores of this machine; more workers than these share them.
     pub num_cores: usize,
-    /// Numbers of workers.
+    /// Worker counts.
     pub workers: [usize; 4],
-    /// From few references to many.
+    /// One row per number of references, ascending.
     pub rows: Vec<ScalingRow>,
-    /// For each number of workers the references from which on they pay, as far as was measured.
+    /// For each worker count, the number of references from which on it pays off, as far as measured.
     pub crossovers: [Option<usize>; 4],
-    /// Whether every ranking was, bit for bit, the serial one.
+    /// True if every ranking was bit for bit the serial one.
     pub is_identical: bool,
 }
 
 impl Scaling {
-    /// From how many references on all cores pay; `None` if they never do, or there is one.
+    /// Returns the number of references from which on all cores pay off; `None` if they never do, or there is only one.
     pub fn crossover(&self) -> Option<usize> {
         let place = WORKERS.iter().rposition(|&w| w <= self.num_cores)?;
         self.crossovers[place]
     }
 }
 
-/// Why there is no measurement.
+/// Why the measurement failed.
 #[derive(Debug, thiserror::Error)]
 pub enum ScalingError {
     /// A simulated part could not be enrolled.
     #[error(transparent)]
     Enrol(#[from] EnrolError),
-    /// It was cancelled.
+    /// The measurement was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// The query has no outline.
@@ -96,7 +96,7 @@ impl Advice for ScalingError {
     }
 }
 
-/// Ranks a simulated front door over 8, 16, 32 and so on to `most` references.
+/// Ranks a simulated front door over 8, 16, 32 and so on up to `most` references.
 pub fn scaling(
     matcher: Matcher,
     most: usize,
@@ -141,7 +141,7 @@ pub fn scaling(
     Ok(scaling)
 }
 
-/// 8, 16, 32 and so on, and `most` itself.
+/// Returns 8, 16, 32 and so on below `most`, and `most` itself.
 pub fn sizes(most: usize) -> Vec<usize> {
     let doubled = (3..usize::BITS).map(|power| 1_usize << power);
     let mut sizes: Vec<usize> = doubled.take_while(|&size| size < most).collect();
@@ -149,10 +149,10 @@ pub fn sizes(most: usize) -> Vec<usize> {
     sizes
 }
 
-/// Workers pay if they take less than this share of the time of one: what is closer is noise.
+/// Workers pay off if they take less than this share of the serial time; a smaller gain is noise.
 const PAYING: f64 = 0.9;
 
-/// The first of two sizes in a row at which these workers pay: one alone may be a disturbance.
+/// Returns the first of two consecutive sizes at which these workers pay off; a single one may be a disturbance.
 fn crossover(rows: &[ScalingRow], place: usize) -> Option<usize> {
     let pays = |row: &ScalingRow| place > 0 && row.least_ms[place] < PAYING * row.least_ms[0];
     let mut pairs = rows.windows(2);
@@ -160,7 +160,7 @@ fn crossover(rows: &[ScalingRow], place: usize) -> Option<usize> {
     pair.first().map(|row| row.num_references)
 }
 
-/// A ranking is repeated for about this long per number of workers.
+/// Approximate total time of the repeated rankings per worker count.
 const TIME_EACH: Duration = Duration::from_millis(400);
 
 fn measure(
@@ -170,7 +170,7 @@ fn measure(
     watch: &dyn ProgressObserver,
     is_identical: &mut bool,
 ) -> Result<ScalingRow, Cancelled> {
-    // Also warms up.
+    // Also serves as warm-up.
     let begun = Instant::now();
     let serial = rank_by(1, query, references, params);
     let one = begun.elapsed().as_secs_f64().max(1e-6);
@@ -199,7 +199,7 @@ fn measure(
     })
 }
 
-/// What is ranked: a captured front door of the standard car, as far as its signature.
+/// Returns the query: a captured front door of the standard car, inspected up to its signature.
 fn query(watch: &dyn ProgressObserver) -> Result<Inspection, Cancelled> {
     let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 3_000_000);
     let scene = scene_from_frame(&frame(&setup).frame);

@@ -1,10 +1,10 @@
-//! As many references as are asked for.
+//! Generates any number of simulated references.
 //!
-//! Simulated. The first 64 are the eight parts of eight models of the car, each enrolled from a frontal capture. All
-//! further ones are *perturbed signatures* of these: the ray lengths swing by a few per cent over the outline, the
-//! images are those of the original at 25 mm a pixel, and there is no cloud. They are no parts, and what they score
-//! means nothing; but ranking does the same work for them, since its transforms go over all rays and its overlap over
-//! the points of the scene. That keeps a reference at a quarter of a megabyte, and ten thousand below 3 GB.
+//! The first 64 are the eight parts of eight models of the car, each enrolled from a frontal capture. All further ones
+//! are *perturbed signatures* of these: the ray lengths vary by a few per cent around the outline, the images are those
+//! of the original at 25 mm a pixel, and there is no cloud. They are not real parts and their scores mean nothing, but
+//! ranking does the same work for them, since its transforms run over all rays and its overlap over the points of the
+//! scene. That keeps a reference at a quarter of a megabyte, and ten thousand below 3 GB.
 
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
@@ -25,10 +25,10 @@ use crate::{
     units::Metres,
 };
 
-/// Models of the car that are enrolled in earnest.
+/// Number of car models whose parts are really enrolled.
 const NUM_MODELS: u64 = 8;
 
-/// The parts that are enrolled in earnest.
+/// Enrols the unperturbed parts.
 pub(super) fn originals(
     most: usize,
     watch: &dyn ProgressObserver,
@@ -48,10 +48,10 @@ pub(super) fn originals(
     Ok(originals)
 }
 
-/// Side of a pixel of a perturbed reference: that of the grid on which ranking compares images.
+/// Pixel side of a perturbed reference: that of the grid on which ranking compares images.
 const COARSE: Metres = Metres(0.025);
 
-/// An original, or a perturbed copy of one with nothing that this matcher does not look at.
+/// Returns an original, or a perturbed copy of one with only the data that this matcher uses.
 pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matcher) -> Reference {
     let original = &originals[place % originals.len()];
     if place < originals.len() {
@@ -83,7 +83,7 @@ pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matc
     copy
 }
 
-/// A factor that goes up and down a few times around the outline.
+/// A factor that varies a few times around the outline.
 struct ScaleCurve {
     waves: [[f64; 2]; 4],
 }
@@ -118,14 +118,14 @@ fn perturb(view: &ReferenceView, swing: &ScaleCurve) -> ReferenceView {
         *ray *= swing.at(k, num);
     }
     view.plane = coarse(&view.plane);
-    // None of these is looked at by the ranking.
+    // Ranking uses none of these.
     view.contour.outline = Vec::new();
     view.contour.openings = Vec::new();
     view.contour.outline_pixels = Vec::new();
     view
 }
 
-/// The same image with fewer pixels.
+/// Downsamples an image.
 fn coarse(plane: &PlaneImage) -> PlaneImage {
     let step = ((COARSE.0 / plane.pixel.0).round() as usize).max(1);
     let (width, height) = (
@@ -149,7 +149,7 @@ fn coarse(plane: &PlaneImage) -> PlaneImage {
     }
 }
 
-/// Only what a ranking looks at: a cloud with its searches takes megabytes.
+/// Keeps only what ranking uses: a cloud with its search trees takes megabytes.
 fn without_cloud(mut reference: Reference) -> Reference {
     reference.cloud = PointCloud::default();
     reference.field = NearestField::new(&reference.cloud.points, 1.0, 1.0);

@@ -1,4 +1,4 @@
-//! What one frame of a suite came to.
+//! Result of one frame of a suite.
 
 use nalgebra::{Point3, Vector3};
 use serde::Serialize;
@@ -15,79 +15,79 @@ use crate::{
     },
 };
 
-/// What one frame came to.
+/// Result of one frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SuiteCase {
-    /// What hung there.
+    /// Name of what hung in the cell.
     pub subject: String,
-    /// The name that is right; `None` if nothing may be accepted.
+    /// The right name; `None` if nothing may be accepted.
     pub expected: Option<String>,
-    /// The frame's seed.
+    /// Seed of the frame.
     pub seed: u64,
     /// The best guess; `None` if nothing was recognised.
     pub found: Option<String>,
-    /// Its score.
+    /// Score of the best guess.
     pub score: f64,
-    /// Its lead.
+    /// Margin of the best guess.
     pub margin: f64,
-    /// Whether it was accepted.
+    /// True if the verdict was accepted.
     pub accepted: bool,
-    /// Whether it was called unknown, or the mirror image of what is enrolled.
+    /// True if the verdict was unknown, or the mirror image of an enrolled part.
     pub is_unknown: bool,
-    /// Why not.
+    /// Why it was not accepted.
     pub reason: Option<String>,
-    /// Whether it was named as another model of what is enrolled, at a pose that is only about right.
+    /// True if it was named as another model of an enrolled part, at a pose that is only about right.
     pub is_approximate: bool,
-    /// Share of the part's camera-facing surface that is in sight; 0 if nothing hangs there.
+    /// Visible share of the part's camera-facing surface; 0 if nothing hangs there.
     pub visible_share: f64,
-    /// Readings that show the part and were taken for it, as a share of those that do either (intersection over
-    /// union); `None` if no reading shows the part.
+    /// Intersection over union of the readings that show the part and those segmented as the part; `None` if no reading
+    /// shows the part.
     pub part_iou: Option<f64>,
-    /// The bounds of the pose of a part that was named rightly, if it has any.
+    /// Bounds of the pose, if the part was named correctly and its pose has any.
     pub bounds: Option<PoseBounds>,
     /// Time of the whole inspection, milliseconds.
     pub total_ms: f64,
-    /// The same by stage.
+    /// Time of each stage.
     #[serde(skip)]
     pub timings: Timings,
-    /// The first few of the ranking that were put in their place.
+    /// The best few examined references of the ranking.
     pub contenders: Vec<ReferenceCase>,
 }
 
-/// Bounds of a pose beside its true error, both about the middle of what was seen of the part.
+/// Bounds of a pose and its true error, both at the centroid of the visible points of the part.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PoseBounds {
-    /// Degrees.
+    /// Rotation bound, degrees.
     pub turn_bound: f64,
-    /// Millimetres.
+    /// Shift bound, millimetres.
     pub shift_bound: f64,
-    /// Degrees.
+    /// Rotation error, degrees.
     pub turn_off: f64,
-    /// Millimetres.
+    /// Shift error, millimetres.
     pub shift_off: f64,
 }
 
 impl PoseBounds {
-    /// Whether the pose is within both.
+    /// Returns whether the error is within both bounds.
     pub fn hold(&self) -> bool {
         self.turn_off <= self.turn_bound && self.shift_off <= self.shift_bound
     }
 }
 
-/// One reference at the pose that was found for it.
+/// One reference at its pose.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReferenceCase {
-    /// Its name.
+    /// Name of the part.
     pub part: String,
-    /// Its score.
+    /// Score of the reference.
     pub score: f64,
-    /// What the score is made of.
+    /// The evidence that the score is computed from.
     pub evidence: Evidence,
-    /// For the part that hangs there: how far the pose is off, degrees and millimetres at the part's middle.
+    /// Pose error for the part that hangs there: degrees, and millimetres at the part's middle.
     pub pose_off: Option<[f64; 2]>,
 }
 
-/// Contenders written per frame.
+/// Number of contenders kept per frame.
 const NUM_CONTENDERS: usize = 3;
 
 impl SuiteCase {
@@ -120,7 +120,7 @@ impl SuiteCase {
         }
     }
 
-    /// The right name; or, where there is none, not accepted.
+    /// Returns whether the name is right or, where no name is, nothing was accepted.
     pub fn is_right(&self) -> bool {
         match &self.expected {
             Some(name) => self.found.as_ref() == Some(name),
@@ -128,18 +128,18 @@ impl SuiteCase {
         }
     }
 
-    /// Accepted as something that it is not: the robot would move.
+    /// Returns whether it was accepted as something else, so that the robot would move.
     pub fn is_wrong_accepted(&self) -> bool {
         self.accepted && self.found != self.expected
     }
 
-    /// How far the pose of a part that was named rightly is off, degrees and millimetres at the part's middle.
+    /// Returns the pose error of a correctly named part: degrees, and millimetres at the part's middle.
     pub fn pose_off(&self) -> Option<[f64; 2]> {
         let first = self.contenders.first()?;
         first.pose_off.filter(|_| self.found == self.expected)
     }
 
-    /// True when that is within 2° and 10 mm.
+    /// Returns whether the pose error is at most 2° and 10 mm.
     pub fn is_well_placed(&self) -> bool {
         self.pose_off()
             .is_some_and(|off| off[0] <= 2.0 && off[1] <= 10.0)
@@ -186,7 +186,7 @@ fn contender(
 ) -> Option<ReferenceCase> {
     let is_there = frame.expected.as_ref() == Some(&entry.part);
     let pose_off = entry.pose.as_ref().filter(|_| is_there).map(|pose| {
-        // The reference's space is the camera's when the part was enrolled.
+        // Reference space is camera space at enrolment.
         let camera_from_part = truth.camera_from_part * enrolment_pose().inverse();
         let middle = enrolment_pose() * Point3::origin();
         let off = pose_error(&pose.camera_from_part(), &camera_from_part, &middle);

@@ -1,32 +1,32 @@
-//! Each part's worst confusion: the frame in which another part came nearest to being taken for it.
+//! The worst confusion of each part: the frame in which another part came nearest to being taken for it.
 
 use serde::Serialize;
 
 use super::{Suite, SuiteCase, SuiteResult};
 
-/// A frame in which another part came near.
+/// A frame in which another part scored high.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NearestMistake {
     /// The part that hung there.
     pub part: String,
-    /// The other one.
+    /// The other part.
     pub other: String,
-    /// What the other one scored.
+    /// Score of the other part.
     pub other_score: f64,
-    /// What the part itself scored; 0 if it was not looked for.
+    /// Score of the part itself; 0 if it was not examined.
     pub own_score: f64,
-    /// The suite.
+    /// Suite of the frame.
     pub suite: Suite,
-    /// The frame's seed.
+    /// Seed of the frame.
     pub seed: u64,
-    /// What was named.
+    /// The name found.
     pub found: Option<String>,
-    /// Whether that was accepted.
+    /// True if the verdict was accepted.
     pub accepted: bool,
 }
 
 impl NearestMistake {
-    /// Of one frame; `None` if no part that is enrolled hung there, or no other one was looked for.
+    /// Reads one frame; `None` if no enrolled part hung there, or no other one was examined.
     pub fn of(suite: Suite, case: &SuiteCase) -> Option<Self> {
         let part = case.expected.clone()?;
         let contenders = || case.contenders.iter();
@@ -46,7 +46,7 @@ impl NearestMistake {
         })
     }
 
-    /// True if this is a worse confusion: what is wrong and accepted first, then by what the other one scored.
+    /// Returns whether this is the worse confusion: false accepts first, then by the other part's score.
     pub fn is_worse_than(&self, known: &Self) -> bool {
         let badness = |c: &Self| {
             (
@@ -57,7 +57,7 @@ impl NearestMistake {
         badness(self) > badness(known)
     }
 
-    /// The worst of each part, over all suites in which it is enrolled.
+    /// Returns the worst confusion of each part over all suites.
     pub fn per_part(results: &[SuiteResult]) -> Vec<Self> {
         let mut worst: Vec<Self> = Vec::new();
         for result in results {
@@ -73,7 +73,7 @@ impl NearestMistake {
         worst
     }
 
-    /// What was made of the frame, in words.
+    /// Describes the verdict on the frame.
     pub fn verdict(&self) -> String {
         let found = self.found.as_deref().unwrap_or("nothing");
         let accepted = if self.accepted {

@@ -1,4 +1,4 @@
-//! Pushing a part out of the picture, as far as a share of it is gone.
+//! Pushes a part out of the picture until a given share of it is gone.
 
 use nalgebra::{Point3, Translation3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -9,13 +9,12 @@ use crate::{
     simulate::SampledPose,
 };
 
-/// Points that the share is counted on.
+/// Number of sampled points that the share is counted on.
 const NUM_POINTS: usize = 2000;
-/// Keeps the draws apart from others made with the same seed.
+/// Makes the draws independent of others with the same seed.
 const STREAM: u64 = 0x0c07_0c07_0c07_0c07;
 
-/// A pose from which a share of the part's surface within this range lies beyond one edge of the picture, drawn by the
-/// seed.
+/// Draws a pose at which a share of the part's surface within this range lies beyond one edge of the picture.
 pub(in crate::bench) fn pushed_out_of_the_picture(
     mesh: &TriangleMesh,
     placed: &SampledPose,
@@ -45,7 +44,7 @@ pub(in crate::bench) fn pushed_out_of_the_picture(
         };
         hung.iter().filter(is_outside).count() as f64 / hung.len().max(1) as f64
     };
-    // The share outside grows with the shift: halving the interval finds it to half a millimetre.
+    // The share outside grows with the shift: bisection finds it to half a millimetre.
     let (mut low, mut high) = (0.0, 2.0);
     for _ in 0..12 {
         let middle = f64::midpoint(low, high);

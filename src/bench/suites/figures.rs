@@ -1,52 +1,52 @@
-//! What a suite came to in figures: accepted where enough is in sight, poses and their bounds, segmentation, time.
+//! Figures of a suite: acceptance rate, pose errors and bounds, segmentation, time.
 
 use serde::Serialize;
 
 use super::{Suite, SuiteCase, SuiteResult};
 use crate::bench::speed::quantile;
 
-/// From this share of the part in sight on it is meant to be accepted.
+/// Visible share of the part from which on it should be accepted.
 const ENOUGH_IN_SIGHT: f64 = 0.4;
-/// A segmentation this good leaves the outline alone.
+/// Intersection over union from which on a segmentation leaves the outline intact.
 const GOOD_IOU: f64 = 0.9;
 
-/// The figures of one suite. Shares of nothing are left out.
+/// Figures of one suite. Quantities without cases are `None`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SuiteFigures {
     /// The suite.
     pub suite: Suite,
     /// Frames with at least 40 % of an enrolled part in sight.
     pub num_in_sight: usize,
-    /// Of these the ones named rightly.
+    /// Of the frames in sight, those named correctly.
     pub num_in_sight_right: usize,
-    /// Of these the ones named rightly and accepted.
+    /// Of the frames in sight, those named correctly and accepted.
     pub num_in_sight_accepted: usize,
-    /// Of all frames those accepted as what they are not.
+    /// Of all frames, the false accepts.
     pub num_wrong_accepted: usize,
-    /// Of all frames those named rightly and accepted.
+    /// Of all frames, those named correctly and accepted.
     pub num_accepted: usize,
-    /// Of these the ones within 2° and 10 mm.
+    /// Of the accepted frames, those within 2° and 10 mm.
     pub num_accepted_well_placed: usize,
-    /// Of these the ones whose pose has bounds.
+    /// Of the accepted frames, those whose pose has bounds.
     pub num_bounded: usize,
-    /// Of these the ones whose pose is within both bounds.
+    /// Of the accepted frames, those whose pose error is within both bounds.
     pub num_bounds_hold: usize,
-    /// Of the frames that show the part, the intersection over union of what was taken for it: median.
+    /// Median intersection over union, over the frames that show the part.
     pub iou_median: Option<f64>,
-    /// The 5 % quantile of the same.
+    /// 5th percentile of the intersection over union.
     pub iou_p05: Option<f64>,
-    /// Share of these frames at 0.9 and more.
+    /// Share of the frames with an intersection over union of at least 0.9.
     pub iou_good: Option<f64>,
-    /// Time of an inspection, milliseconds: median.
+    /// Median time of an inspection, milliseconds.
     pub median_ms: Option<f64>,
-    /// 95 % quantile.
+    /// 95th percentile of the time, milliseconds.
     pub p95_ms: Option<f64>,
-    /// Longest.
+    /// Longest time, milliseconds.
     pub max_ms: Option<f64>,
 }
 
 impl SuiteFigures {
-    /// Of the cases of a suite.
+    /// Computes the figures of a suite.
     pub fn of(result: &SuiteResult) -> Self {
         let is_in_sight =
             |c: &SuiteCase| c.expected.is_some() && c.visible_share >= ENOUGH_IN_SIGHT;

@@ -1,4 +1,4 @@
-//! What the suites are inspected against: simulated parts, each enrolled from one capture.
+//! The libraries that the suites are inspected against: simulated parts, each enrolled from one capture.
 
 use super::{Suite, enrolled_name};
 use crate::{
@@ -11,9 +11,9 @@ use crate::{
 /// The libraries that the suites are inspected against: standard parts, each enrolled from one frontal capture.
 #[derive(Clone, Debug)]
 pub struct SuiteLibraries {
-    /// The eight, left where there are sides.
+    /// The eight parts, the left one where there are two sides.
     pub left: Library,
-    /// The same and the right-hand ones.
+    /// The same and their right-hand counterparts.
     pub both_sides: Library,
 }
 
@@ -29,7 +29,7 @@ impl SuiteLibraries {
         Ok(Self { left, both_sides })
     }
 
-    /// The one that a suite is inspected against.
+    /// Returns the library that a suite is inspected against.
     pub fn of(&self, suite: Suite) -> &Library {
         match suite {
             Suite::BothSides => &self.both_sides,
@@ -38,7 +38,7 @@ impl SuiteLibraries {
     }
 }
 
-/// The eight parts of the standard car, left where there are sides, each enrolled from one frontal capture.
+/// Enrols the eight parts of the standard car, left where there are sides, each from one frontal capture.
 pub fn enrol_standard_parts(params: &EnrolParams) -> Result<Library, EnrolError> {
     let enrol = |kind| enrol_part(kind, Side::Left, 0, params);
     Ok(Library {
@@ -49,12 +49,12 @@ pub fn enrol_standard_parts(params: &EnrolParams) -> Result<Library, EnrolError>
     })
 }
 
-/// Where the standard parts hang when they are enrolled: square on, 1.3 m before the camera.
+/// Returns the pose of the standard parts at enrolment: frontal, 1.3 m in front of the camera.
 pub fn enrolment_pose() -> RigidTransform {
     RigidTransform::translation(0.0, 0.0, 1.3)
 }
 
-/// A part of a model of the car, enrolled from one capture; 0 is the standard one.
+/// Enrols a part of a car model from one capture; model 0 is the standard one.
 pub(in crate::bench) fn enrol_part(
     kind: PartKind,
     side: Side,

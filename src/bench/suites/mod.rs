@@ -1,7 +1,7 @@
-//! The sets of simulated frames that recognition is measured on, and what each frame should come to.
+//! Sets of simulated frames that recognition is measured on, with the expected result of each frame.
 //!
-//! Frames follow from a seed alone. We tune on frames from [`TUNING_SEED`] on and on the car models that go with it,
-//! and measure on frames from [`MEASURING_SEED`] on, which no parameter was chosen by.
+//! A frame depends on its seed only. Parameters are tuned on frames from [`TUNING_SEED`] on and on the car models that
+//! go with them; results are measured on frames from [`MEASURING_SEED`] on, which influenced no parameter.
 
 mod case;
 mod closest;
@@ -25,47 +25,47 @@ use crate::simulate::{
     Side, SimulatedObject, Stand,
 };
 
-/// Frames from this seed on are for choosing parameters.
+/// First seed of the frames for tuning parameters.
 pub const TUNING_SEED: u64 = 3_000_000;
-/// Frames from this seed on are only measured.
+/// First seed of the frames for measuring only.
 pub const MEASURING_SEED: u64 = 9_000_000;
 /// Share of the part beyond the picture in every second frame of [`Suite::Hard`].
 const PUSHED_OUT: std::ops::Range<f64> = 0.10..0.25;
-/// Seeds that one suite may use: more frames than anybody waits for.
+/// Seeds reserved per suite: more than any run needs.
 const SEEDS_PER_SUITE: u64 = 100_000;
 
 /// A set of frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Suite {
-    /// Enrolled parts hung with care: ±10°, 1.0 to 1.4 m.
+    /// Enrolled parts, carefully hung: ±10°, 1.0 to 1.4 m.
     Standard,
-    /// Enrolled parts hung anyhow: ±30° yaw, ±20° pitch, any roll, 0.9 to 1.8 m.
+    /// Enrolled parts, roughly placed: ±30° yaw, ±20° pitch, any roll, 0.9 to 1.8 m.
     Placed,
     /// The same parts of other car models, placed.
     OtherModels,
-    /// Enrolled parts turned up to 45°, things on the floor, three times the noise, every second one on a stand, and
-    /// 10 to 25 % behind a plank or out of the picture.
+    /// Enrolled parts turned by up to 45°, with objects on the floor and three times the noise; every second pair of
+    /// poses on a stand, and 10 to 25 % of the part behind a plank or outside the picture.
     Hard,
-    /// Things that nobody enrolled, placed, and empty cells.
+    /// Objects that are not enrolled, placed, and empty cells.
     Unknown,
     /// Right-hand parts where only the left-hand ones are enrolled, placed.
     Mirrored,
     /// Parts of both sides, placed, with both enrolled.
     BothSides,
-    /// Enrolled parts that stand on the floor: ±30° yaw, leaning by up to 20°, every second time on another edge.
+    /// Enrolled parts standing on the floor: ±30° yaw, leaning by up to 20°, alternately on another edge.
     Floor,
     /// Enrolled parts on a stand in a paint booth, seen from the robot's flange: ±30°, any roll, 0.8 to 1.5 m, most of
-    /// them cut by the picture down to a quarter.
+    /// them cut by the picture, down to a quarter.
     Booth,
-    /// Things that nobody enrolled on a stand in the booth, and stands without a part.
+    /// Objects on a stand in the booth that are not enrolled, and stands without a part.
     BoothUnknown,
-    /// The same parts of cars of other makes, placed: 6 to 12 % off in every dimension, and curved differently.
+    /// The same parts of other makes, placed: 6 to 12 % off in every dimension, and curved differently.
     OtherMakes,
 }
 
 impl Suite {
-    /// All of them.
+    /// All suites.
     pub const ALL: [Self; 11] = [
         Self::Standard,
         Self::Placed,
@@ -80,7 +80,7 @@ impl Suite {
         Self::OtherMakes,
     ];
 
-    /// The name in files and on the command line.
+    /// Returns the name used in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Standard => "standard",
@@ -97,8 +97,8 @@ impl Suite {
         }
     }
 
-    /// True if every frame shows (nearly) all of one of the eight enrolled parts, or of its like from another model, so
-    /// that a system which compares whole shapes and cannot refuse can be right.
+    /// Returns whether every frame shows (nearly) all of one of the eight enrolled parts, or of its counterpart from
+    /// another model, so that a system that compares whole shapes and cannot refuse can be right.
     pub fn is_for_all_systems(self) -> bool {
         match self {
             Self::Standard | Self::Placed | Self::OtherModels | Self::Hard | Self::Floor => true,
@@ -111,7 +111,7 @@ impl Suite {
         }
     }
 
-    /// The frames, `num_poses` of each subject.
+    /// Returns the frames, `num_poses` per subject.
     pub fn frames(self, num_poses: u64, first_seed: u64) -> Vec<SuiteFrame> {
         let subjects = self.subjects();
         let first_seed = first_seed + self as u64 * SEEDS_PER_SUITE;
@@ -173,7 +173,7 @@ impl Suite {
             }
             Self::OtherModels | Self::OtherMakes => {
                 if let SimulatedObject::Part { model_seed, .. } = &mut setup.subject {
-                    // Never 0, and other models for tuning than for measuring.
+                    // Never 0, and different models for tuning and measuring.
                     *model_seed = seed / 10_000 + pose;
                     if self == Self::OtherMakes {
                         *model_seed += FIRST_OTHER_MAKE;
@@ -220,7 +220,7 @@ impl Suite {
     }
 }
 
-/// The name that a standard part is enrolled by.
+/// Returns the name under which a standard part is enrolled.
 pub fn enrolled_name(kind: PartKind, side: Side) -> String {
     match side {
         Side::Right if kind.is_sided() => format!("{kind}_right"),
@@ -231,14 +231,14 @@ pub fn enrolled_name(kind: PartKind, side: Side) -> String {
 /// One frame of a suite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SuiteFrame {
-    /// The cell.
+    /// Setup of the simulated cell.
     pub setup: CellSetup,
-    /// The name that the part is enrolled by; `None` for what must not be accepted as anything.
+    /// The enrolled name of the part; `None` if nothing may be accepted.
     pub expected: Option<String>,
 }
 
 impl SuiteFrame {
-    /// What hangs there, for people.
+    /// Returns the name of what hangs in the cell.
     pub fn subject(&self) -> String {
         match self.setup.subject {
             SimulatedObject::Part { kind, side, .. } => enrolled_name(kind, side),

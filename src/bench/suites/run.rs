@@ -1,4 +1,4 @@
-//! Inspects the frames of a suite and counts what came of them.
+//! Inspects the frames of a suite and counts the results.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ use crate::{
     stages::scene::{SceneCloud, scene_from_frame},
 };
 
-/// What a suite came to.
+/// Results of a suite.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SuiteResult {
     /// The suite.
@@ -21,22 +21,22 @@ pub struct SuiteResult {
 }
 
 impl SuiteResult {
-    /// How many cases are so.
+    /// Counts the cases that satisfy a predicate.
     pub fn num(&self, is_so: impl Fn(&SuiteCase) -> bool) -> usize {
         self.cases.iter().filter(|case| is_so(case)).count()
     }
 
-    /// Median time of an inspection, milliseconds.
+    /// Returns the median time of an inspection, milliseconds.
     pub fn median_ms(&self) -> Option<f64> {
         self.ms_quantile(0.5)
     }
 
-    /// A quantile (0..1) of the time of an inspection, milliseconds.
+    /// Returns a quantile (0..1) of the time of an inspection, milliseconds.
     pub fn ms_quantile(&self, share: f64) -> Option<f64> {
         quantile(self.cases.iter().map(|case| case.total_ms), share)
     }
 
-    /// A quantile (0..1) of how far the poses are off, degrees and millimetres, each by itself.
+    /// Returns a quantile (0..1) of the pose errors: degrees and millimetres, each on its own.
     pub fn pose_off_quantile(&self, share: f64) -> Option<[f64; 2]> {
         let of = |part: usize| {
             let offs = self.cases.iter().filter_map(SuiteCase::pose_off);
@@ -45,7 +45,7 @@ impl SuiteResult {
         Some([of(0)?, of(1)?])
     }
 
-    /// What was taken for what, how often, and how often accepted, the worst first.
+    /// Returns what was taken for what, how often and how often accepted, the worst first.
     pub fn confusions(&self) -> Vec<ConfusionEntry> {
         let mut confusions: Vec<ConfusionEntry> = Vec::new();
         let is_wrong = |case: &&SuiteCase| !case.is_right() || case.is_wrong_accepted();
@@ -73,22 +73,22 @@ impl SuiteResult {
     }
 }
 
-/// One thing taken for another.
+/// One confusion.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ConfusionEntry {
-    /// What hung there.
+    /// Name of what hung in the cell.
     pub subject: String,
-    /// What it was taken for; `None` for nothing.
+    /// The name found; `None` for nothing.
     pub found: Option<String>,
-    /// How often.
+    /// Number of occurrences.
     pub num: usize,
-    /// How often it was accepted.
+    /// Number of accepted ones among them.
     pub num_accepted: usize,
-    /// The seed of the first such frame.
+    /// Seed of the first such frame.
     pub first_seed: u64,
 }
 
-/// Inspects the frames of a suite; `after_each` is called with every frame's outcome, its scene and what was found.
+/// Inspects the frames of a suite, and calls `after_each` with every frame's case, scene and inspection.
 pub fn run_suite(
     suite: Suite,
     frames: &[SuiteFrame],

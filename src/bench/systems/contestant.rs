@@ -1,4 +1,4 @@
-//! One system with its references ready: describing a segmented part and naming the nearest reference, timed.
+//! One system with its references prepared: describes a segmented part and names the nearest reference, timed.
 
 use nalgebra::Point3;
 
@@ -26,13 +26,13 @@ use crate::{
     },
 };
 
-/// A system with its references ready.
+/// A system with its references prepared.
 pub(super) struct PreparedSystem {
     method: Method,
     pub(super) preparation: Preparation,
 }
 
-/// How a contestant recognises.
+/// How a system recognises.
 enum Method {
     Outline(Matcher),
     Confirmed,
@@ -44,7 +44,7 @@ impl PreparedSystem {
     pub(super) fn prepare(system: System, library: &Library) -> Result<Self, SystemsError> {
         let references = &library.references;
         let watch = ProcessorWatch::start();
-        // Ours come prepared; that is done once more for its time.
+        // Our references come prepared; preparing them again measures its time.
         let (method, num_rows) = match (system, system.local()) {
             (_, Some(params)) => {
                 let bank = described_locally(references, &params)?;
@@ -129,7 +129,7 @@ fn prepare_again(references: &[Reference]) -> Result<(), ReferenceError> {
     Ok(())
 }
 
-/// Our stages from the projection to the ranking, and with a scene to the confirmation.
+/// Runs our stages from the projection to the ranking and, given a scene, the confirmation.
 fn by_outline(
     part: &SegmentedPart,
     confirm_in: Option<&SceneCloud>,

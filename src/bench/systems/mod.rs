@@ -1,10 +1,10 @@
-//! The left half of the paper's Table I: the time to recognise a part, ours beside other systems, and how often right.
+//! The left half of the paper's Table I: recognition time and rate, ours next to other systems.
 //!
-//! The paper compares its recogniser with four "major 3-D object detection systems" by time alone, and gives the
-//! others as numbers of its bibliography. So the other systems here are our own choice: the major descriptors of
-//! point clouds, each with a nearest-neighbour search. Every system gets the same segmented part of the same
-//! simulated frame and names one of the same references; nobody may refuse. The time is the processor's, for
-//! describing the part and matching it; segmentation, which all share, and preparing the references are left out.
+//! The paper compares its recogniser with four "major 3-D object detection systems" by time only, and names the others
+//! only by numbers of its bibliography. So the other systems here are our own choice: the major descriptors of point
+//! clouds, each with a nearest-neighbour search. Every system gets the same segmented part of the same simulated frame
+//! and names one of the same references; none may refuse. The time is processor time for describing and matching the
+//! part; it excludes segmentation, which all share, and preparing the references.
 
 mod contestant;
 mod paper_table;
@@ -27,7 +27,7 @@ use crate::{
     },
 };
 
-/// A way of recognising a part.
+/// A recognition method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum System {
@@ -35,7 +35,7 @@ pub enum System {
     Paper,
     /// Our ranking by outline and overlap.
     Rank,
-    /// Our ranking, its best few confirmed by their poses: the default.
+    /// Our ranking with confirmation of the best few by their poses: the default.
     Confirmed,
     /// Viewpoint feature histogram, nearest view.
     Vfh,
@@ -48,7 +48,7 @@ pub enum System {
 }
 
 impl System {
-    /// All of them, in the order of the table.
+    /// All systems, in the order of the table.
     pub const ALL: [Self; 7] = [
         Self::Paper,
         Self::Rank,
@@ -59,7 +59,7 @@ impl System {
         Self::Shot,
     ];
 
-    /// Its name for people.
+    /// Returns the name for people.
     pub fn title(self) -> &'static str {
         match self {
             Self::Paper => "the paper's matcher",
@@ -72,7 +72,7 @@ impl System {
         }
     }
 
-    /// Who described it first.
+    /// Returns the original publication.
     pub fn source(self) -> &'static str {
         match self {
             Self::Paper => "the paper, Algorithm 2",
@@ -84,7 +84,7 @@ impl System {
         }
     }
 
-    /// The parameters of a local descriptor; `None` for the other systems.
+    /// Returns the parameters of a local descriptor; `None` for the other systems.
     fn local(self) -> Option<LocalParams> {
         match self {
             Self::SpinImages => Some(LocalParams::spin_images()),
@@ -95,55 +95,55 @@ impl System {
     }
 }
 
-/// What a system made of one frame.
+/// Result of one system on one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemOutcome {
-    /// The reference it names; `None` if it could not describe the part.
+    /// The reference named; `None` if the part could not be described.
     pub found: Option<String>,
-    /// Describing the part and matching it with all references.
+    /// Time to describe the part and match it with all references.
     pub time: Duration,
-    /// Of a descriptor: what it was taken from.
+    /// Size of the description; `None` for systems without a descriptor.
     pub size: Option<Size>,
 }
 
-/// What a descriptor was taken from.
+/// Size of a description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Size {
-    /// Points of the thinned surface.
+    /// Number of points of the thinned surface.
     pub num_points: usize,
-    /// Rows that describe it.
+    /// Number of descriptor rows.
     pub num_rows: usize,
 }
 
-/// What all systems made of one frame.
+/// Results of all systems on one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemsCase {
-    /// The suite that the frame is of.
+    /// Suite of the frame.
     pub suite: Suite,
-    /// The name that is right.
+    /// The right name.
     pub expected: String,
-    /// The frame's seed.
+    /// Seed of the frame.
     pub seed: u64,
     /// Points of the segmented part; `None` if segmentation found none.
     pub num_points: Option<usize>,
-    /// For each of [`System::ALL`]; empty without a part.
+    /// One outcome per [`System::ALL`]; empty without a part.
     pub answers: Vec<SystemOutcome>,
 }
 
 impl SystemsCase {
-    /// True if the system of this place in [`System::ALL`] named the part in the frame.
+    /// Returns whether the system at this index of [`System::ALL`] named the part correctly.
     pub fn is_right(&self, system: usize) -> bool {
         let found = self.answers.get(system).and_then(|a| a.found.as_ref());
         found == Some(&self.expected)
     }
 }
 
-/// What was prepared of the references for one system.
+/// Preparation of the references for one system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preparation {
-    /// For all references together.
+    /// Time for all references together.
     pub time: Duration,
-    /// Rows of a descriptor, of all references together; `None` for ours and the paper's.
+    /// Descriptor rows of all references together; `None` for ours and the paper's.
     pub num_rows: Option<usize>,
 }
 
@@ -167,7 +167,7 @@ impl crate::error::Advice for SystemsError {
     }
 }
 
-/// All systems with the references of one library ready.
+/// All systems, prepared with the references of one library.
 pub struct Systems<'a> {
     library: &'a Library,
     contestants: Vec<PreparedSystem>,
@@ -183,12 +183,12 @@ impl<'a> Systems<'a> {
         })
     }
 
-    /// What was prepared, for each of [`System::ALL`].
+    /// Returns the preparation of each of [`System::ALL`].
     pub fn preparations(&self) -> Vec<Preparation> {
         self.contestants.iter().map(|c| c.preparation).collect()
     }
 
-    /// Shows each system the scene of a suite's frame; `None` if no part that is enrolled hangs there.
+    /// Runs each system on the scene of a suite's frame; `None` if no enrolled part hangs there.
     pub fn recognise(
         &self,
         suite: Suite,
@@ -244,7 +244,7 @@ mod tests {
         assert_eq!(preparations.len(), System::ALL.len());
         for (place, system) in System::ALL.iter().enumerate() {
             let num_right = cases.iter().filter(|case| case.is_right(place)).count();
-            // The paper's matcher is what it is: about two of three.
+            // The paper's matcher is right on about two of three frames.
             let least = if *system == System::Paper { 3 } else { 7 };
             assert!(num_right >= least, "{system:?}: {num_right} of 8");
             let is_descriptor = preparations[place].num_rows.is_some();

@@ -1,6 +1,6 @@
-//! The left half of the paper's Table I as it is printed.
+//! The left half of the paper's Table I as printed.
 //!
-//! It names its four other systems only by the numbers of its bibliography; which they are is not known to us.
+//! It names the four other systems only by the numbers of its bibliography; which systems they are is unknown.
 
 /// Columns of the paper's Table I: four systems by their numbers in its bibliography, and its own.
 pub const PAPER_COLUMNS: [&str; 5] = ["[22]", "[44]", "[45]", "[46]", "proposed"];
@@ -17,13 +17,13 @@ pub const PAPER_SECONDS: [[f64; 5]; 8] = [
     [35.3, 96.0, 121.0, 23.0, 0.05101],
 ];
 
-/// What the paper's text gives as the mean of the four, seconds.
+/// Mean of the four other systems according to the paper's text, seconds.
 pub const PAPER_MEAN_OF_OTHERS: f64 = 84.2161;
 
-/// What the paper's text gives as the mean of its own, seconds; its Table I has 0.058.
+/// Mean of the paper's own system according to its text, seconds; its Table I gives 0.058.
 pub const PAPER_MEAN_OF_OWN: f64 = 0.0890;
 
-/// Mean of each column.
+/// Returns the mean of each column.
 pub fn paper_means() -> [f64; 5] {
     let num = PAPER_SECONDS.len() as f64;
     std::array::from_fn(|column| PAPER_SECONDS.iter().map(|s| s[column]).sum::<f64>() / num)
@@ -38,7 +38,7 @@ mod tests {
         let means = paper_means();
         let others = means[..4].iter().sum::<f64>() / 4.0;
         assert!((others - PAPER_MEAN_OF_OTHERS).abs() < 0.05, "{others}");
-        // Its own column does not: 58 ms by the table, 89 ms by the text.
+        // The figures of its own column disagree: 58 ms by the table, 89 ms by the text.
         assert!((means[4] - 0.058).abs() < 0.001, "{}", means[4]);
     }
 }

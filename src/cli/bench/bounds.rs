@@ -1,4 +1,4 @@
-//! `partsight bench bounds`: whether poses are as exact as their bounds say.
+//! `partsight bench bounds`: measures whether pose errors stay within their bounds.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ use crate::{
     pipeline::Unwatched,
 };
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct BoundsFile {
     schema: u32,
@@ -38,7 +38,7 @@ struct CaseLine {
     accepted: bool,
     turn_error_deg: Option<f64>,
     shift_error_mm: Option<f64>,
-    /// Null where nothing holds the pose.
+    /// Null if the pose is unconstrained.
     turn_bound_deg: Option<f64>,
     shift_bound_mm: Option<f64>,
     doubt: Option<String>,
@@ -48,7 +48,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     let first_seed = args.seed.unwrap_or(MEASURING_SEED);
     let num_poses = args.poses.unwrap_or(NUM_POSES);
     let libraries = if args.mesh.is_empty() {
-        // Another car model for each first seed, and never the standard one.
+        // A different car model for each first seed, and never the standard one.
         let model_seed = first_seed / 10_000;
         vec![
             BoundsLibrary::captured(model_seed).advised()?,
@@ -89,7 +89,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-/// A mesh by the name after `#`, or by that of its file.
+/// Opens a mesh, named by the text after `#` or by its file.
 pub(super) fn opened(path: &Path) -> anyhow::Result<(String, TriangleMesh)> {
     let FileContent::Mesh(mesh) = open(path).advised()? else {
         return Err(advised_error(

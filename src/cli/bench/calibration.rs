@@ -1,5 +1,5 @@
-//! `partsight bench calibration`: fits the score's model on simulated frames, and says what each piece of evidence is
-//! worth.
+//! `partsight bench calibration`: fits the score's model on simulated frames, and shows how much each piece of evidence
+//! contributes.
 
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ use crate::{
     },
 };
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct CalibrationFile<'a> {
     schema: u32,
@@ -25,9 +25,9 @@ struct CalibrationFile<'a> {
     suites: &'a [SuiteResult],
 }
 
-/// Poses of each subject, unless asked for otherwise.
+/// Default number of poses per subject.
 const NUM_POSES: u64 = 14;
-/// A score from which on errors are counted.
+/// Score from which on errors are counted.
 const ACCEPTED: f64 = 0.9;
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -51,9 +51,9 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-/// Fits a model, and shows what each feature is worth to it.
+/// Fits a model, and shows the contribution of each feature.
 fn fit(results: &[SuiteResult], question: Question, console: &mut Console) -> Model {
-    // One half of the subjects is fitted on, the other is measured, and the other way round.
+    // Two-fold cross-validation: fit on one half of the subjects, measure on the other, and vice versa.
     let (odd, even) = halves(results, question);
     let what = match question {
         Question::Part => "The score",
@@ -117,7 +117,7 @@ fn fit(results: &[SuiteResult], question: Question, console: &mut Console) -> Mo
     model
 }
 
-/// The contenders of every second subject, and the others.
+/// Splits the contenders into two halves by subject.
 fn halves(results: &[SuiteResult], question: Question) -> (Vec<Sample>, Vec<Sample>) {
     let half = |is_odd: bool| {
         let half_of = |result: &SuiteResult| {
@@ -135,7 +135,7 @@ fn halves(results: &[SuiteResult], question: Question) -> (Vec<Sample>, Vec<Samp
     (half(true), half(false))
 }
 
-/// How often best guesses were right, by score.
+/// Shows how often the best guesses were right, by score.
 pub(super) fn show_bands(results: &[SuiteResult], console: &mut Console) {
     let mut table = Table::new(&["score from", "mean score", "best guesses", "right"]);
     for band in bands(results).iter().filter(|band| band.num > 0) {

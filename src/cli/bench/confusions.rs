@@ -1,5 +1,5 @@
-//! Pictures of what was taken for what: the first frame of each subject of each suite that went wrong, and of each
-//! part the frame in which another one came nearest.
+//! Pictures of confusions: per suite the first wrong frame of each subject, and for each part the frame in which
+//! another part scored highest.
 
 use std::path::Path;
 
@@ -14,11 +14,11 @@ use crate::{
     stages::scene::SceneCloud,
 };
 
-/// What is drawn while the suites run.
+/// Collects the pictures while the suites run.
 pub(super) struct Pictures {
     folder: ReportFolder,
     known: Vec<(Suite, String)>,
-    /// Of each part the worst so far; written at the end.
+    /// The worst frame of each part so far; written at the end.
     closest: Vec<(NearestMistake, ConfusionPicture)>,
     failed: Option<ReportError>,
 }
@@ -58,7 +58,7 @@ impl Pictures {
         })
     }
 
-    /// Draws a frame if it went wrong, or is the worst of its part so far.
+    /// Keeps a frame if it went wrong, or is the worst of its part so far.
     pub(super) fn keep(
         &mut self,
         suite: Suite,
@@ -109,7 +109,7 @@ impl Pictures {
         self.failed = drawn.write(&mut self.folder).err();
     }
 
-    /// Writes what is left; the first failure, if there was one.
+    /// Writes the remaining pictures. Returns the first failure, if any.
     pub(super) fn write(mut self) -> anyhow::Result<()> {
         if let Some(error) = self.failed {
             return Err(error).advised();

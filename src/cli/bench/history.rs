@@ -1,4 +1,4 @@
-//! `partsight bench history`.
+//! `partsight bench history`: times queries of a long history.
 
 use serde::Serialize;
 
@@ -11,10 +11,10 @@ use crate::{
     },
 };
 
-/// Rows of the history.
+/// Number of rows of the history.
 const NUM_ROWS: usize = 100_000;
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct HistoryFile {
     schema: u32,
@@ -22,7 +22,7 @@ struct HistoryFile {
     times: Vec<HistoryTime>,
 }
 
-/// Asks a long history.
+/// Times queries of a long history.
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     console.line(&format_args!(
         "A history of {NUM_ROWS} inspections: a page of 50 and the number of all, first, middle and last page."

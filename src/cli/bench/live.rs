@@ -1,4 +1,4 @@
-//! `partsight bench live`.
+//! `partsight bench live`: the window following the simulated line for minutes.
 
 use std::time::Duration;
 
@@ -13,10 +13,10 @@ use crate::{
     },
 };
 
-/// How long a line of the table is.
+/// Duration of one line of the table.
 const STRETCH: Duration = Duration::from_secs(30);
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct LiveFile {
     schema: u32,
@@ -24,7 +24,7 @@ struct LiveFile {
     stretches: Vec<LiveSample>,
 }
 
-/// Follows the simulated line for as long as asked.
+/// Follows the simulated line for the requested time.
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let num_stretches = 2 * args.minutes as usize;
     console.line(&format_args!(

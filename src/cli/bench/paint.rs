@@ -20,7 +20,7 @@ use crate::{
     stages::reference::{Coverage, Reference, ReferenceParams},
 };
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct PaintFile {
     schema: u32,
@@ -70,7 +70,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-/// A part enrolled from a frame, called as it.
+/// Enrols a part from a frame, named after the file.
 fn enrolled(file: &Path) -> anyhow::Result<Reference> {
     let (scene, _) = open_scene(file).advised()?;
     let stem = file.file_stem().unwrap_or_default().to_string_lossy();

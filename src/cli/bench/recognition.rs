@@ -1,5 +1,5 @@
-//! `partsight bench recognition`: right, accepted and wrongly accepted on sets of simulated frames, then the paper's
-//! matcher and the other systems of its Table I on the same frames.
+//! `partsight bench recognition`: recognition rate, acceptance and false accepts on sets of simulated frames, then the
+//! paper's matcher and the other systems of its Table I on the same frames.
 
 use clap::ValueEnum;
 use serde::Serialize;
@@ -74,19 +74,19 @@ impl SuiteChoice {
     }
 }
 
-/// Poses of each subject, unless asked for otherwise.
+/// Default number of poses per subject.
 const NUM_POSES: u64 = 10;
-/// Worst confusions that are named per suite.
+/// Number of worst confusions listed per suite.
 const NUM_CONFUSIONS: usize = 6;
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct RecognitionFile<'a> {
     schema: u32,
     simulated: bool,
     first_seed: u64,
     recipe: RecipeBlock,
-    /// Parameters that are not at their default.
+    /// Parameters that differ from their defaults.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     changed: Vec<String>,
     suites: &'a [SuiteResult],
@@ -163,7 +163,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-/// The frames that are inspected.
+/// The frames to inspect.
 pub(super) struct Frames {
     suites: Vec<(Suite, Vec<SuiteFrame>)>,
     num_poses: u64,
@@ -171,7 +171,7 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    /// Those asked for; without a word these.
+    /// Selects the suites of the arguments, or these if the arguments name none.
     pub(super) fn of(args: &BenchArgs, suites: &[Suite], num_poses: u64) -> Self {
         let mut asked_for: Vec<Suite> = Vec::new();
         for suite in args.suite.iter().flat_map(|choice| choice.suites()) {
@@ -186,7 +186,7 @@ impl Frames {
         Self::from_seed(&asked_for, args.poses.unwrap_or(num_poses), first_seed)
     }
 
-    /// The suites' frames from a seed on.
+    /// Creates the frames of these suites from a seed on.
     pub(super) fn from_seed(suites: &[Suite], num_poses: u64, first_seed: u64) -> Self {
         let frames = |suite: &Suite| (*suite, suite.frames(num_poses, first_seed));
         Self {
@@ -196,7 +196,7 @@ impl Frames {
         }
     }
 
-    /// Which they are.
+    /// Describes the frames.
     pub(super) fn words(&self) -> String {
         let Self {
             num_poses,
@@ -206,13 +206,13 @@ impl Frames {
         format!("{num_poses} poses of each subject, seeds from {first_seed}")
     }
 
-    /// Inspects them one after the other, on this thread.
+    /// Inspects the frames one after the other on this thread.
     pub(super) fn inspect(&self, console: &mut Console) -> anyhow::Result<Vec<SuiteResult>> {
         let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
         self.inspect_with(&libraries, &Recipe::default(), console, |_, _, _, _| {})
     }
 
-    /// The same with these libraries and this recipe; `after_each` gets what came of every frame.
+    /// As [`inspect`](Self::inspect) with these libraries and this recipe; calls `after_each` with every result.
     fn inspect_with(
         &self,
         libraries: &SuiteLibraries,
@@ -298,7 +298,7 @@ fn show(results: &[SuiteResult], console: &mut Console) {
     }
 }
 
-/// What is accepted where at least 40 % is in sight, poses with their bounds, segmentation and time.
+/// Shows acceptance where at least 40 % is in sight, poses with their bounds, segmentation and time.
 fn show_figures(figures: &[SuiteFigures], console: &mut Console) {
     console.line(&"");
     console.line(
@@ -350,7 +350,7 @@ fn show_figures(figures: &[SuiteFigures], console: &mut Console) {
     table.show(console);
 }
 
-/// The frame of each part in which another came nearest.
+/// Shows for each part the frame in which another part scored highest.
 fn show_closest(closest: &[NearestMistake], console: &mut Console) {
     if closest.is_empty() {
         return;
@@ -360,7 +360,7 @@ fn show_closest(closest: &[NearestMistake], console: &mut Console) {
         &"Of each part, the frame in which another one came nearest to being taken for it; --pictures draws why.",
     );
     console.line(&"");
-    // A part that is clearly another one scores far below a thousandth.
+    // A clearly different part scores far below a thousandth.
     let score = |score: f64| {
         if score < 0.001 {
             format!("{score:.0e}")

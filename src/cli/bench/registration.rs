@@ -20,7 +20,7 @@ use crate::{
     stages::pose::{AlignParams, PoseMethod},
 };
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct RegistrationFile {
     schema: u32,
@@ -41,11 +41,11 @@ struct AttemptLine {
     shift_error_mm: Option<f64>,
     shift_bound_mm: Option<f64>,
     turn_bound_deg: Option<f64>,
-    /// Why there is no pose, or why it should not be relied upon.
+    /// Why there is no pose, or why not to rely on it.
     reason: Option<String>,
 }
 
-/// What is compared: a heading, how the sources are, the methods.
+/// A comparison of methods under one condition.
 struct Experiment {
     title: String,
     condition: Condition,
@@ -218,7 +218,7 @@ fn show(done: &[(Experiment, Registration)], parts: &[RegistrationPart], console
     }
 }
 
-/// The parts that were missed, with and without a doubt.
+/// Lists the parts with missed poses, and how many of the misses had no warning.
 fn by_part(registration: &Registration, parts: &[RegistrationPart], console: &mut Console) {
     for RegistrationPart { name, .. } in parts {
         let attempts = || registration.attempts.iter().filter(|a| a.part == *name);

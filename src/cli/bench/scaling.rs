@@ -15,7 +15,7 @@ use crate::{
     stages::rank::{Matcher, RankParams},
 };
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct ScalingFile {
     schema: u32,

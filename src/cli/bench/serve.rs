@@ -1,9 +1,9 @@
-//! `partsight bench serve`: what a protocol of the server costs beside a bare exchange of as many bytes, and what serving
-//! adds to an inspection.
+//! `partsight bench serve`: the overhead of each protocol over a bare exchange of equally many bytes, and of serving
+//! over a direct inspection.
 //!
-//! Server and clients are on this computer, so that no network is measured. What is compared takes turns, so that both
-//! sides see the computer in the same state. No camera takes part: an inspection is of the frame at hand, so that a trigger
-//! does not wait for the next one.
+//! Server and clients run on this computer, so no network is measured. The compared sides take turns, so that both see
+//! the computer in the same state. No camera is involved: a trigger inspects the frame at hand instead of waiting for
+//! the next.
 
 mod client;
 
@@ -49,22 +49,22 @@ use crate::{
     stages::scene::scene_from_frame,
 };
 
-/// Poses of each part, unless asked for otherwise; each is triggered once in every protocol.
+/// Default number of poses per part; each frame is triggered once in every protocol.
 const NUM_POSES: u64 = 25;
-/// Status requests of each protocol over one connection, and over each of several.
+/// Number of status requests of each protocol over one connection, and over each of several.
 const NUM_STATUS: usize = 5_000;
-/// So many in a row, then as many bare exchanges.
+/// Number of requests in a row before as many bare exchanges.
 const BLOCK: usize = 100;
-/// Blocks that are not counted.
+/// Number of blocks that are not counted.
 const WARM_UP: usize = 5;
-/// Connections at a time, where several ask.
+/// Number of simultaneous connections.
 const NUM_CONNECTIONS: usize = 4;
-/// Triggers over each of them.
+/// Number of triggers over each of them.
 const NUM_BUSY_TRIGGERS: usize = 5;
-/// Longer than a connection waits for its turn.
+/// Longer than any connection waits for its turn.
 const PATIENCE: Duration = Duration::from_mins(10);
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct ServeFile {
     schema: u32,
@@ -76,18 +76,18 @@ struct ServeFile {
     triggers: Vec<TriggerTimes>,
 }
 
-/// How long requests took, one after the other over one connection.
+/// Times of requests one after the other over one connection.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Times {
     num: usize,
     median_ms: f64,
     p99_ms: f64,
     per_s: f64,
-    /// Over several connections at once.
+    /// Rate over several connections at once.
     busy_per_s: f64,
 }
 
-/// How many times as much as what it stands beside.
+/// Ratios of times to those of the compared side.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Ratios {
     median: f64,
@@ -96,7 +96,7 @@ struct Ratios {
     busy_per_s: f64,
 }
 
-/// Status requests of a protocol beside bare exchanges of as many bytes.
+/// Status requests of a protocol compared with bare exchanges of equally many bytes.
 #[derive(Debug, Serialize)]
 struct StatusTimes {
     protocol: &'static str,
@@ -107,7 +107,7 @@ struct StatusTimes {
     ratios: Ratios,
 }
 
-/// Triggers of a protocol beside the same inspections called directly.
+/// Triggers of a protocol compared with the same inspections called directly.
 #[derive(Debug, Serialize)]
 struct TriggerTimes {
     protocol: &'static str,
@@ -164,7 +164,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     for frame in &frames {
         let shot = frame_of_mesh(&frame.setup, &frame.setup.subject.mesh());
         inspections.show(shot.frame);
-        // The first one with a frame is slower than those behind it.
+        // The first inspection of a frame is slower than later ones, so it is not timed.
         inspections.inspect();
         direct.push(timed(|| drop(inspections.inspect())));
         for (protocol, client, times) in &mut clients {
@@ -186,7 +186,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             ratios: times.over(&direct),
         });
     }
-    // With the one by which each connection begins.
+    // Including the first request of each connection.
     let of_each = frames.len() + num_busy + NUM_CONNECTIONS;
     check_triggers(&service, of_each * clients.len())?;
     show_status(&status, console);
@@ -205,7 +205,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-/// A trigger that was answered without an inspection would count as a very fast one.
+/// Checks the number of inspections: a trigger answered without one would count as a very fast one.
 fn check_triggers(service: &Service, num_triggers: usize) -> anyhow::Result<()> {
     let num_inspected = service.num_inspected.load(Ordering::SeqCst);
     if num_inspected == num_triggers as u64 {
@@ -223,7 +223,7 @@ fn timed(work: impl FnOnce()) -> Duration {
     begun.elapsed()
 }
 
-/// How long a request takes.
+/// Sends a request and returns the time until its answer.
 fn asked(
     client: &mut Client,
     protocol: &ServedProtocol,
@@ -267,7 +267,7 @@ fn status_times(protocol: &ServedProtocol) -> anyhow::Result<StatusTimes> {
     })
 }
 
-/// Inspects the frame at hand as the server does, but for its camera and what is shown and kept of it.
+/// Inspects the frame at hand as the server does, without camera, display and history.
 struct Inspections {
     library: Library,
     recipe: NamedRecipe,
@@ -324,7 +324,7 @@ impl Inspections {
     }
 }
 
-/// Them, on the thread of the server.
+/// The same inspections, run on the server's thread.
 struct ServedInspections {
     inspections: Arc<Inspections>,
     num_inspected: Arc<AtomicU64>,
@@ -348,7 +348,7 @@ impl Inspector for ServedInspections {
     }
 }
 
-/// How a protocol is asked.
+/// Address and requests of a protocol.
 struct ServedProtocol {
     name: &'static str,
     address: SocketAddr,
@@ -407,7 +407,7 @@ impl ServedProtocol {
     }
 }
 
-/// A server at work, until it is dropped.
+/// A running server; dropping it stops it.
 struct Service {
     protocols: Vec<ServedProtocol>,
     num_inspected: Arc<AtomicU64>,
@@ -432,7 +432,7 @@ impl Service {
         });
         let listeners = listeners.into_iter().collect::<Result<Vec<_>, _>>();
         let settings = ServerSettings {
-            // HTTP closes a connection that is silent for so long, such as one that waits for its turn here.
+            // HTTP closes a connection that is silent for this long, such as one that waits for its turn here.
             request_timeout: PATIENCE,
             ..ServerSettings::default()
         };
@@ -480,7 +480,7 @@ impl Drop for Service {
     fn drop(&mut self) {
         self.is_ending.store(true, Ordering::SeqCst);
         if let Some(thread) = self.thread.take() {
-            // Its fault has cost answers, which was an error.
+            // A failed server has already shown up as missing answers.
             let _ = thread.join();
         }
     }

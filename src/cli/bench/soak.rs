@@ -1,5 +1,5 @@
-//! `partsight bench soak`: very many frames through all that `inspect --source` does, and whether it holds more and more
-//! of the system.
+//! `partsight bench soak`: runs very many frames through everything that `inspect --source` does, and checks whether
+//! memory, threads or handles keep growing.
 
 use std::{
     sync::Arc,
@@ -30,20 +30,20 @@ use crate::{
     stages::{reference::Reference, scene::scene_from_image},
 };
 
-/// Lines of the table.
+/// Number of lines of the table.
 const NUM_STRETCHES: u64 = 20;
-/// Stretches until every part has hung there several times and every store has its size.
+/// Number of stretches until every part has hung there several times and every store has its full size.
 const WARM_UP: usize = 4;
-/// After that the memory grows by no more.
+/// Largest allowed growth of the memory after the warm-up.
 const MOST_GROWTH: f64 = 0.02;
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct SoakFile {
     schema: u32,
     simulated: bool,
     num_frames: u64,
-    /// From the end of the warm-up to the end, a share; `null` where the system does not tell.
+    /// Growth from the end of the warm-up to the end, as a share; `null` where the system does not report memory.
     memory_growth: Option<f64>,
     stretches: Vec<Stretch>,
 }
@@ -60,7 +60,7 @@ struct Stretch {
     usage: Option<ProcessUsage>,
 }
 
-/// A camera of few pixels: every part hangs still for a while, then the next one.
+/// A camera with few pixels: every part hangs still for a while, then the next one comes.
 struct SmallCell {
     pictures: Arc<[DepthFrame]>,
     begun: Timestamp,
@@ -69,10 +69,10 @@ struct SmallCell {
 }
 
 impl SmallCell {
-    /// Frames for which a part hangs there: long enough for a verdict that counts.
+    /// Number of frames for which a part hangs there: enough for a verdict that counts.
     const HANGING: u64 = 120;
     const FRAMES_PER_SECOND: i64 = 30;
-    /// Of the Kinect's rows and columns each so many are one.
+    /// Every how many of the Kinect's rows and columns one is kept.
     const STEP: usize = 4;
 
     fn pictures() -> Arc<[DepthFrame]> {
@@ -84,7 +84,7 @@ impl SmallCell {
     }
 }
 
-/// Every fourth row and column.
+/// Keeps every fourth row and column.
 fn smaller(frame: &DepthFrame) -> DepthFrame {
     let old = frame.intrinsics;
     let step = SmallCell::STEP;
@@ -137,7 +137,7 @@ impl DepthSource for SmallCell {
     }
 }
 
-/// What follows the frames.
+/// Inspects and records the frames.
 struct Follower<'a> {
     load: &'a LibraryLoad,
     recipe: NamedRecipe,
@@ -148,7 +148,7 @@ struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    /// As `inspect --source` takes a frame in, but for what is shown.
+    /// Takes in a frame as `inspect --source` does, without printing. Returns the latency.
     fn take(&mut self, captured: Captured, console: &Console) -> anyhow::Result<Duration> {
         let arrived = captured.arrived;
         let mut scene = scene_from_image(captured.image);
@@ -161,7 +161,7 @@ impl Follower<'_> {
             let line = InspectionLine::of(&captured.name, inspection);
             line.by(&self.recipe).to_json()
         };
-        // Written by nobody here, but made all the same.
+        // Nobody prints it here, but making it is part of the work.
         drop(line_of(&inspection));
         let frame = FollowedFrame {
             scene: &scene,
@@ -266,7 +266,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     })
 }
 
-/// Takes in all that the feed gives, and what each twentieth of it came to.
+/// Takes in all frames of the feed, and measures each twentieth of them.
 fn stretches(
     feed: &Feed,
     follower: &mut Follower<'_>,
@@ -303,13 +303,13 @@ fn stretches(
     Ok(stretches)
 }
 
-/// By which share the memory of the last stretches is above that at the end of the warm-up.
+/// Returns the relative growth of the memory from the end of the warm-up to the last stretches.
 fn growth(stretches: &[Stretch]) -> Option<f64> {
     let memory = |stretches: &[Stretch]| {
         let memory = stretches
             .iter()
             .filter_map(|stretch| Some(stretch.usage?.memory_mb));
-        // What a moment takes and gives back is no growth.
+        // The median ignores memory that is taken and returned within moments.
         quantile(memory, 0.5)
     };
     let (first, rest) = stretches.get(WARM_UP..)?.split_at_checked(3)?;

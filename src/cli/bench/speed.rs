@@ -1,5 +1,5 @@
-//! `partsight bench`: the time of each stage beside its budget, and of whole inspections set by set, beside what an
-//! earlier run measured.
+//! `partsight bench speed`: stage times compared with their budgets, and times of whole inspections per set, compared
+//! with an earlier run.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ use crate::{
     pipeline::{Recipe, Timings, Unwatched, run as inspect},
 };
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct SpeedFile {
     schema: u32,
@@ -28,19 +28,19 @@ struct SpeedFile {
     sets: Vec<SetTimes>,
 }
 
-/// What `--compare` reads of it.
+/// The fields that `--compare` reads from it.
 #[derive(Debug, Deserialize)]
 struct EarlierSpeed {
     sets: Vec<SetTimes>,
 }
 
-/// Poses of each subject, unless asked for otherwise.
+/// Default number of poses per subject.
 const NUM_POSES: u64 = 25;
-/// An earlier measurement is some kilobytes.
+/// Maximum size of an earlier measurement, bytes; they take some kilobytes.
 const MOST_BYTES: u64 = 1 << 20;
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    // Before anything is measured.
+    // Fails before anything is measured.
     let earlier = args.compare.as_deref().map(read_earlier).transpose()?;
     let is_simulated = args.files.is_empty();
     let (sets, words) = if is_simulated {
@@ -96,7 +96,8 @@ fn read_earlier(path: &Path) -> anyhow::Result<EarlierSpeed> {
         })
 }
 
-/// Times of inspections with the library in use. A file that cannot be opened ends it: its time would be missing.
+/// Times inspections of files with the selected library. A file that cannot be opened is an error: its time would be
+/// missing.
 fn inspect_files(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Vec<Timings>> {
     let recipe = Recipe::default();
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
@@ -125,7 +126,7 @@ fn show(times: &[StageTimes], console: &mut Console) {
     table.show(console);
 }
 
-/// Whole inspections; beside an earlier run also how many times as long each took.
+/// Shows the times of whole inspections and, given an earlier run, their ratios to it.
 fn show_sets(sets: &[SetTimes], earlier: Option<&EarlierSpeed>, console: &mut Console) {
     let ms = |ms: f64| format!("{ms:.1} ms");
     let mut head = vec!["whole inspection", "frames", "median", "95 %", "longest"];

@@ -1,4 +1,4 @@
-//! The left half of the paper's Table I: ours beside the paper's matcher and other systems, on the same frames.
+//! The left half of the paper's Table I: ours, the paper's matcher and other systems on the same frames.
 
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ use crate::{
     simulate::PartKind,
 };
 
-/// What the systems made of the frames; `--json` writes it as it is.
+/// Results of the systems, as `--json` writes them.
 #[derive(Debug, Serialize)]
 pub(super) struct SystemsTable {
     num_frames: usize,
@@ -34,16 +34,16 @@ struct SystemLine {
     by_suite: Vec<SuiteShare>,
     median_ms: Option<f64>,
     p95_ms: Option<f64>,
-    /// Points of the thinned surface, median.
+    /// Median number of points of the thinned surface.
     num_surface_points: Option<f64>,
-    /// Rows that describe the part, median.
+    /// Median number of descriptor rows of the part.
     num_rows: Option<f64>,
-    /// Rows of all references.
+    /// Number of descriptor rows of all references.
     num_reference_rows: Option<usize>,
     prepare_ms: f64,
 }
 
-/// How often a system was right in one suite.
+/// Results of a system in one suite.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct SuiteShare {
     suite: Suite,
@@ -54,7 +54,7 @@ struct SuiteShare {
 #[derive(Debug, Serialize)]
 struct PaperLines {
     columns: [&'static str; 5],
-    /// Part, then seconds per column.
+    /// Part, and seconds per column.
     parts: Vec<(&'static str, [f64; 5])>,
     mean_of_others_as_stated: f64,
     mean_of_own_as_stated: f64,

@@ -20,7 +20,7 @@ use crate::{
     },
 };
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct Table1File {
     schema: u32,
@@ -30,7 +30,7 @@ struct Table1File {
     attempts: Vec<AttemptLine>,
 }
 
-/// A line of `--csv`, an entry of `--json`.
+/// A line of `--csv` and an entry of `--json`.
 #[derive(Debug, Serialize)]
 struct AttemptLine {
     part: String,
@@ -205,7 +205,7 @@ fn csv(lines: impl Iterator<Item = AttemptLine>) -> String {
     for line in lines {
         let iterations = line.iterations.map_or_else(String::new, |n| n.to_string());
         let stopped = line.stopped.unwrap_or_default();
-        // The one cell that may hold a comma; quotes within are doubled.
+        // The only cell that may contain a comma; quotes within it are doubled.
         let reason = line
             .reason
             .map_or_else(String::new, |r| format!("\"{}\"", r.replace('"', "\"\"")));

@@ -1,4 +1,4 @@
-//! `partsight bench window`: what a frame of the window costs.
+//! `partsight bench window`: processor time of a frame of the window.
 
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ use crate::{
     },
 };
 
-/// What `--json` writes.
+/// The file that `--json` writes.
 #[derive(Debug, Serialize)]
 struct WindowFile {
     schema: u32,
@@ -22,10 +22,10 @@ struct WindowFile {
     window: WindowCost,
 }
 
-/// Frames of each kind that are measured.
+/// Number of frames measured of each kind.
 const NUM_FRAMES: usize = 120;
 
-/// Frames of the window's first result, without a display.
+/// Times frames of the window's first result, without a display.
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let cost = window_cost(NUM_FRAMES, WindowOptions::default()).advised()?;
     let [width, height] = cost.size;

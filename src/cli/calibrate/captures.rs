@@ -33,7 +33,8 @@ pub(super) struct TargetChoice {
     library: LibraryChoice,
 }
 
-/// Inspects the capture of every pose; what is not accepted, or is another part than most are, is named and left out.
+/// Inspects the capture of every pose; captures that are not accepted or show another part than most are named and left
+/// out.
 pub(super) fn pairs_of_captures(
     poses: &Path,
     convention: Option<Convention>,
@@ -84,7 +85,7 @@ pub(super) fn pairs_of_captures(
     Ok(of_one_part(seen, console))
 }
 
-/// The captures of the poses: by name, or all of the folder in counting order.
+/// Returns the captures of the poses: by name, or all of the folder in counting order.
 fn files_of(folder: &Path, poses: &[ArmPose]) -> anyhow::Result<Vec<PathBuf>> {
     let named: Option<Vec<&String>> = poses.iter().map(|pose| pose.capture.as_ref()).collect();
     if let Some(names) = named {
@@ -115,7 +116,7 @@ fn files_of(folder: &Path, poses: &[ArmPose]) -> anyhow::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// The pairs of the reference that most captures show: each reference has a frame of its own.
+/// Returns the pairs of the reference that most captures show, since each reference has its own frame.
 fn of_one_part(seen: Vec<(PosePair, ObservedTarget)>, console: &Console) -> Vec<PosePair> {
     let count = |reference: usize| {
         seen.iter()

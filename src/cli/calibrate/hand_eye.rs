@@ -1,4 +1,4 @@
-//! `partsight calibrate hand-eye`: the camera's place from pairs of robot and camera poses.
+//! `partsight calibrate hand-eye`: computes the camera's pose from pairs of robot and camera poses.
 
 use std::path::PathBuf;
 
@@ -130,7 +130,7 @@ pub(super) fn run(args: &HandEyeArgs, console: &mut Console) -> anyhow::Result<O
     })
 }
 
-/// Takes out the pairs of these names or lines, and says which they were.
+/// Removes the pairs with these names or lines, and returns their names.
 fn leave_out(pairs: &mut Vec<PosePair>, without: &[String]) -> anyhow::Result<Vec<String>> {
     let mut left_out = Vec::new();
     for name in without {
@@ -154,7 +154,7 @@ fn leave_out(pairs: &mut Vec<PosePair>, without: &[String]) -> anyhow::Result<Ve
     Ok(left_out)
 }
 
-/// The residuals, and what was solved for.
+/// Shows the residuals and the solution.
 fn show(solved: &HandEye, console: &mut Console) {
     let mut table = Table::new(&["PAIR", "OFF mm", "OFF degrees", ""]);
     let residuals = &solved.residuals;
@@ -200,7 +200,7 @@ fn show(solved: &HandEye, console: &mut Console) {
     );
 }
 
-/// The line of `calibrate hand-eye --json`.
+/// JSON line of `calibrate hand-eye --json`.
 #[derive(Serialize)]
 struct Line<'a> {
     schema: u32,

@@ -1,4 +1,4 @@
-//! `partsight calibrate show`, and how a calibration is told.
+//! `partsight calibrate show`, and the text form of a calibration.
 
 use std::path::PathBuf;
 
@@ -35,7 +35,7 @@ pub(super) struct ShowArgs {
     json: bool,
 }
 
-/// The line of `calibrate show --json`.
+/// JSON line of `calibrate show --json`.
 #[derive(Serialize)]
 struct Line<'a> {
     schema: u32,
@@ -80,7 +80,7 @@ pub(super) fn run(args: &ShowArgs, console: &mut Console) -> anyhow::Result<Outc
     Ok(Outcome::Accepted)
 }
 
-/// All about a calibration, a line for each thing.
+/// Shows everything about a calibration, one line per item.
 pub(super) fn calibration(
     shown: &CellCalibration,
     convention: Option<Convention>,
@@ -145,7 +145,7 @@ fn pose(
     }
 }
 
-/// A transform as its matrix.
+/// Shows a transform as a matrix.
 pub(super) fn matrix(name: &str, transform: &RigidTransform, console: &mut Console) {
     console.line(&format_args!("  {name}, 4x4 matrix, shift in metres"));
     for row in row_major(transform).chunks(4) {

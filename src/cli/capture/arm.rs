@@ -1,4 +1,4 @@
-//! Where the arm that carries the camera stands while frames are recorded.
+//! Pose of the arm that carries the camera, while frames are recorded.
 
 use std::{
     collections::VecDeque,
@@ -31,25 +31,25 @@ pub(super) struct ArmChoice {
     robot_poses: Option<PathBuf>,
 }
 
-/// Gives each frame the arm's pose.
+/// Where the arm's pose of each frame comes from.
 pub(super) enum ArmPoseSource {
-    /// Nobody says.
+    /// No poses are given.
     Unknown,
-    /// It stays.
+    /// The same pose for all frames.
     Still(RigidTransform),
     /// One pose after another.
     Listed(VecDeque<RigidTransform>),
-    /// As they are typed, or another program writes them; one that came and has no frame yet, and when it came.
+    /// Poses typed in or written by another program; holds one that has no frame yet, and when it came.
     Typed(Option<(RigidTransform, Instant)>),
 }
 
-/// What becomes of a frame.
+/// What to do with a frame.
 pub(super) enum FramePoseResult {
-    /// It is recorded, at this pose of the arm.
+    /// Record it, at this pose of the arm.
     Record(Option<RigidTransform>),
-    /// It was taken before the arm stood there.
+    /// Ignore it: it was taken before the arm reached the pose.
     TooEarly,
-    /// There are no more poses.
+    /// Stop: there are no more poses.
     End,
 }
 
@@ -67,7 +67,7 @@ impl ArmPoseSource {
         })
     }
 
-    /// Poses that are left, if that is known.
+    /// Returns the number of poses left, if known.
     pub(super) fn num_left(&self) -> Option<u64> {
         match self {
             Self::Listed(poses) => Some(poses.len() as u64),
@@ -75,7 +75,7 @@ impl ArmPoseSource {
         }
     }
 
-    /// The pose for a frame that came; `is_live` of a camera, whose frames may be older than the pose.
+    /// Returns the pose for a frame; `is_live` is true for a camera, whose frames may be older than the pose.
     pub(super) fn pose_for(
         &mut self,
         captured: &Captured,
@@ -112,7 +112,7 @@ impl ArmPoseSource {
     }
 }
 
-/// The next pose of standard input; `None` at its end or after an empty line.
+/// Reads the next pose from standard input; `None` at its end or after an empty line.
 fn next_line() -> anyhow::Result<Option<RigidTransform>> {
     let mut line = String::new();
     let num_bytes = io::stdin().lock().read_line(&mut line).map_err(|error| {

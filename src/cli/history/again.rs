@@ -1,4 +1,4 @@
-//! `partsight history show --again`: what today's recipe and library make of a kept frame.
+//! `partsight history show --again`: inspects a kept frame with the current recipe and library.
 
 use serde::Serialize;
 
@@ -51,7 +51,7 @@ pub(super) fn run(
     ))
 }
 
-/// What changed, as `--json` writes it.
+/// Changes, as `--json` writes them.
 #[derive(Debug, Serialize)]
 pub(super) struct AgainLine {
     same: bool,
@@ -65,7 +65,7 @@ pub(super) struct AgainLine {
     parameters: Vec<ParameterLine>,
 }
 
-/// A parameter that has another value, as `--json` writes it.
+/// A changed parameter, as `--json` writes it.
 #[derive(Debug, Serialize)]
 struct ParameterLine {
     key: &'static str,
@@ -96,7 +96,7 @@ impl AgainLine {
     }
 }
 
-/// A table of the two, under these names.
+/// Shows both inspections in a table with these headings.
 pub(super) fn show(found: &Differences, names: [&str; 2], console: &mut Console) {
     let Differences { before, now, pose } = found;
     let mut table = Table::new(&["", names[0], names[1]]);

@@ -1,4 +1,4 @@
-//! `partsight history export`: inspections as a table, or as cases.
+//! `partsight history export`: writes inspections as a table or as cases.
 
 use super::ExportArgs;
 use crate::{

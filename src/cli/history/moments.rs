@@ -1,18 +1,18 @@
-//! Days and moments on the command line.
+//! Days and times on the command line.
 
 use jiff::{Span, Timestamp, Zoned, civil, tz::TimeZone};
 
-/// Where a range begins.
+/// Parses the beginning of a range.
 pub(super) fn parse_since(text: &str) -> Result<Timestamp, String> {
     parse(text, &Zoned::now()).map(|[first, _]| first)
 }
 
-/// Where a range ends: with the end of the day, or with the moment.
+/// Parses the end of a range: the end of the day, or just after the given time.
 pub(super) fn parse_until(text: &str) -> Result<Timestamp, String> {
     parse(text, &Zoned::now()).map(|[_, end]| end)
 }
 
-/// First moment of what is meant, and the first that is not meant any more.
+/// Returns the first time that is meant, and the first one after it that is not.
 fn parse(text: &str, now: &Zoned) -> Result<[Timestamp; 2], String> {
     let zone = now.time_zone().clone();
     let day = match text.strip_suffix('d').map(str::parse::<u32>) {
@@ -72,7 +72,7 @@ mod tests {
             parsed("2026-11-20T14:00:00Z")[1],
             "2026-11-20T14:00:00.000001Z"
         );
-        // The day on which the clocks go back has 25 hours.
+        // The day on which daylight saving time ends has 25 hours.
         assert_eq!(
             parsed("2026-10-25"),
             ["2026-10-24T22:00:00Z", "2026-10-25T23:00:00Z"]

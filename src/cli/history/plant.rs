@@ -1,4 +1,4 @@
-//! `partsight history send`, and the overview of `list` and `export` over the cells of a plant.
+//! `partsight history send`, and `list` and `export` over the cells of a plant.
 
 use clap::Args;
 
@@ -27,7 +27,7 @@ pub(super) struct FromChoice {
 }
 
 impl FromChoice {
-    /// The database, if one is to be read.
+    /// Opens the database, if one is to be read.
     fn database(&self, console: &Console) -> anyhow::Result<Option<Database>> {
         let Some(address) = &self.from else {
             self.files.refuse_without("--from")?;
@@ -53,7 +53,7 @@ pub(super) struct SendArgs {
     take_over: bool,
 }
 
-/// Sends what is not sent.
+/// Sends the unsent rows.
 pub(super) fn send(
     history: &mut History,
     asked: &SendArgs,
@@ -85,7 +85,7 @@ pub(super) fn send(
     Ok(Outcome::Accepted)
 }
 
-/// What `list` and `export` make of a database; nothing where they are asked for the history here.
+/// Runs `list` or `export` on a database; returns `None` if they are to use the local history.
 pub(super) fn overview(
     command: &HistoryCommand,
     console: &mut Console,

@@ -1,4 +1,4 @@
-//! `partsight history show`: everything about one inspection.
+//! `partsight history show`: shows everything about one inspection.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -17,7 +17,7 @@ use crate::{
     pipeline::RefusalKind,
 };
 
-/// The version of the JSON lines.
+/// Version of the JSON lines.
 const SCHEMA: u32 = 1;
 
 /// A row as `--json` writes it.
@@ -37,14 +37,14 @@ struct RowLine<'a> {
     label: Option<&'a str>,
     remark: &'a str,
     frame_kept: bool,
-    /// The inspection that stands for the same part; null of the one that does.
+    /// Number of the inspection that stands for the same part; null if this one does.
     parent: Option<i64>,
-    /// How many others of the same part lie below this one.
+    /// Number of re-inspections below this one.
     reinspections: usize,
-    /// `serial`, `order` and `operator`, where they are known.
+    /// `serial`, `order` and `operator`, as far as known.
     #[serde(flatten)]
     trace: &'a Traceability,
-    /// In an overview over several cells: its name.
+    /// Name of the cell, if there are several cells.
     #[serde(skip_serializing_if = "Option::is_none")]
     cell: Option<&'a str>,
 }
@@ -74,7 +74,7 @@ impl<'a> RowLine<'a> {
     }
 }
 
-/// A row as one line of JSON, with the name of its cell where it is one of several.
+/// Returns a row as one line of JSON, with the name of its cell if there are several.
 pub(super) fn line_of(row: &Summary, cell: Option<&str>) -> String {
     json(&RowLine {
         cell,
@@ -93,7 +93,7 @@ struct RecordLine<'a> {
     row: RowLine<'a>,
     nearest: Option<&'a str>,
     reason: Option<&'a str>,
-    /// Null also where an earlier program wrote the inspection.
+    /// Also null if an earlier version wrote the inspection.
     reason_kind: Option<RefusalKind>,
     advice: Option<&'a str>,
     camera_from_part: Option<[f64; 16]>,
@@ -103,19 +103,19 @@ struct RecordLine<'a> {
     library: &'a str,
     program: &'a str,
     frame: Option<String>,
-    /// The files of a scan's shots.
+    /// Files of a scan's shots.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     shots: Vec<String>,
-    /// Others of the same part, the oldest first, each held against this one.
+    /// Re-inspections of the same part, oldest first, each compared with this one.
     below: Vec<BelowLine<'a>>,
-    /// As it was written when it was inspected.
+    /// The line written at the inspection.
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     again: Option<again::AgainLine>,
 }
 
-/// An inspection of the same part, as `--json` writes it.
+/// A re-inspection of the same part, as `--json` writes it.
 #[derive(Serialize)]
 struct BelowLine<'a> {
     #[serde(flatten)]
@@ -128,7 +128,7 @@ struct BelowLine<'a> {
     differs: again::AgainLine,
 }
 
-/// What differs between an inspection and another one of the same part.
+/// Compares an inspection with another one of the same part.
 fn differences(record: &Record, other: &Record) -> Differences {
     Differences::between(
         InspectionSummary::from(record),

@@ -1,4 +1,4 @@
-//! The parts that hang before a followed source one after the other: an inspection of each is kept and published.
+//! The parts that hang in front of a followed source one after the other: one inspection of each is kept and published.
 
 use std::{sync::Arc, time::Duration};
 
@@ -14,13 +14,13 @@ use crate::{
     stages::{field_of_view::FieldOfView, scene::SceneCloud},
 };
 
-/// Tells them apart.
+/// Tells successive parts apart.
 pub(in crate::cli) struct FollowedParts<E = NewEntry> {
     tracker: LiveTracker,
     rows: HungRows<E>,
 }
 
-/// A frame as it was inspected by itself.
+/// A frame and its own inspection.
 pub(in crate::cli) struct FollowedFrame<'a> {
     pub(in crate::cli) scene: &'a Arc<SceneCloud>,
     pub(in crate::cli) taken_at: Timestamp,
@@ -30,7 +30,7 @@ pub(in crate::cli) struct FollowedFrame<'a> {
 }
 
 impl<E> FollowedParts<E> {
-    /// Before the first frame.
+    /// Creates the state before the first frame.
     pub(in crate::cli) fn new() -> Self {
         Self {
             tracker: LiveTracker::new(&LiveParams::default()),
@@ -38,13 +38,13 @@ impl<E> FollowedParts<E> {
         }
     }
 
-    /// What the frames so far showed of the camera's field of view.
+    /// Returns the camera's field of view as far as the frames have shown it.
     pub(in crate::cli) fn known_view(&self) -> Option<Arc<FieldOfView>> {
         self.tracker.known_view()
     }
 
-    /// Takes in a frame; what is to be written now. The verdict that counts is one of several frames; of a part that
-    /// leaves before one does, the frame that shows it best speaks, as it was told.
+    /// Takes in a frame, and returns what to write now. The verdict that counts is formed from several frames; for a
+    /// part that leaves before, the frame that shows it best is used with its own verdict.
     pub(in crate::cli) fn take(
         &mut self,
         frame: &FollowedFrame<'_>,
@@ -63,7 +63,7 @@ impl<E> FollowedParts<E> {
             inspection: &inspection,
             verdict: &verdict,
             middle: frame.middle,
-            // Neither changes from frame to frame.
+            // Recipe and library do not change between frames.
             inputs: "",
         });
         let id = self.rows.id().clone();
@@ -79,7 +79,7 @@ impl<E> FollowedParts<E> {
         [left, now]
     }
 
-    /// The source has ended; what is to be written yet.
+    /// Ends the source. Returns what is still to be written.
     pub(in crate::cli) fn end(mut self) -> Option<E> {
         self.rows.end()
     }

@@ -1,4 +1,4 @@
-//! `partsight inspect --program`: the part's spray path as a program for the robot's controller.
+//! `partsight inspect --program`: writes the part's spray path as a program for the robot's controller.
 
 use std::path::{Path, PathBuf};
 
@@ -34,21 +34,21 @@ pub(super) struct ProgramChoice {
     options: ProgramOptions,
 }
 
-/// A program that is to be written for the part in a capture.
+/// A program to write for the part in a capture.
 pub(super) struct CapturedProgram {
     file: ProgramFile,
     place: LibraryPlace,
-    /// Name and whether it is simulated, in the order of the library's references.
+    /// Name of each reference of the library, and whether it is simulated.
     parts: Vec<(PartName, bool)>,
 }
 
 impl ProgramChoice {
-    /// True if a program is asked for.
+    /// Returns whether a program is requested.
     pub(super) fn is_wanted(&self) -> bool {
         self.program.is_some()
     }
 
-    /// What is to be written, if that can be.
+    /// Prepares writing the program, if it is requested and possible.
     pub(super) fn start(
         &self,
         files: &[PathBuf],
@@ -59,7 +59,7 @@ impl ProgramChoice {
         let Some(file) = &self.program else {
             return Ok(None);
         };
-        // Whatever comes of this capture, no robot may run an earlier program for it.
+        // Whatever this capture yields, no robot may run an earlier program for it.
         remove_previous_program(file).advised()?;
         check_placed_part("--program", files, frame)?;
         Ok(Some(CapturedProgram {
@@ -71,7 +71,7 @@ impl ProgramChoice {
 }
 
 impl CapturedProgram {
-    /// Carries the path and writes the program, unless something speaks against it.
+    /// Carries the path and writes the program, unless there is a reason against it.
     pub(super) fn write(
         &self,
         seen: &SprayResult<'_>,
@@ -89,7 +89,7 @@ impl CapturedProgram {
         };
         let (name, is_simulated) = &self.parts[first.reference];
         let Some(path) = self.place.spray_path(name.as_str()).advised()? else {
-            // What it is nearest to need not have one.
+            // A part that was only the nearest need not have a path.
             if !inspection.verdict.is_accepted() {
                 console.note(&"no program was written: the part was not accepted");
                 return Ok(Outcome::NotAccepted);

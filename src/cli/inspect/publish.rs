@@ -1,4 +1,5 @@
-//! What `inspect --source --mqtt` publishes: of each part what the history keeps of it, and how the camera is.
+//! What `inspect --source --mqtt` publishes: the inspection of each part that the history keeps, and the camera's
+//! status.
 
 use crate::{
     capture::{Captured, FeedState, SkippedCapture, SourceSpec},
@@ -20,7 +21,7 @@ use crate::{
 
 use super::InspectArgs;
 
-/// Refuses options that would be passed over.
+/// Refuses options that would be ignored.
 pub(super) fn check(args: &InspectArgs) -> anyhow::Result<()> {
     let is_wanted = args.mqtt.is_wanted();
     if is_wanted && args.source.is_none() {
@@ -38,14 +39,14 @@ pub(super) fn check(args: &InspectArgs) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A broker, and in which numbers it is told of what was found.
+/// A broker, and the form of the published results.
 pub(super) struct ChosenPublisher {
     broker: ChosenBroker,
     finder: PartFinder,
 }
 
 impl ChosenPublisher {
-    /// The one that was chosen, if one was.
+    /// Returns the chosen publisher, if any.
     pub(super) fn of(
         args: &InspectArgs,
         place: &LibraryPlace,
@@ -70,7 +71,7 @@ impl ChosenPublisher {
         Ok(Some(Self { broker, finder }))
     }
 
-    /// Connects, without waiting for the broker.
+    /// Connects without waiting for the broker.
     pub(super) fn start(
         self,
         source: &SourceSpec,
@@ -99,19 +100,19 @@ pub(super) struct Publisher {
     recorder: InspectionRecorder,
     new_frame: NewFrame,
     camera: CameraStatus,
-    /// Of the frame that is being inspected.
+    /// Origin of the frame that is being inspected.
     origin: Option<FrameOrigin>,
 }
 
 impl Publisher {
-    /// Publishes how the source is, if that is new, and shows what happened to the connection.
+    /// Publishes changes of the camera's status, and shows events of the connection.
     pub(super) fn look(&mut self, state: &FeedState, console: &Console) {
         self.camera = state.into();
         self.link.set_camera(self.camera.clone());
         show_news(&self.link, console);
     }
 
-    /// This frame is inspected next.
+    /// Sets the frame that is inspected next.
     pub(super) fn begin(&mut self, captured: &Captured) {
         self.origin = Some(FrameOrigin {
             captured: self.new_frame.captured_at(captured),
@@ -119,7 +120,7 @@ impl Publisher {
         });
     }
 
-    /// What an inspection of that frame came to.
+    /// Returns the result of inspecting that frame.
     pub(super) fn found(&self, inspection: &Inspection, recipe: &Recipe) -> Option<Found> {
         let origin = self.origin?;
         Some(self.finder.found(inspection, recipe, origin))
@@ -140,12 +141,12 @@ impl Publisher {
         self.publish(Found::error(Trouble::of(why.reason(), &why)));
     }
 
-    /// Publishes that the program itself failed at a frame.
+    /// Publishes that the program failed at a frame.
     pub(super) fn failed(&mut self, fault: &Fault) {
         self.publish(Found::error(Trouble::of("fault", fault)));
     }
 
-    /// Sends what waits, for a few seconds at most, and takes leave of the broker.
+    /// Sends what is queued, for a few seconds at most, and disconnects.
     pub(super) fn end(self, console: &Console) {
         show_news(&self.link, console);
         end_link(self.link, console);

@@ -1,4 +1,4 @@
-//! `partsight inspect --scan`: one verdict on several frames.
+//! `partsight inspect --scan`: one verdict from several frames.
 
 use super::InspectArgs;
 use crate::{
@@ -42,7 +42,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
     } = run_scan(&scan, &load.library, &recipe, &Unwatched)?;
     let first = &scan.shots[first];
     let (frames, used) = (scan.shots.len(), scan.used().count());
-    // The poses of the scan say where that camera was.
+    // The poses of the scan contain the pose of that camera.
     let robot = RobotFrame {
         robot_from_camera: first.base_from_camera,
         name: "the poses of the scan".into(),
@@ -76,7 +76,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
         show_recipe(&recipe, console);
         show_in_robot(&robot, &inspection, &load.library, console);
     }
-    // Last: it must not keep anybody from the verdict.
+    // Last, so that the verdict does not wait for it.
     if let Some(mut recording) = recording {
         let taken = SceneOrigin {
             scene: &scene,

@@ -1,4 +1,4 @@
-//! `partsight inspect --spray`: the part's spray path for the robot.
+//! `partsight inspect --spray`: writes the part's spray path for the robot.
 
 use std::path::PathBuf;
 
@@ -32,16 +32,16 @@ pub(super) struct SprayChoice {
     spray_as: Convention,
 }
 
-/// A spray path that is to be written.
+/// A spray path to write.
 pub(super) struct SprayFile {
     file: PathBuf,
     convention: Convention,
     place: LibraryPlace,
-    /// Name and whether it is simulated, in the order of the library's references.
+    /// Name of each reference of the library, and whether it is simulated.
     parts: Vec<(PartName, bool)>,
 }
 
-/// What was found.
+/// The inspection whose part the path is carried to.
 pub(super) struct SprayResult<'a> {
     pub(super) scene: &'a str,
     pub(super) inspection: &'a Inspection,
@@ -50,7 +50,7 @@ pub(super) struct SprayResult<'a> {
 }
 
 impl SprayChoice {
-    /// What is to be written, if that can be.
+    /// Prepares writing the path, if it is requested and possible.
     pub(super) fn start(
         &self,
         files: &[PathBuf],
@@ -61,7 +61,7 @@ impl SprayChoice {
         let Some(file) = &self.spray else {
             return Ok(None);
         };
-        // Whatever comes of this capture, an earlier path must not be taken for its.
+        // Whatever this capture yields, an earlier path must not be mistaken for its own.
         remove_previous_export(file).advised()?;
         check_placed_part("--spray", files, frame)?;
         Ok(Some(SprayFile {
@@ -73,7 +73,7 @@ impl SprayChoice {
     }
 }
 
-/// Refuses an option that writes a carried path where there is more than one part, or no calibration.
+/// Refuses an option that writes a carried path if there are several captures or no calibration.
 pub(super) fn check_placed_part(
     option: &str,
     files: &[PathBuf],
@@ -94,7 +94,7 @@ pub(super) fn check_placed_part(
     Ok(())
 }
 
-/// Name and whether it is simulated, in the order of the library's references.
+/// Returns the name of each reference of the library, and whether it is simulated.
 pub(super) fn names_of(load: &LibraryLoad) -> Vec<(PartName, bool)> {
     let parts = load.parts.iter();
     parts
@@ -103,7 +103,7 @@ pub(super) fn names_of(load: &LibraryLoad) -> Vec<(PartName, bool)> {
 }
 
 impl SprayFile {
-    /// Carries the path and writes it; a part that is not accepted has none.
+    /// Carries the path and writes it; nothing is written for a part that was not accepted.
     pub(super) fn write(
         &self,
         seen: &SprayResult<'_>,

@@ -1,4 +1,4 @@
-//! `partsight library path`: the nozzle's path over a part.
+//! `partsight library path`: stores, shows and removes the spray path of a part.
 
 use std::path::PathBuf;
 
@@ -83,7 +83,8 @@ pub(super) fn run(
     Ok(Outcome::Accepted)
 }
 
-/// Says how the path lies over the part as it was enrolled, and counts the points with the part before them.
+/// Shows how the path lies over the part as it was enrolled, and returns how many points have a surface in front of
+/// them.
 fn tell(name: &PartName, path: &SprayPath, reference: &Reference, console: &mut Console) -> usize {
     let params = StandOffParams::default();
     let bands = against_reference(path, reference, &params);

@@ -1,4 +1,4 @@
-//! `partsight path check`: whether an arm reaches a part's path in its standard position.
+//! `partsight path check`: checks that an arm reaches a part's path in its standard position.
 
 use clap::Args;
 use serde_json::json;
@@ -95,7 +95,7 @@ pub(super) fn run(
     let (num, all) = (found.num_reached(), points.len());
     let (mut base, mut rail) = (None, None);
     if num < all {
-        // The console says that the command is at work, and Ctrl C ends it.
+        // No progress display: the console shows that the command is working, and Ctrl-C ends it.
         let (progress, is_cancelled) = (|_, _| {}, || false);
         rail = suggest_rail(&placed, &points, &params, num, &progress, &is_cancelled).advised()?;
         base = suggest_base(&placed, &points, &params, num, &progress, &is_cancelled).advised()?;
@@ -137,7 +137,7 @@ pub(super) fn run(
     })
 }
 
-/// What was found in words, and the better places of base and rail.
+/// Shows the result in words, and the better positions of base and rail.
 fn show(
     placed: &PlacedArm,
     found: &PathCheck,

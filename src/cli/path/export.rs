@@ -1,4 +1,5 @@
-//! `partsight path export`: the stored path of a part in its standard position as a program for the robot's controller.
+//! `partsight path export`: writes the stored path of a part in its standard position as a program for the robot's
+//! controller.
 
 use std::path::PathBuf;
 
@@ -43,7 +44,7 @@ pub(super) fn run(
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let name = &args.part;
-    // Whatever comes of this, no robot may run an earlier program for it.
+    // Whatever happens next, no robot may run an earlier program for this one.
     remove_previous_program(&args.output).advised()?;
     let Some(frame) = args.calibration.frame(console)? else {
         return Err(advised_error(
@@ -61,7 +62,7 @@ pub(super) fn run(
     };
     let part = place.read(name.as_str(), &ReferenceParams::default());
     let part = part.advised()?.advised()?;
-    // The camera's frame at the moment of enrolling is the part's.
+    // In the standard position, part space is the camera frame.
     let standard = RigidTransform::identity();
     let params = StandOffParams::default();
     let carried = carry(&path, &standard, &part.reference.cloud, &params);

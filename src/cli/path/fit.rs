@@ -1,4 +1,4 @@
-//! `partsight path fit`: a gun by a measured stripe.
+//! `partsight path fit`: fits a gun to a measured stripe.
 
 use std::path::PathBuf;
 

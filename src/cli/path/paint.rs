@@ -1,4 +1,4 @@
-//! `partsight path plan` and `path simulate`: a path over an enrolled part, and the film that it leaves.
+//! `partsight path plan` and `path simulate`: a path over an enrolled part, and the resulting film.
 
 use std::path::PathBuf;
 
@@ -97,7 +97,7 @@ fn parse_sphere(text: &str) -> Result<KeepOut, String> {
     })
 }
 
-/// 1 if a tenth of what the gun can face is not within the tolerance.
+/// Smallest share of the reachable surface within the tolerance for exit code 0.
 const GOOD_ENOUGH: f64 = 0.9;
 
 pub(super) fn run_plan(

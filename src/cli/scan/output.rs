@@ -1,4 +1,4 @@
-//! How a scan is shown: a table of its frames, or one line of JSON.
+//! Output of a scan: a table of its frames, or one line of JSON.
 
 use serde::Serialize;
 
@@ -9,7 +9,7 @@ use crate::{
     scan::{Excluded, FusedCloud, Overlap, Scan, ScannedShot},
 };
 
-/// The line of `scan --json`; metres and radians.
+/// JSON line of `scan --json`; metres and radians.
 #[derive(Debug, Serialize)]
 pub(super) struct ScanLine<'a> {
     schema: u32,
@@ -17,7 +17,7 @@ pub(super) struct ScanLine<'a> {
     frames: Vec<FrameLine<'a>>,
     before: Option<OverlapLine>,
     after: Option<OverlapLine>,
-    /// The same on the part alone.
+    /// As `before` and `after`, on the part only.
     part_before: Option<OverlapLine>,
     part_after: Option<OverlapLine>,
     num_points: usize,
@@ -28,7 +28,7 @@ pub(super) struct ScanLine<'a> {
 struct FrameLine<'a> {
     frame: &'a str,
     used: bool,
-    /// Why it was left out, as a word and in words.
+    /// Why the frame was left out, as an identifier and in words.
     excluded: Option<&'static str>,
     reason: Option<String>,
     moved_m: f64,
@@ -39,7 +39,7 @@ struct FrameLine<'a> {
     base_from_camera: [f64; 16],
 }
 
-/// Distances along the normals between readings that two frames have of one surface.
+/// Distances along the normals between readings of the same surface in two frames.
 #[derive(Debug, Serialize)]
 struct OverlapLine {
     rms_m: f64,
@@ -90,7 +90,7 @@ impl<'a> FrameLine<'a> {
     }
 }
 
-/// The frames, how they agree, and what came of them.
+/// Shows the frames, their agreement and the resulting cloud.
 pub(super) fn show(scan: &Scan, part: &FusedCloud, console: &mut Console) {
     let mut table = Table::new(&[
         "FRAME",

@@ -1,4 +1,4 @@
-//! The frames of a scan with their poses, put together.
+//! Reading the frames and poses of a scan, and fusing them.
 
 use std::{ops::ControlFlow, path::PathBuf};
 
@@ -13,7 +13,7 @@ use crate::{
     stages::segment::SegmentParams,
 };
 
-/// Reads frames with their poses and puts them together, each segmented by these parameters; warns of what is left out.
+/// Reads frames with their poses and fuses them, each segmented with these parameters; warns of frames left out.
 pub(in crate::cli) fn open_scan(
     paths: &[PathBuf],
     given: &PosesChoice,

@@ -1,4 +1,4 @@
-//! The options of `partsight serve` for HTTP.
+//! HTTP options of `partsight serve`.
 
 use std::{net::SocketAddr, path::PathBuf};
 
@@ -33,7 +33,7 @@ fn parse_http(text: &str) -> Result<SocketAddr, String> {
 }
 
 impl HttpArgs {
-    /// What was chosen, if HTTP was; reads the files.
+    /// Returns the HTTP settings, if HTTP is requested; reads the files.
     pub(super) fn settings(
         &self,
         convention: Option<Convention>,
@@ -57,7 +57,7 @@ impl HttpArgs {
     }
 }
 
-/// Serves HTTP, if it was chosen, and says where.
+/// Serves HTTP, if requested, and shows its address.
 pub(super) fn start(
     settings: Option<HttpSettings>,
     server: ServerHandle,

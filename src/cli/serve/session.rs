@@ -1,4 +1,4 @@
-//! The inspections of `partsight serve`: frames taken, inspected, shown and kept.
+//! The inspections of `partsight serve`: takes, inspects, shows and records frames.
 
 use std::{
     ops::ControlFlow,
@@ -46,7 +46,7 @@ pub(super) struct ServeSession<'a> {
     pub(super) finder: PartFinder,
     pub(super) trace: Traceability,
     pub(super) empty_cell: Option<Arc<EmptyCell>>,
-    /// What the frames so far showed of the camera's field of view.
+    /// The camera's field of view as far as the frames have shown it.
     pub(super) known_view: Option<Arc<FieldOfView>>,
     pub(super) source: String,
     pub(super) frame_timeout: Duration,
@@ -54,28 +54,28 @@ pub(super) struct ServeSession<'a> {
     pub(super) recording: Option<HistoryRecorder>,
     pub(super) mirrored: MirrorTally,
     pub(super) console: &'a mut Console,
-    /// The inspection whose answer is on its way.
+    /// The inspection that is being answered.
     pub(super) last: Option<InspectedFrame>,
-    /// Warnings about the source that were shown.
+    /// Warnings about the source that were already shown.
     pub(super) told: Vec<CaptureWarning>,
-    /// Why the camera gives nothing, as it was shown.
+    /// The error of the camera that was shown last.
     pub(super) trouble: Option<String>,
-    /// True once frames came.
+    /// True once the camera has run.
     pub(super) has_run: bool,
-    /// Why the service cannot go on.
+    /// Why the service must end.
     pub(super) failure: Option<anyhow::Error>,
     pub(super) num_inspected: u64,
     #[cfg(feature = "plant")]
     pub(super) mqtt: Option<MqttLink>,
 }
 
-/// An inspection that is to be shown and kept.
+/// An inspection to show and record.
 pub(super) struct InspectedFrame {
     name: String,
     is_simulated: bool,
     scene: Arc<SceneCloud>,
     inspection: Inspection,
-    /// The line of JSON.
+    /// JSON line of the inspection.
     line: String,
 }
 
@@ -177,7 +177,7 @@ impl ServeSession<'_> {
         }
     }
 
-    /// Shows an inspection and hands it to the history.
+    /// Shows an inspection and adds it to the history.
     fn show(&mut self, last: &InspectedFrame) {
         let InspectedFrame {
             name,
@@ -199,14 +199,14 @@ impl ServeSession<'_> {
                 source: &self.source,
                 is_simulated: *is_simulated,
             };
-            // Nobody but who asks knows whether it is the same part again.
+            // Only the client knows whether it is the same part again.
             let entry = recording.entry(taken, scene, inspection, line, HungId::new());
             recording.add(entry, self.console);
         }
     }
 
-    /// Says once for each cause that the camera gives nothing, and that it is there again. One that never gave a frame
-    /// and cannot be used ends the service.
+    /// Reports each cause of a missing camera once, and when the camera is back. A camera that fails before it ever ran
+    /// ends the service.
     fn look_at_camera(&mut self) {
         let (error, is_failed) = match self.camera.feed_status().state {
             FeedState::Running => {
@@ -231,13 +231,13 @@ impl ServeSession<'_> {
         }
     }
 
-    /// Writes what is left to write; why the service could not go on, if it could not.
+    /// Writes what is left. Returns why the service had to end, if it had to.
     pub(super) fn finish(self) -> anyhow::Result<Outcome> {
         let console = self.console;
         if let Some(suspicion) = self.mirrored.suspicion() {
             console.warn(&suspicion, &suspicion);
         }
-        // First, because the broker may be waited for.
+        // Before the MQTT link, which may wait for the broker.
         if let Some(recording) = self.recording {
             recording.finish(console);
         }

@@ -1,4 +1,4 @@
-//! `partsight simulate --cases DIR`: frames with their truth, as a folder of cases for `partsight evaluate`.
+//! `partsight simulate --cases DIR`: writes frames with their truth as cases for `partsight evaluate`.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ use crate::{
     stages::scene::scene_from_frame,
 };
 
-/// Writes `--num` cases: subjects take turns, then placements, and every frame has a seed of its own.
+/// Writes `--num` cases that cycle through the objects, then through the placements, each with its own seed.
 pub(super) fn run(
     folder: &Path,
     args: &SimulateArgs,
@@ -66,11 +66,11 @@ fn name_of(subject: SimulatedObject) -> &'static str {
     }
 }
 
-/// What is known of a frame, held against the shipped parts: those are what a newcomer has.
+/// Describes a frame in terms of the shipped parts, since those are in every new library.
 fn about(shot: &SimulatedFrame, origin: String, difficulty: String) -> CaseDescription {
     let truth = &shot.truth;
     let enrolled_at = match truth.subject {
-        // Left ones are shipped where there are sides.
+        // Where there are two sides, the left part is shipped.
         SimulatedObject::Part { kind, side, .. } if side == Side::Left || !kind.is_sided() => {
             shipped_enrolled_at(kind.name())
         }
@@ -83,13 +83,13 @@ fn about(shot: &SimulatedFrame, origin: String, difficulty: String) -> CaseDescr
         }
         SimulatedObject::Part { .. } | SimulatedObject::Object(_) => Truth::NotEnrolled,
     };
-    // What hangs of another model of the car is not where the enrolled part would be, only about there.
+    // A part of another car model hangs only about where the enrolled one would be.
     let is_same_model = matches!(truth.subject, SimulatedObject::Part { model_seed: 0, .. });
     let enrolled_at = enrolled_at.filter(|_| is_same_model);
     CaseDescription {
         origin,
         simulated: true,
-        // Not now: the same arguments give the same files.
+        // A fixed time, so that the same arguments give the same files.
         kept_at: Timestamp::UNIX_EPOCH,
         remark: match truth.subject {
             SimulatedObject::Nothing => String::new(),
@@ -97,7 +97,7 @@ fn about(shot: &SimulatedFrame, origin: String, difficulty: String) -> CaseDescr
         },
         difficulty: Some(difficulty),
         truth: is,
-        // Nobody has looked yet.
+        // Not inspected yet.
         found: FoundVerdict::default(),
         pose: enrolled_at.map(|at| TruePose {
             camera_from_part: truth.camera_from_part * at.part_from_model.inverse(),

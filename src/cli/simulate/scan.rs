@@ -1,4 +1,5 @@
-//! `partsight simulate --scan DIR`: frames of one part from several sides, with the poses that a robot would tell.
+//! `partsight simulate --scan DIR`: writes frames of one part from several sides, with the poses that a robot would
+//! report.
 
 use std::path::Path;
 
@@ -17,7 +18,7 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// A robot's poses are off the truth by about this.
+/// Typical errors of the poses that a robot reports.
 const PLACE_ERROR: Metres = Metres(0.003);
 const TURN_ERROR: Radians = Radians(0.005);
 

@@ -1,4 +1,4 @@
-//! What waits in memory while the disk says no.
+//! Inspections waiting in memory while the disk cannot be written.
 
 use std::fs;
 
@@ -53,7 +53,7 @@ fn without_a_folder_everything_is_kept_in_memory_and_nothing_is_wrong() {
         keeper.page(&filter, 0, 10).expect("asked").rows[0].number,
         -2
     );
-    // The scenes of the newest wait too.
+    // The scenes of the newest inspections are kept too.
     let scene = |number| {
         keeper
             .lock()
@@ -169,7 +169,7 @@ fn a_file_that_breaks_while_it_is_open_is_set_aside_and_writing_goes_on() {
     }
     assert_eq!(numbers(&keeper), [5, 4, 3, 2, 1]);
     keeper.take_news();
-    // The pages of the tables, in the file, in its log and in memory.
+    // Pages of the tables in the file, in the log and in memory.
     let inner = keeper.lock();
     let file = &inner.history.as_ref().expect("open").file;
     file.execute_batch("PRAGMA shrink_memory")
@@ -218,7 +218,7 @@ fn a_label_goes_to_the_row_that_stands_for_the_part_whether_it_waits_or_is_writt
     let row = |number| keeper.row(number).expect("asked").expect("there").summary;
     assert_eq!((row(2).label, row(2).remark), (Some(fender), bent()));
     let other = Truth::NotEnrolled;
-    // A remark that stands there stays.
+    // An existing remark is kept.
     assert_eq!(label(&other, "painted"), (2, Some(other), bent()));
     assert_eq!((row(1).label, row(3).label), (None, None));
     let unknown = keeper.label_part(&HungId::new(), &Truth::Nothing, "");

@@ -1,4 +1,4 @@
-//! What opening makes of files that are not as they should be.
+//! Opening files that are damaged, foreign or of another version.
 
 use std::io::{Seek as _, SeekFrom, Write as _};
 
@@ -9,7 +9,7 @@ use crate::{
     kit::{history_entry, new_history, open_history},
 };
 
-/// A closed history with so many inspections.
+/// Creates a closed history with `num` inspections.
 fn closed(num: i64) -> tempfile::TempDir {
     let (folder, mut history) = new_history();
     let retention = Retention {
@@ -61,7 +61,7 @@ fn a_damaged_file_is_set_aside_with_its_frames_and_a_new_one_begun() {
         let frames = with_ending(&set_aside.aside, "-frames");
         assert_eq!(fs::read_dir(frames).expect("kept").count(), 41);
         drop(opened.history);
-        // It is said once: the new one is sound.
+        // Reported only once, since the new file is intact.
         assert_eq!(num_rows(&open_history(folder.path())), 0);
     }
 }
@@ -123,7 +123,7 @@ fn a_history_that_lacks_a_table_or_an_index_is_set_aside() {
         ("TABLE detail", VERSION),
         ("TABLE inspection", VERSION),
         ("INDEX listed", VERSION),
-        // The step to the next version changes it.
+        // The migration to the next version changes this table.
         ("TABLE detail", 2),
     ] {
         let folder = closed(3);
@@ -182,7 +182,7 @@ fn a_newer_file_whose_version_is_still_in_its_log_is_left_as_it_is_too() {
     other
         .pragma_update(None, "user_version", VERSION + 1)
         .expect("set");
-    // Still open: its log is not written back.
+    // The file is still open, so its log is not written back.
     let (bytes, log) = (
         fs::read(&path).expect("there"),
         fs::read(with_ending(&path, "-wal")).expect("there"),

@@ -1,4 +1,4 @@
-//! The cloud of a part that is enrolled: thinned, with normals, and from which sides it was seen.
+//! The cloud of an enrolled part: thinning, normals and coverage.
 
 use nalgebra::{Point3, Vector3};
 
@@ -9,7 +9,7 @@ use crate::{
     units::Metres,
 };
 
-/// The cloud thinned to at most the allowed points, and the cube that did it.
+/// Thins the cloud to at most the allowed number of points. Also returns the voxel used.
 pub(super) fn thinned(cloud: &PointCloud, params: &EnrolParams) -> (PointCloud, Metres) {
     let mut voxel = params.voxel;
     loop {
@@ -18,12 +18,12 @@ pub(super) fn thinned(cloud: &PointCloud, params: &EnrolParams) -> (PointCloud, 
         if excess <= 1.0 {
             return (thin, voxel);
         }
-        // A surface's cubes grow fewer with the square of their edge.
+        // The number of voxels on a surface falls with the square of their edge.
         voxel = Metres(voxel.0 * excess.sqrt().max(1.02));
     }
 }
 
-/// Three cubes, or three times the distance between points where the cloud is sparser than that.
+/// Estimates normals over three voxels, or over three times the point spacing where the cloud is sparser.
 pub(super) fn normals_towards(
     cloud: &PointCloud,
     voxel: Metres,
@@ -34,7 +34,7 @@ pub(super) fn normals_towards(
     estimate_normals(&cloud.points, &tree, radius, viewpoint)
 }
 
-/// The median distance of a point to the next, metres, measured on about a hundred of them.
+/// Returns the median distance of a point to its nearest neighbour, metres, from about a hundred points.
 fn spacing(points: &[Point3<f32>]) -> f64 {
     let step = (points.len() / 100).max(1);
     let mut distances: Vec<f32> = points
@@ -54,7 +54,7 @@ fn spacing(points: &[Point3<f32>]) -> f64 {
         .map_or(0.0, |&d| f64::from(d).sqrt())
 }
 
-/// The finite points, with normals only if every one of them has a usable one.
+/// Returns the finite points, with normals only if all of them are usable.
 pub(super) fn finite_only(cloud: &PointCloud) -> PointCloud {
     let usable = |n: &Vector3<f32>| n.norm().is_finite() && n.norm() > 0.1;
     let normals = cloud.normals.as_ref().and_then(|normals| {
@@ -70,9 +70,9 @@ pub(super) fn finite_only(cloud: &PointCloud) -> PointCloud {
     }
 }
 
-/// Nearer than this nothing is captured, metres.
+/// Minimum distance of a captured point from the camera, metres.
 const NEAREST: f32 = 0.1;
-/// Share of the normals that must look at the camera; edges of a capture may be off.
+/// Share of the normals that must face the camera; those at edges of a capture may be off.
 const FACING_SHARE: f64 = 0.98;
 
 pub(super) fn coverage_of(cloud: &PointCloud) -> Coverage {

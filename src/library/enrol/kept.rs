@@ -1,4 +1,4 @@
-//! What is odd about the points that a person kept.
+//! Signs that selected points do not all belong to the part.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use crate::stages::{
     segment::{PointLabel, SegmentParams, segment},
 };
 
-/// Share of these points, by their places in the scene, that segmentation takes for background.
+/// Returns the share of the points with these indices that segmentation labels as background.
 pub(super) fn share_on_background(
     scene: &SceneCloud,
     indices: &[u32],
@@ -20,12 +20,12 @@ pub(super) fn share_on_background(
     indices.iter().filter(is_background).count() as f64 / indices.len().max(1) as f64
 }
 
-/// Edge of the cubes that hold one piece together, metres. Pieces that are hidden from each other by a bar of a stand, or
-/// parted by an opening's edge, stay one; a gap of two cubes parts them.
+/// Edge of the cubes that connect points, metres. Pieces that are separated by a bar of a stand or the edge of an
+/// opening stay connected; a gap of two cubes separates them.
 const CUBE: f32 = 0.06;
 
-/// Share of the points that are not in the largest piece. Points are of one piece where cubes that touch, at a face, an
-/// edge or a corner, hold them.
+/// Returns the share of the points outside the largest piece. Points belong to one piece if their cubes are connected
+/// by faces, edges or corners.
 pub(super) fn share_apart(points: &[Point3<f32>]) -> f64 {
     let cube_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / CUBE).floor() as i32);
     let mut cubes: BTreeMap<[i32; 3], usize> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Whether a part's shape fixes its pose: the reference is looked for in its own standard view.
+//! Whether a part's shape fixes its pose, tested by confirming the reference in its own standard view.
 
 use crate::{
     library::EnrolWarning,
@@ -11,10 +11,10 @@ use crate::{
     },
 };
 
-/// A lead over another pose below which an inspection refuses the pose.
+/// Margin over another pose below which an inspection rejects the pose.
 const LEAST_LEAD: f64 = 0.05;
 
-/// What an inspection of the part, seen whole and without noise, would find wrong with its pose.
+/// Returns what an inspection of the whole part without noise would find wrong with its pose.
 pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<EnrolWarning> {
     let view = reference.views.first()?;
     let (_, seen) = seen_around(&reference.cloud, coverage).into_iter().next()?;

@@ -1,4 +1,4 @@
-//! What may be odd about an enrolled part, and why nothing could be enrolled.
+//! Warnings about an enrolled part, and errors of enrolling.
 
 use crate::{
     error::Advice,
@@ -9,27 +9,27 @@ use crate::{
     },
 };
 
-/// Something odd about an enrolled part.
+/// A warning about an enrolled part.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum EnrolWarning {
     /// The part reaches the border of the field of view.
     #[error("the part reaches the border of the view, so some of it may be missing")]
     TouchesEdge,
-    /// What a person chose may be background.
+    /// The chosen surface may be background.
     #[error("this may be background: {0}")]
     Background(BackgroundSign),
-    /// Some of what a person kept lies on a plane that was removed.
+    /// Some of the selected points lie on a plane that segmentation removed.
     #[error(
         "{percent} % of what is kept lies on the wall, the floor or another plane that was removed"
     )]
     OnBackground {
-        /// Share of the points kept, rounded.
+        /// Share of the selected points, rounded.
         percent: u8,
     },
-    /// What a person kept is in pieces that do not touch.
+    /// The selected points are in separate pieces.
     #[error("{percent} % of what is kept lies apart from the rest")]
     Apart {
-        /// Share of the points kept that are not in the largest piece, rounded.
+        /// Share of the selected points outside the largest piece, rounded.
         percent: u8,
     },
     /// The shape does not fix the pose.
@@ -40,10 +40,10 @@ pub enum EnrolWarning {
         "the part looks the same turned by {degrees}°, so its pose cannot be told from that one"
     )]
     Symmetric {
-        /// Between the two poses, rounded.
+        /// Angle between the two poses, rounded.
         degrees: u16,
     },
-    /// The surface of a scan goes on where no frame looked.
+    /// The surface of a scan continues beyond the view of every frame.
     #[error(
         "{percent} % of the scanned surface's outline is where the view of every frame ends: the part may go on there"
     )]
@@ -76,52 +76,52 @@ impl Advice for EnrolWarning {
     }
 }
 
-/// Why nothing could be enrolled.
+/// Why a part could not be enrolled.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum EnrolError {
-    /// No part in the scene.
+    /// There is no part in the scene.
     #[error(transparent)]
     NoPart(#[from] NoPart),
-    /// The surface that would be taken is more likely background.
+    /// The surface found is more likely background.
     #[error("the surface found may be background: {0}")]
     Background(BackgroundSign),
-    /// There are not that many surfaces.
+    /// There is no surface with this number.
     #[error("the scene has no surface {wanted}; {found} were found")]
     NoSuchSurface {
-        /// Number asked for, from 1.
+        /// The number asked for, from 1.
         wanted: usize,
-        /// Surfaces found.
+        /// Number of surfaces found.
         found: usize,
     },
-    /// The cloud is no reference.
+    /// The cloud cannot be used as a reference.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
-    /// Too few points.
+    /// The cloud has too few points.
     #[error("the cloud has {found} points, at least {needed} are needed")]
     TooFewPoints {
-        /// Finite points.
+        /// Number of finite points.
         found: usize,
-        /// Least number of points.
+        /// Minimum number of points.
         needed: usize,
     },
-    /// Too few points are left of what was corrected.
+    /// Too few points were selected.
     #[error("{found} points are kept, at least {needed} are needed")]
     TooFewKept {
-        /// Points kept.
+        /// Number of selected points.
         found: usize,
-        /// Least number of points.
+        /// Minimum number of points.
         needed: usize,
     },
     /// No frame of a scan shows a part.
     #[error("no part was found in any of the {num_frames} frames")]
     NoPartInScan {
-        /// Frames that were used.
+        /// Number of frames used.
         num_frames: usize,
     },
-    /// A mesh without a surface.
+    /// The mesh has no surface.
     #[error("the mesh of {num_triangles} triangles has no area")]
     NoArea {
-        /// Triangles of the mesh.
+        /// Number of triangles.
         num_triangles: usize,
     },
 }

@@ -11,7 +11,7 @@ use crate::{
     stages::reference::{Coverage, ViewCut},
 };
 
-/// Enrols the part that was scanned, in the camera's frame of the first shot that was used.
+/// Enrols the scanned part, in the camera frame of the first shot used.
 pub fn enrol_scan(
     scan: &Scan,
     about: &PartDescription,
@@ -43,7 +43,7 @@ pub fn enrol_scan(
     let (cloud, voxel) = thinned(&in_part_space, params);
     let source = ReferenceOrigin {
         coverage: Coverage::SeveralSides,
-        // What ends a view of one frame is seen in another.
+        // What one frame's view cuts off is visible in another.
         cut: ViewCut::default(),
         how: EnrolMethod::Scan,
         num_points,
@@ -59,5 +59,5 @@ pub fn enrol_scan(
     Ok(enrolled)
 }
 
-/// Shadows beside the part leave a few per cent of any outline unseen.
+/// Smallest share worth a warning, per cent: shadows next to the part leave a few per cent of any outline unseen.
 const WORTH_A_WARNING: u8 = 10;

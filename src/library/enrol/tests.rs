@@ -175,7 +175,7 @@ fn background_that_was_added_and_pieces_that_lie_apart_are_warned_of() {
         "{told:?}"
     );
 
-    // The middle third of its width dropped: two pieces of about the same size.
+    // Without the middle third of its width: two pieces of about the same size.
     let column = |i: &u32| scene.cloud.points[*i as usize].x;
     let (low, high) = part.cloud.bounds().expect("points");
     let width = high.x - low.x;
@@ -192,7 +192,7 @@ fn background_that_was_added_and_pieces_that_lie_apart_are_warned_of() {
     );
 }
 
-/// A flat sheet 1.3 m before the camera, a point every 5 mm.
+/// A flat sheet 1.3 m in front of the camera, with a point every 5 mm.
 fn sheet(is_inside: impl Fn(f32, f32) -> bool) -> PointCloud {
     let steps = || (-100..=100).map(|step| step as f32 * 0.005);
     let all = steps().flat_map(|y| steps().map(move |x| (x, y)));
@@ -213,7 +213,7 @@ fn a_shape_that_does_not_fix_the_pose_is_warned_of() {
     };
     let oblong = warnings(&sheet(|x, y| x.abs() < 0.4 && y.abs() < 0.25));
     assert_eq!(oblong, [EnrolWarning::Symmetric { degrees: 180 }]);
-    // It can be turned by any angle; which one is named does not matter.
+    // Any rotation fits; which one is named does not matter.
     let disc = warnings(&sheet(|x, y| x.hypot(y) < 0.3));
     assert!(
         matches!(

@@ -1,4 +1,4 @@
-//! Why a spray path cannot be read.
+//! Errors of reading a spray path.
 
 use std::path::PathBuf;
 
@@ -16,13 +16,13 @@ pub enum SprayPathError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// Nothing says what the numbers are.
+    /// There is no heading with the names of the columns.
     #[error("{}: no heading that names the columns", path.display())]
     NoHeading {
         /// The file.
         path: PathBuf,
     },
-    /// The heading does not name all that a point needs.
+    /// The heading lacks columns that every point needs.
     #[error("{}: the heading {found:?} does not name all columns of a path", path.display())]
     MissingColumns {
         /// The file.
@@ -30,85 +30,85 @@ pub enum SprayPathError {
         /// The heading.
         found: String,
     },
-    /// A line that is no point.
+    /// A line is not a valid point.
     #[error("{}, line {line}: {problem}", path.display())]
     Line {
         /// The file.
         path: PathBuf,
-        /// The line, from 1.
+        /// Line number, from 1.
         line: usize,
-        /// What is wrong with it.
+        /// The problem.
         problem: PathLineProblem,
     },
-    /// A heading and nothing else.
+    /// The file has a heading but no points.
     #[error("{}: the path has no points", path.display())]
     NoPoints {
         /// The file.
         path: PathBuf,
     },
-    /// More points than are read.
+    /// The path has too many points.
     #[error("{}: more than {MAX_PATH_POINTS} points", path.display())]
     TooMany {
         /// The file.
         path: PathBuf,
     },
-    /// The part cannot be looked at.
+    /// The part cannot be read.
     #[error(transparent)]
     Library(#[from] Box<LibraryError>),
-    /// The stored path is not the one that was stored.
+    /// The file is not the path that was stored.
     #[error("{}: the spray path is damaged or was changed: its checksum is {found}, part.toml says {expected}", path.display())]
     Changed {
         /// The file.
         path: PathBuf,
-        /// Its checksum.
+        /// Checksum of the file.
         found: String,
-        /// The one that was stored.
+        /// Checksum of the stored path.
         expected: String,
     },
 }
 
-/// What is wrong with one line.
+/// A problem of one line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PathLineProblem {
-    /// A word where a number is needed.
+    /// A cell is not a number.
     #[error("{:?} in column {column} is not a number", shortened(cell))]
     NoNumber {
-        /// The column, from 1.
+        /// Column number, from 1.
         column: usize,
-        /// What is there.
+        /// Content of the cell.
         cell: String,
     },
-    /// Fewer cells than the heading names.
+    /// The line has fewer cells than the heading names.
     #[error("fewer numbers than the heading names columns")]
     TooShort,
-    /// A position that no arm reaches.
+    /// The position is out of reach of any arm.
     #[error("{:.0} m from the part's origin", distance.0)]
     FarAway {
-        /// How far.
+        /// Distance from the part's origin.
         distance: Metres,
     },
-    /// A distance of the nozzle that is none.
+    /// The stand-off is not from 0 to 1 m.
     #[error("a stand-off of {distance}, expected 0 to 1000 mm")]
     StandOff {
-        /// What it says.
+        /// The value.
         distance: Metres,
     },
-    /// A mark of the gun that is neither 1 nor 0.
+    /// `gun_on` is neither 1 nor 0.
     #[error("{:?} under gun_on, expected 1 or 0", shortened(cell))]
     GunOn {
-        /// What is there.
+        /// Content of the cell.
         cell: String,
     },
-    /// A speed that is none, or that no robot reaches.
+    /// The speed is not positive, or faster than any robot.
     #[error("a speed of {:.0} mm/s, expected more than 0 and at most {:.0}", speed * 1000.0, MAX_SPEED * 1000.0)]
     Speed {
-        /// What it says, m/s.
+        /// The value, m/s.
         speed: f64,
     },
-    /// A long side of the fan that is not across the jet.
+    /// The fan's long side is not perpendicular to the direction.
     #[error("the fan's long side is not at right angles to the direction")]
     Fan,
-    /// A direction of no length.
+    /// The direction is zero.
     #[error("the direction has no length")]
     NoDirection,
 }

@@ -35,7 +35,7 @@ fn a_surface_point_is_a_nozzle_before_it() {
     assert!((first.nozzle - Point3::new(0.1, 0.2, 1.18)).norm() < 1e-12);
     assert!((first.direction.into_inner() - Vector3::z()).norm() < 1e-12);
     assert_eq!(first.stand_off, Some(Metres(0.12)));
-    // Nothing said: the middle of the band.
+    // Without a stand-off: the middle of the band.
     assert!((second.nozzle.z - 1.15).abs() < 1e-12);
 }
 
@@ -54,7 +54,7 @@ fn the_gun_and_its_speed_are_read_and_written() {
         state(&parse(&path.to_text()).expect("its own text")),
         expected
     );
-    // In metres, in a path over the surface; and a file without these columns sprays everywhere.
+    // In metres, in a path over the surface; a file without these columns sprays everywhere.
     let surface = "x_m,y_m,z_m,normal_x,normal_y,normal_z,speed_m_s,gun_on\n0,0,1,0,0,-1,0.4,0\n";
     let path = parse(surface).expect("a path");
     assert_eq!(state(&path), [(false, Some(0.4))]);

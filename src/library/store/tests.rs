@@ -9,7 +9,7 @@ use crate::{
     stages::reference::ReferenceParams,
 };
 
-/// An L-shaped plate before the camera; `width` in metres tells one from another.
+/// Creates an L-shaped plate in front of the camera; `width` in metres distinguishes one from another.
 fn part(name: &str, width: f32) -> Part {
     let across = (width / 0.005) as usize;
     let points = (0..across * 80).filter_map(|i| {
@@ -52,7 +52,7 @@ fn problem(load: &LibraryLoad) -> &EntryError {
     &load.problems[0].reason
 }
 
-/// A library with the parts `damaged` and `sound`, and the folder of the first.
+/// Creates a library with the parts `damaged` and `sound`; also returns the folder of the first.
 fn two_parts() -> (tempfile::TempDir, LibraryFolder, PathBuf) {
     let (guard, library) = library();
     library.save(&part("sound", 0.5)).expect("saved");
@@ -345,7 +345,7 @@ fn a_missing_folder_and_a_file_are_named_errors() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_folder_that_cannot_be_written_is_a_named_error() {
-    // Nobody, not even root, makes files there.
+    // Not even root can create files there.
     let library = LibraryFolder::open(Path::new("/proc/self/fdinfo")).expect("there");
     let failed = library.save(&part("plate", 0.4));
     assert!(
@@ -454,7 +454,7 @@ fn a_writer_killed_while_it_renames_leaves_one_of_the_two_names() {
     assert_eq!(library.trashed().expect("listed")[0].name.as_str(), "plate");
 }
 
-/// Saves a plate as one more reference of the part `of`.
+/// Saves a plate as another reference of the part `of`.
 fn save_reference(library: &LibraryFolder, name: &str, of: &str) {
     let mut reference = part(name, 0.5);
     reference.meta.part = Some(part_name(of));
@@ -566,7 +566,7 @@ fn only_what_lies_in_the_trash_is_restored() {
     assert!(library.trashed().expect("listed").is_empty() && folder.exists());
 }
 
-/// Lets every call of a change fail; whatever is found has to be whole, and the plate is never lost.
+/// Makes each call of a change fail in turn; the library must stay intact and the plate must never be lost.
 #[cfg(unix)]
 fn fails_at_every_call(
     test: &str,

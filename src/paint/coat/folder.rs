@@ -1,4 +1,4 @@
-//! Coats by name: the program's own, and the user's, a file each beside the recipes of inspections.
+//! Coats by name: the built-in ones, and the user's, each in a file beside the recipes of inspections.
 
 use std::{
     fs, io,
@@ -13,7 +13,7 @@ use crate::{
     pipeline::{RecipeError, RecipeFile, RecipeFolder, Replace},
 };
 
-/// Names and files of the program's own coats.
+/// Names and files of the built-in coats.
 const FILES: [(&str, &str); 3] = [
     ("primer", include_str!("../../../assets/coats/primer.toml")),
     (
@@ -26,16 +26,16 @@ const FILES: [(&str, &str); 3] = [
     ),
 ];
 
-/// Names of the program's own coats, in the order they are sprayed.
+/// Names of the built-in coats, in the order in which they are sprayed.
 pub const BUILT_IN_COATS: [&str; 3] = [FILES[0].0, FILES[1].0, FILES[2].0];
 
-/// The program's own coat of this name.
+/// Returns the built-in coat of this name.
 pub fn built_in_coat(name: &str) -> Option<RecipeFile<Coat>> {
     let (_, text) = FILES.iter().find(|(own, _)| *own == name)?;
     Some(RecipeFile::parse(Path::new(name), text).expect("a test reads every built-in coat"))
 }
 
-/// A folder of coats; it need not be there.
+/// A folder of coats; it need not exist.
 #[derive(Clone, Debug)]
 pub struct CoatFolder {
     path: PathBuf,
@@ -44,18 +44,18 @@ pub struct CoatFolder {
 /// Why a coat cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum CoatError {
-    /// The file.
+    /// The file cannot be read or written.
     #[error(transparent)]
     File(#[from] RecipeError),
-    /// No coat of this name.
+    /// No coat has this name.
     #[error("there is no coat named {name}")]
     NotFound {
         /// The name given.
         name: String,
-        /// Those that are there.
+        /// Names of all coats.
         available: Vec<String>,
     },
-    /// The program's own coat, or one that is there already.
+    /// The name belongs to a built-in coat, or to one that must not be replaced.
     #[error("there is a coat named {name} already")]
     Exists {
         /// The name.
@@ -88,7 +88,7 @@ impl CoatFolder {
         Self { path: path.into() }
     }
 
-    /// The user's own, beside the recipes.
+    /// The user's own folder, beside the recipes.
     pub fn of_user() -> Result<Self, CoatError> {
         Ok(Self::at(
             RecipeFolder::of_user()?.path().with_file_name("coats"),
@@ -99,7 +99,7 @@ impl CoatFolder {
         self.path.join(format!("{name}.toml"))
     }
 
-    /// Names of all coats, the program's own first.
+    /// Names of all coats, the built-in ones first.
     pub fn names(&self) -> Result<Vec<String>, CoatError> {
         let reading = |error| CoatError::File(FileError::reading(&self.path, error).into());
         let mut own = Vec::new();
@@ -125,7 +125,7 @@ impl CoatFolder {
             .collect())
     }
 
-    /// The coat of a name, or in a file: whatever cannot be a name is a path.
+    /// Opens the coat of a name, or in a file: anything that cannot be a name is a path.
     pub fn open(&self, given: &str) -> Result<RecipeFile<Coat>, CoatError> {
         let Ok(name) = PartName::new(given) else {
             return Ok(RecipeFile::read(Path::new(given))?);
@@ -134,7 +134,7 @@ impl CoatFolder {
             return Ok(own);
         }
         match RecipeFile::read(&self.file(&name)) {
-            // The name of the file counts: it may have been copied.
+            // The file's name counts: the file may have been copied.
             Ok(file) => Ok(RecipeFile { name, ..file }),
             Err(RecipeError::File(FileError::NotFound { .. })) => Err(CoatError::NotFound {
                 name: given.to_owned(),
@@ -144,7 +144,7 @@ impl CoatFolder {
         }
     }
 
-    /// Keeps a coat under its name, which is none of the program's own.
+    /// Saves a coat under its name, which must not be that of a built-in one.
     pub fn save(&self, coat: &RecipeFile<Coat>, replace: Replace) -> Result<(), CoatError> {
         let path = self.file(&coat.name);
         let is_there = || replace == Replace::No && path.symlink_metadata().is_ok();

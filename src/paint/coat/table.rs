@@ -1,18 +1,18 @@
-//! Every parameter of a [`Coat`], one row each: `--set`, files of coats and the guide follow from it.
+//! All parameters of a [`Coat`], a row each; `--set`, files of coats and the guide are derived from it.
 
 use super::{Coat, Pattern, Profile, RowDirection};
 use crate::pipeline::parameters::{
     Choice, DisplayUnit, Kind, Number, Parameter, Parameters, Place,
 };
 
-/// What a parameter of a coat is about.
+/// Group of a coat's parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoatGroup {
-    /// The gun and the paint.
+    /// Gun and paint.
     Gun,
-    /// The path.
+    /// Path.
     Path,
-    /// The film that is wanted.
+    /// Target film.
     Film,
 }
 
@@ -20,7 +20,7 @@ impl CoatGroup {
     /// Every group.
     pub const ALL: [Self; 3] = [Self::Gun, Self::Path, Self::Film];
 
-    /// What a person calls it.
+    /// Title shown to people.
     pub fn title(self) -> &'static str {
         match self {
             Self::Gun => "Gun and paint",

@@ -10,7 +10,7 @@ use crate::{
     units::Metres,
 };
 
-/// Straight ways with the gun on, from a to b each.
+/// Straight ways with the gun on, each from a to b.
 fn stripes(
     ways: impl Iterator<Item = (Point3<f64>, Point3<f64>, Vector3<f64>, Vector3<f64>)>,
     speed: f64,
@@ -49,7 +49,7 @@ fn rows_without_end_leave_the_mean_and_the_ripple_of_the_closed_form() {
     let surface = plate(0.6, 0.6);
     let path = flat_stripes((-8..=8).map(|k| f64::from(k) * coat.spacing), &coat);
     let film = simulate(&surface, &path, &coat, &[]).expect("simulated");
-    // A sum of Gaussians is its mean and, all but, one harmonic (Poisson's sum).
+    // A sum of Gaussians is nearly its mean and one harmonic (Poisson summation).
     let sigma = coat.gun.width / 4.0;
     let mean = coat.flat_thickness();
     for (p, t) in surface.points.iter().zip(&film.thickness) {
@@ -76,7 +76,7 @@ fn beyond_the_last_row_the_film_ends_as_the_normal_distribution() {
     );
     let film = simulate(&surface, &path, &coat, &[]).expect("simulated");
     let sigma = coat.gun.width / 4.0;
-    // Φ by its integral, in steps of a thousandth.
+    // Φ by numerical integration, in steps of a thousandth.
     let cumulated = |z: f64| {
         let density = |k: i32| (-0.5 * (z - (f64::from(k) + 0.5) * 1e-3).powi(2)).exp();
         (0..8000).map(density).sum::<f64>() * 1e-3 / (2.0 * PI).sqrt()
@@ -91,7 +91,7 @@ fn beyond_the_last_row_the_film_ends_as_the_normal_distribution() {
 #[test]
 fn around_a_cylinder_all_the_paint_lands_evenly() {
     let (coat, radius, num) = (Coat::default(), 0.5, 60);
-    // Half of a cylinder, painted all around: no row is missing anywhere.
+    // Half of a cylinder, painted all around, so that no row is missing.
     let surface = grid(60, 150, Coverage::OneSide, |i, j| {
         let (x, angle) = (0.4 * i - 0.2, 2.6 * (j - 0.5));
         let normal = Vector3::new(0.0, angle.sin(), angle.cos());
@@ -130,7 +130,7 @@ fn a_planned_path_covers_a_plate_to_its_edges_and_figures_add_up() {
     assert!((figures.histogram.iter().sum::<f64>() - 1.0).abs() < 1e-9);
     assert!((figures.reachable - 1.0).abs() < 1e-9);
     assert!(figures.min <= figures.mean && figures.mean <= figures.max);
-    // What lands is the mean over the area, out of what was sprayed.
+    // The share that lands is the mean times the area, divided by what was sprayed.
     let area = surface.point_area * surface.points.len() as f64;
     let expected = figures.mean * area / (film.path.paint * coat.gun.solids);
     assert!((film.path.landed / expected - 1.0).abs() < 1e-9);
@@ -168,7 +168,8 @@ fn half_the_speed_is_twice_the_film_and_a_gun_that_is_off_paints_nothing() {
 
 #[test]
 fn a_shelf_before_a_wall_takes_the_paint_that_the_wall_does_not_get() {
-    // Rows over a wall of which a shelf 60 mm before it hides the middle; the paint is the same with and without it.
+    // Rows over a wall whose middle is hidden by a shelf 60 mm in front of it; the paint is the same with and without
+    // it.
     let coat = Coat::default();
     let wall = |with_shelf: bool| {
         let mut points = Vec::new();
@@ -193,7 +194,7 @@ fn a_shelf_before_a_wall_takes_the_paint_that_the_wall_does_not_get() {
     let (surface, shelved) = (wall(false), wall(true));
     let ((plain, all), (shadowed, split)) = (landed(&surface), landed(&shelved));
     assert!((split / all - 1.0).abs() < 0.02, "{}", split / all);
-    // Beneath the shelf nothing lands; on it, nearer to the gun, as much as rows at this distance leave.
+    // Nothing lands behind the shelf; on it, nearer to the gun, as much as rows leave at this distance.
     let middle = |film: &Film, surface: &PaintSurface, z: f64| {
         let at = Point3::new(0.0, 0.0, z);
         let near = |p: &Point3<f64>| (p - at).norm() < 0.025;

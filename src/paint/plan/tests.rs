@@ -61,7 +61,7 @@ fn rows_around_a_cylinder_are_even_along_the_surface() {
     };
     let path = plan(&surface, &coat, &[]).expect("planned");
     let on: Vec<&PathPoint> = path.points().iter().filter(|p| p.is_gun_on).collect();
-    // Where the middle of a row is, as an angle about the axis.
+    // The angles about the axis at which the rows have their middle.
     let mut angles: Vec<f64> = on
         .iter()
         .filter(|p| p.nozzle.x.abs() < 0.02)
@@ -85,7 +85,7 @@ fn wide_openings_and_keep_outs_are_left_out_and_narrow_openings_crossed() {
     let with_hole = |radius: f64| {
         grid(101, 61, Coverage::OneSide, |i, j| {
             let p = Point3::new(i - 0.5, 0.6 * j - 0.3, 0.0);
-            // Points of the hole go to its edge.
+            // Points of the hole are moved to its edge.
             let out = p.coords.norm();
             let p = if out > radius {
                 p

@@ -1,4 +1,4 @@
-//! The blocks of numbers of a pose report, each with its order, units and frame beside it.
+//! The number blocks of a pose report, each with its order, units and frame.
 
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -12,7 +12,7 @@ use crate::{
     stages::pose::{PoseEstimate, Uncertainty},
 };
 
-/// The frames, as they are spelt out.
+/// The frames, spelt out.
 const CAMERA: &str = "camera: x right, y down, z forward";
 const PART: &str = "part: the part's own frame, as it was enrolled; the camera's frame with the part at its standard position";
 const ROBOT: &str = "robot: the robot's base frame";
@@ -244,7 +244,7 @@ impl PoseBlock {
                 e_m2: pose.fit.e_m2,
                 overlap: pose.fit.overlap,
                 ambiguous: pose.is_ambiguous(),
-                // JSON knows no infinity: where the best costs nothing, nothing else is worth telling.
+                // JSON has no infinity: if the best pose costs nothing, the ratio is meaningless.
                 runner_up_ratio: pose.runner_up.map(|next| next.ratio).filter(|ratio| ratio.is_finite()),
             },
             bounds: pose.uncertainty.filter(Uncertainty::is_held).map(|bounds| BoundsBlock {

@@ -1,7 +1,7 @@
-//! Pose reports as rows of one file, one inspection each, which grows from call to call.
+//! Pose reports as rows of a growing CSV file, one per inspection.
 //!
-//! A row goes out in one write behind a lock, and is on the disk before the call returns. A program that was killed in
-//! the middle leaves a row without its end at most: it is set aside beside the file when the next one comes.
+//! A row is written in one go under a lock, and is on the disk before the call returns. A program killed meanwhile
+//! leaves at most one incomplete row, which the next call moves to a separate file.
 
 use std::{
     fs::File,
@@ -19,20 +19,20 @@ use crate::{
 /// Why a row could not be appended.
 #[derive(Debug, thiserror::Error)]
 pub enum CsvError {
-    /// The file has other columns, or is something else.
+    /// The file has other columns, or is not a table of pose reports.
     #[error("{}: its columns are not those of a pose report in {}", path.display(), convention.title())]
     OtherColumns {
         /// The file.
         path: PathBuf,
-        /// The convention that the row is in.
+        /// Convention of the row.
         convention: Convention,
     },
-    /// The system refused.
+    /// The file cannot be written.
     #[error("{}: cannot append a row: {}", path.display(), words_of(source))]
     Io {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The underlying error.
         source: io::Error,
     },
 }
@@ -49,16 +49,16 @@ impl Advice for CsvError {
     }
 }
 
-/// What else appending came to.
+/// Result of appending a row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CsvAppended {
-    /// The row alone.
+    /// The row was appended.
     Row,
-    /// The last row had no end, and was set aside in this file before.
+    /// The row was appended after moving an incomplete last row to this file.
     SetAside(PathBuf),
 }
 
-/// Appends the report to the file, which is made with a line of column names where it is missing or empty.
+/// Appends the report to the file. A missing or empty file is created with a line of column names.
 pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvError> {
     let failed = |source| CsvError::Io {
         path: path.to_owned(),
@@ -69,11 +69,11 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
     let header = line(columns.iter().map(|(name, _)| name.as_str()).collect());
     let row = line(columns.iter().map(|(_, value)| value.as_str()).collect());
 
-    // Only one at a time, from whichever program.
+    // One writer at a time, from any program.
     let mut options = File::options();
     options.read(true).write(true).create(true).truncate(false);
     let mut file = disk::open(&options, path).map_err(failed)?;
-    // On a disk that knows no locks, the rows of one program at a time are whole all the same.
+    // On a disk without locks, only a single program at a time can append safely.
     let _ = file.lock();
     let mut length = file.metadata().map_err(failed)?.len();
     let mut begin = vec![
@@ -93,7 +93,7 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
     }
     let mut appended = CsvAppended::Row;
     let text = if begin.len() < header.len() {
-        // Killed before the first line was whole.
+        // A program was killed before the first line was complete.
         disk::set_len(&file, 0).map_err(failed)?;
         length = 0;
         header + &row
@@ -110,7 +110,7 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
         .and_then(|_| disk::write_all(&mut file, text.as_bytes()))
         .and_then(|()| disk::sync_data(&file));
     if let Err(error) = written {
-        // Half a row helps nobody; where this fails too, the next call sets it aside.
+        // Remove a partial row; if this fails too, the next call sets it aside.
         let _ = disk::set_len(&file, length);
         return Err(failed(error));
     }
@@ -121,7 +121,7 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
     Ok(appended)
 }
 
-/// Where the last whole row ends.
+/// Returns where the last complete row ends.
 fn end_of_last_row(file: &mut File, length: u64) -> io::Result<u64> {
     const BLOCK: u64 = 4096;
     let mut end = length;
@@ -138,7 +138,7 @@ fn end_of_last_row(file: &mut File, length: u64) -> io::Result<u64> {
     Ok(0)
 }
 
-/// Moves what stands behind `end` into a file of its own beside it.
+/// Moves everything after `end` into a separate file next to it.
 fn set_aside(path: &Path, file: &mut File, end: u64) -> io::Result<PathBuf> {
     let mut tail = Vec::new();
     file.seek(SeekFrom::Start(end))?;
@@ -154,7 +154,7 @@ fn set_aside(path: &Path, file: &mut File, end: u64) -> io::Result<PathBuf> {
     Ok(aside)
 }
 
-/// The names of the columns and this report's values, as they stand in the file.
+/// Returns the names of the columns and this report's values, as written to the file.
 fn columns(report: &PoseReport) -> Vec<(String, String)> {
     let mut columns = Vec::new();
     let mut add = |name: &str, value: String| columns.push((name.to_owned(), quoted(&value)));
@@ -177,7 +177,7 @@ fn columns(report: &PoseReport) -> Vec<(String, String)> {
     add("reason", word(verdict.reason.as_deref()));
     add("approximate", verdict.approximate.to_string());
     add("touches_edge", verdict.touches_edge.to_string());
-    // Nothing of a pose that was not accepted: in a table nobody looks at another column first.
+    // Leave the pose empty unless it was accepted: readers of a table do not check another column first.
     let pose = report.pose.as_ref();
     let reference = pose.and_then(|pose| pose.reference.as_deref());
     add("reference", word(reference));
@@ -249,7 +249,7 @@ fn columns(report: &PoseReport) -> Vec<(String, String)> {
     columns
 }
 
-/// As JSON writes it.
+/// Returns a value as JSON writes it.
 fn snake(value: &impl serde::Serialize) -> String {
     let json = serde_json::to_value(value).ok();
     json.as_ref()
@@ -258,7 +258,7 @@ fn snake(value: &impl serde::Serialize) -> String {
         .to_owned()
 }
 
-/// As a cell of the table, and on one line.
+/// Quotes a cell and removes line breaks.
 fn quoted(value: &str) -> String {
     let line: String = value
         .chars()

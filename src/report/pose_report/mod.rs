@@ -1,8 +1,8 @@
-//! The pose report of an inspection: what was seen and decided, and where the part is, in words that cannot be misread.
+//! The pose report of an inspection: what was seen and decided, and where the part is, without ambiguity.
 //!
-//! One type holds all of it; JSON, a row of CSV and a page of PDF are three ways to write it down. Whatever is numbers
-//! spells out its order, units and frame beside them. The pose of a part that was not accepted is under another name,
-//! and there are no numbers for the robot then: a program that only looks for those finds none to move by.
+//! One type holds all of it; JSON, a CSV row and a PDF page are three forms of it. All numbers come with their order,
+//! units and frame. The pose of a part that was not accepted has another name, and there are no numbers for the robot
+//! then: a program that looks only for those finds nothing to move by.
 
 mod blocks;
 mod csv;
@@ -34,10 +34,10 @@ pub use self::{
     pdf::{PdfError, PdfPictures, pose_pdf},
 };
 
-/// The version of the report; fields are only ever added to one.
+/// Version of the report; later reports only add fields.
 pub const POSE_REPORT_SCHEMA: u32 = 1;
 
-/// So many of the ranking are told.
+/// Number of entries of the ranking in the report.
 const NUM_RANKED: usize = 5;
 
 /// Whether a camera was read.
@@ -53,7 +53,7 @@ pub enum SeenBy {
 }
 
 impl SeenBy {
-    /// In words.
+    /// Describes the origin in words.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Camera => "a camera",
@@ -146,39 +146,39 @@ pub struct LibraryBlock {
     pub num_references: usize,
 }
 
-/// What a report is made from.
+/// The input of a report.
 #[derive(Clone, Copy, Debug)]
 pub struct ReportSubject<'a> {
-    /// When the scene was inspected.
+    /// Time of the inspection.
     pub inspected_at: Timestamp,
-    /// The file or frame.
+    /// The inspected file or frame.
     pub scene: &'a str,
-    /// What gave the frame, if it was a source.
+    /// The source of the frame, if any.
     pub source: Option<&'a str>,
     /// Whether a camera was read.
     pub seen_by: SeenBy,
     /// Serial number, order and operator.
     pub trace: &'a Traceability,
-    /// What was found.
+    /// The inspection.
     pub inspection: &'a Inspection,
     /// Middle of the best reference's extent, part space, metres.
     pub middle: Option<Point3<f64>>,
     /// The stand-off over the best reference at its pose.
     pub stand_off: Option<&'a Result<StandOff, StandOffError>>,
-    /// With which parameters.
+    /// The recipe of the inspection.
     pub recipe: &'a NamedRecipe,
     /// [`LibraryLoad::identity`](crate::library::LibraryLoad::identity).
     pub library_identity: &'a str,
-    /// Enrolled references.
+    /// Number of enrolled references.
     pub num_references: usize,
-    /// Where the camera stands, if the cell is calibrated.
+    /// The robot's frame, if the cell is calibrated.
     pub robot: Option<&'a RobotFrame>,
-    /// In which numbers poses are written besides matrix and quaternion.
+    /// Convention of the poses, in addition to matrix and quaternion.
     pub convention: Convention,
 }
 
 impl PoseReport {
-    /// The report of an inspection.
+    /// Creates the report of an inspection.
     pub fn of(subject: &ReportSubject<'_>) -> Self {
         let inspection = subject.inspection;
         let verdict = VerdictBlock::of(inspection, subject.recipe);
@@ -228,7 +228,7 @@ impl PoseReport {
         }
     }
 
-    /// The report as JSON, indented for people, with a line's end.
+    /// Returns the report as indented JSON with a final line end.
     pub fn to_json(&self) -> String {
         let mut json =
             serde_json::to_string_pretty(self).expect("numbers and text have a JSON form");
@@ -236,7 +236,7 @@ impl PoseReport {
         json
     }
 
-    /// The JSON schema of [`Self::to_json`], with a line's end. `assets/pose-report.schema.json` holds the same.
+    /// Returns the JSON schema of [`Self::to_json`] with a final line end. `assets/pose-report.schema.json` is a copy.
     pub fn json_schema() -> String {
         let schema = schemars::schema_for!(Self);
         let mut json = serde_json::to_string_pretty(&schema).expect("a schema is JSON");

@@ -1,4 +1,4 @@
-//! A pose report as one page of A4.
+//! A pose report as one A4 page.
 
 mod facts;
 mod numbers;
@@ -21,7 +21,7 @@ use crate::report::{Picture, lettering::Anchor};
 const PAGE: [f32; 2] = [595.28, 841.89];
 const MARGIN: f32 = 40.0;
 const WIDTH: f32 = PAGE[0] - 2.0 * MARGIN;
-/// The column of numbers, and the one of pictures and figures beside it.
+/// Widths of the left column with numbers, and of the right one with pictures and figures.
 const LEFT: f32 = 296.0;
 const GAP: f32 = 20.0;
 const RIGHT: f32 = WIDTH - LEFT - GAP;
@@ -44,12 +44,12 @@ const BODY: Style = style(9.0, Weight::Regular, BLACK);
 const STRONG: Style = style(9.0, Weight::Bold, BLACK);
 const HEADING: Style = style(10.5, Weight::Bold, BLACK);
 
-/// A number with a true minus: it is read here, and taken over by machines from JSON or CSV.
+/// Replaces hyphens by true minus signs: the page is for people, machines read JSON or CSV.
 fn typeset(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
 
-/// Why there is no page.
+/// Why the page could not be made.
 #[derive(Debug, thiserror::Error)]
 #[error("the page could not be made: {0}")]
 pub struct PdfError(String);
@@ -63,15 +63,15 @@ impl crate::error::Advice for PdfError {
 /// The pictures of a report.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PdfPictures<'a> {
-    /// The 3-D view, if there is one; else the picture of the segmentation stands for it.
+    /// The 3-D view; without one, the picture of the segmentation is used.
     pub view: Option<&'a RgbImage>,
-    /// The stages.
+    /// Pictures of the stages.
     pub stages: &'a [Picture],
-    /// What a person calls the part; else its name.
+    /// Title of the part; without one, its name is used.
     pub title: Option<&'a str>,
 }
 
-/// The report as a PDF of one page. The same report with the same pictures is the same bytes.
+/// Creates the report as a PDF of one page. Equal reports with equal pictures give identical bytes.
 pub fn pose_pdf(report: &PoseReport, pictures: &PdfPictures<'_>) -> Result<Vec<u8>, PdfError> {
     let mut document = Document::new();
     document.set_metadata(metadata(report, pictures));
@@ -107,7 +107,7 @@ fn metadata(report: &PoseReport, pictures: &PdfPictures<'_>) -> Metadata {
         .creation_date(date)
 }
 
-/// Everything on the page, from top to bottom.
+/// Draws the whole page from top to bottom.
 fn compose(sheet: &mut Sheet<'_>, report: &PoseReport, pictures: &PdfPictures<'_>) {
     let y = head(sheet, report);
     let y = verdict(sheet, report, pictures, y) + 8.0;
@@ -142,7 +142,7 @@ fn compose(sheet: &mut Sheet<'_>, report: &PoseReport, pictures: &PdfPictures<'_
     }
 }
 
-/// What it is and when it was; answers with where the next thing begins.
+/// Draws title and time. Returns where the next block begins.
 fn head(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
     sheet.text(
         "Partsight pose report",
@@ -176,19 +176,19 @@ fn head(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
     90.0
 }
 
-/// The part in large letters.
+/// Returns the headline of the report.
 fn headline(report: &PoseReport, pictures: &PdfPictures<'_>) -> String {
     let verdict = &report.verdict;
     match (&verdict.part, verdict.accepted, verdict.status) {
         (Some(part), true, _) => pictures.title.unwrap_or(part).to_owned(),
         (_, _, "no_part") => "No part".into(),
         (_, _, "unknown") => "Unknown part".into(),
-        // No name in large letters that is not certain.
+        // An uncertain name must not be the headline.
         _ => "Not recognised".into(),
     }
 }
 
-/// The verdict; answers with where the next thing begins.
+/// Draws the verdict. Returns where the next block begins.
 fn verdict(
     sheet: &mut Sheet<'_>,
     report: &PoseReport,
@@ -200,7 +200,7 @@ fn verdict(
     let ink = if verdict.accepted { GREEN } else { RED };
     let title = headline(report, pictures);
     let wide = WIDTH - INDENT - 120.0;
-    // As large as it fits, and cut only where that is small.
+    // As large as fits; only the smallest size is truncated.
     let large = |size: f32| style(size, Weight::Bold, BLACK);
     let sizes = [26.0, 22.0, 18.0, 15.0];
     let size = sizes
@@ -262,7 +262,7 @@ fn verdict(
         );
     }
     for caution in report.pose.iter().flat_map(|pose| &pose.cautions) {
-        // That is said in large letters above.
+        // The headline band already says so.
         if !caution.starts_with("simulated") {
             y = text(
                 sheet,
@@ -282,7 +282,7 @@ fn verdict(
     y
 }
 
-/// A tick or a cross, so that colour is not the only sign.
+/// Draws a tick or a cross, so that the verdict is readable without colour.
 fn mark(sheet: &mut Sheet<'_>, [x, y]: [f32; 2], is_good: bool, ink: Ink) {
     let at = |dx: f32, dy: f32| [x + dx, y + dy];
     if is_good {
@@ -293,13 +293,13 @@ fn mark(sheet: &mut Sheet<'_>, [x, y]: [f32; 2], is_good: bool, ink: Ink) {
     }
 }
 
-/// The stages in a row; the first stands in for the 3-D view where there is none.
+/// Returns the stages shown in the row; without a 3-D view the first one takes its place instead.
 fn shown_stages<'a>(pictures: &PdfPictures<'a>) -> Vec<&'a Picture> {
     let num_above = usize::from(pictures.view.is_none());
     pictures.stages.iter().skip(num_above).collect()
 }
 
-/// Pictures of the stages side by side at one height, above `bottom`; answers with where they begin.
+/// Draws pictures of the stages side by side at one height, above `bottom`. Returns where they begin.
 fn strip(sheet: &mut Sheet<'_>, stages: &[&Picture], bottom: f32) -> f32 {
     const BETWEEN: f32 = 8.0;
     const TALLEST: f32 = 120.0;
@@ -320,7 +320,7 @@ fn strip(sheet: &mut Sheet<'_>, stages: &[&Picture], bottom: f32) -> f32 {
         };
         sheet.picture(&stage.image, area);
         sheet.outline(area, RULE);
-        // As wide as its picture, or it would run into the next.
+        // Not wider than its picture, or it would run into the next.
         let caption = sheet
             .faces
             .fitted(stage_title(stage.stage), area.width, SMALL);

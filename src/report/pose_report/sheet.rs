@@ -1,9 +1,9 @@
-//! A page to write and draw on: text that can be selected, in the font of the window, lines, and pictures.
+//! A page to draw on: selectable text in the font of the window, lines, and pictures.
 //!
 //! `krilla` makes the PDF. Lengths are points, 72 to the inch; y goes down.
 //!
-//! Known limits: text from left to right, no kerning; a letter that the font lacks is an empty box on paper, and still
-//! itself when it is copied.
+//! Known limits: text from left to right, no kerning; a missing glyph is an empty box on paper, but its character is
+//! kept when the text is copied.
 
 use image::{DynamicImage, RgbImage, imageops::FilterType};
 use krilla::{
@@ -17,13 +17,13 @@ use krilla::{
 
 use crate::report::lettering::{Anchor, BOLD, Lettering, REGULAR};
 
-/// A colour on paper.
+/// Colour on paper: red, green, blue.
 pub(super) type Ink = [u8; 3];
 
-/// How a text looks.
+/// Text style.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style {
-    /// Points from line to line, about.
+    /// Text size, points; about the line spacing.
     pub(super) size: f32,
     pub(super) weight: Weight,
     pub(super) ink: Ink,
@@ -35,7 +35,7 @@ pub(super) enum Weight {
     Bold,
 }
 
-/// A stretch of the page: left, top, width, height.
+/// A rectangle on the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Area {
     pub(super) left: f32,
@@ -58,7 +58,7 @@ impl Area {
     }
 }
 
-/// A font, to be measured and to be written with.
+/// A font for measuring and writing.
 pub(super) struct Face {
     measured: Lettering,
     written: Font,
@@ -87,7 +87,7 @@ impl Face {
     }
 }
 
-/// Both fonts.
+/// Both font weights.
 pub(super) struct Faces {
     regular: Face,
     bold: Face,
@@ -108,12 +108,12 @@ impl Faces {
         }
     }
 
-    /// Width of a text.
+    /// Returns the width of a text.
     pub(super) fn width(&self, text: &str, style: Style) -> f32 {
         self.of(style.weight).measured.width(text, style.size)
     }
 
-    /// The text, cut in its middle where it is wider: both ends of a path say more than its middle.
+    /// Truncates a text in its middle to fit the width: both ends of a path matter more than its middle.
     pub(super) fn fitted(&self, text: &str, width: f32, style: Style) -> String {
         if self.width(text, style) <= width {
             return text.to_owned();
@@ -133,7 +133,7 @@ impl Faces {
         cut(kept.unwrap_or(0))
     }
 
-    /// The text in lines of at most this width, the last cut where there are more than `most`.
+    /// Breaks a text into at most `most` lines of this width; the last one is truncated if needed.
     pub(super) fn lines(&self, text: &str, width: f32, style: Style, most: usize) -> Vec<String> {
         let mut lines: Vec<String> = Vec::new();
         let mut words = text.split_whitespace().peekable();
@@ -159,7 +159,7 @@ impl Faces {
         lines
     }
 
-    /// The beginning of the text that fits, with an ellipsis.
+    /// Truncates a text at its end to fit the width, with an ellipsis.
     fn ending(&self, text: &str, width: f32, style: Style) -> String {
         let mut kept: String = text.to_owned();
         while !kept.is_empty() && self.width(&format!("{kept}…"), style) > width {
@@ -169,11 +169,11 @@ impl Faces {
     }
 }
 
-/// A page being written.
+/// A page being drawn.
 pub(super) struct Sheet<'a> {
     surface: Surface<'a>,
     pub(super) faces: &'a Faces,
-    /// Every text and where it is, for tests of the layout.
+    /// All texts and their areas, for tests of the layout.
     #[cfg(test)]
     pub(super) texts: Vec<(String, Area)>,
 }
@@ -188,7 +188,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Writes one line; `at` is on the line that the letters stand on.
+    /// Writes one line; `at` is on its baseline.
     pub(super) fn text(&mut self, text: &str, at: [f32; 2], style: Style, anchor: Anchor) {
         if text.is_empty() {
             return;
@@ -219,7 +219,7 @@ impl<'a> Sheet<'a> {
         );
     }
 
-    /// Writes lines from `at` down; answers with the line below the last.
+    /// Writes lines from `at` downwards. Returns the baseline after the last one.
     pub(super) fn paragraph(
         &mut self,
         text: &str,
@@ -249,7 +249,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Draws the edge of an area.
+    /// Draws the border of an area.
     pub(super) fn outline(&mut self, area: Area, ink: Ink) {
         let [left, top] = [area.left, area.top];
         let [right, bottom] = [left + area.width, top + area.height];
@@ -284,9 +284,9 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Puts a picture into the area as large as it fits, to the left and at the top; answers with what it covers.
+    /// Draws a picture in the upper left of the area, as large as it fits. Returns the area covered.
     pub(super) fn picture(&mut self, picture: &RgbImage, area: Area) -> Area {
-        /// Dots per point on paper: 300 to the inch.
+        /// Pixels per point on paper: 300 to the inch.
         const DENSITY: f32 = 4.2;
         let (width, height) = (
             picture.width().max(1) as f32,
@@ -301,7 +301,7 @@ impl<'a> Sheet<'a> {
         let Some(size) = Size::from_wh(covered.width, covered.height) else {
             return covered;
         };
-        // More pixels than the paper shows would only make the file large.
+        // More pixels than the paper shows would only enlarge the file.
         let shrunk = (scale * DENSITY < 1.0).then(|| {
             let side = |side: f32| (side * scale * DENSITY).ceil().max(1.0) as u32;
             image::imageops::resize(picture, side(width), side(height), FilterType::Triangle)

@@ -11,7 +11,7 @@ use crate::{
     stages::{reference::Reference, scene::SceneCloud, stand_off::stand_off},
 };
 
-/// An inspected scene with all that a report is made from.
+/// An inspected scene with all inputs of a report.
 pub(super) struct Inspected {
     library: Library,
     scene: SceneCloud,
@@ -76,7 +76,7 @@ pub(super) fn refused() -> &'static Inspected {
     FENDER.get_or_init(|| Inspected::of(&CellSetup::with_part(PartKind::Fender, Side::Right, 0, 5)))
 }
 
-/// Nothing hangs there.
+/// An empty cell.
 pub(super) fn empty() -> &'static Inspected {
     static EMPTY: OnceLock<Inspected> = OnceLock::new();
     EMPTY.get_or_init(|| Inspected::of(&CellSetup::new(SimulatedObject::Nothing, 5)))
@@ -121,7 +121,7 @@ fn an_accepted_part_has_its_pose_in_every_frame_and_each_says_what_it_is() {
     let expected = robot.robot_from_camera * camera_from_part * robot.robot_from_camera.inverse();
     assert!((offset.to_homogeneous() - expected.to_homogeneous()).norm() < 1e-12);
 
-    // The numbers for the controller, by name, with units, and what they mean beside them.
+    // The numbers for the controller have names, units and a meaning.
     let kuka = &json["robot"]["robot_from_part"]["in_convention"];
     let values = kuka["values"].as_array().expect("values");
     let numbers: Vec<f64> = values
@@ -245,7 +245,7 @@ fn reports_conform_to_the_schema() {
             }
         }
     }
-    // The check can fail.
+    // The check must be able to fail.
     let mut broken = json(&door().report(None, Convention::Matrix));
     broken["verdict"]["accepted"] = "yes".into();
     assert!(conforms(&broken, &schema, &schema).is_err());

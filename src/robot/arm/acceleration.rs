@@ -1,17 +1,17 @@
-//! How much joints and rail have to accelerate along a path at its speed.
+//! The accelerations that joints and rail need along a path at its speed.
 //!
-//! At each point the acceleration of a joint is the second difference of its angle q over the nearest points that are at
-//! least [`WINDOW`] before and behind it, 2 · ((q₊ - q) / t₊ - (q - q₋) / t₋) / (t₊ + t₋): the mean acceleration over that
-//! time, however unevenly the points lie. Points that are closer together would only add noise. In a corner all of the change
-//! comes at the point itself. So where the difference would be too large if it came within the window, the joints exactly
-//! one window before and behind the point are computed on the straight moves there, and the larger result counts. The rail is
-//! looked at by the points alone: between them it may speed up evenly.
+//! The acceleration of a joint at a point is the second difference of its angle q over the nearest points that are at
+//! least [`WINDOW`] before and behind it, 2 · ((q₊ - q) / t₊ - (q - q₋) / t₋) / (t₊ + t₋): the mean acceleration over
+//! that time, however unevenly the points are spaced. Points closer together would only add noise. In a corner the
+//! whole change happens at the point itself. So if the difference would be too large within the window, the joints
+//! exactly one window before and behind the point are computed on the straight moves there, and the larger result
+//! counts. For the rail only the points are used: between them it may accelerate evenly.
 //!
-//! No window reaches past the ends of the path, past a turn on the spot, for which the arm takes its time, or past a point
-//! with no way to it.
+//! No window extends past the ends of the path, past a turn on the spot, for which the arm takes its time, or past a
+//! point that cannot be reached from the one before.
 //!
-//! Known limits: within a window of the ends nothing is said. Of a move that takes longer than the window only its two ends
-//! are looked at closely.
+//! Known limits: nothing is checked within a window of the ends. Of a move that takes longer than the window only its
+//! two ends are examined closely.
 
 use std::f64::consts::PI;
 
@@ -23,15 +23,15 @@ use super::{
     way::{WayEnd, apart},
 };
 
-/// Seconds. A controller takes as long for a corner at 200 mm/s that it rounds by 5 mm on both sides.
+/// Seconds; a corner at 200 mm/s takes as long if the controller rounds it by 5 mm on both sides.
 const WINDOW: f64 = 0.05;
-/// On the spot the arm stops to turn a joint by as much, radians.
+/// The arm stops for a turn on the spot if a joint turns by this much, radians.
 const TURN: f64 = 0.01;
 /// The times of a path are sums, which are not exact.
 const EXACT: f64 = 1e-6;
 
-/// Marks the points of a checked path around which a joint or the rail cannot accelerate as much as it would have to. A
-/// point keeps a problem that it has, unless that is a singularity nearby.
+/// Marks the points of a checked path around which a joint or the rail cannot accelerate as much as needed. An earlier
+/// problem of a point is kept, unless it is a singularity nearby.
 pub(super) fn check_accelerations(
     placed: &PlacedArm,
     points: &[ArmPoint],
@@ -59,10 +59,10 @@ pub(super) fn check_accelerations(
 /// Points that are passed one after the other without a stop.
 struct Run<'a> {
     placed: &'a PlacedArm,
-    /// From the first of them; there may be more behind the last.
+    /// Begins with the first of them; may continue after the last.
     points: &'a [ArmPoint],
     checked: &'a [PointCheck],
-    /// When the nozzle is at each, seconds from the first.
+    /// Time of the nozzle at each point, seconds from the first.
     times: Vec<f64>,
 }
 
@@ -83,7 +83,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// What is wrong around a point.
+    /// The problem around a point, if any.
     fn problem_at(&self, here: usize) -> Option<PointProblem> {
         let now = self.times[here];
         let before = self.times.partition_point(|time| *time <= now - WINDOW);
@@ -138,7 +138,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// The joints at a time during the move from one place to the next, nearest to those at `near`.
+    /// The joints at a time during the move from one point to the next, nearest to those at `near`.
     fn joints_at(&self, from: usize, time: f64, near: usize) -> Option<Joints> {
         let end = |place: usize| WayEnd::of(&self.points[place], &self.checked[place]);
         let (start, end) = (end(from)?, end(from + 1)?);
@@ -147,14 +147,14 @@ impl<'a> Run<'a> {
     }
 }
 
-/// The joint that is the farthest beyond its limit, or the nearest to it.
+/// The joint that is farthest beyond its limit of acceleration, or nearest to it.
 #[derive(Clone, Copy)]
 struct Excess {
-    /// From 0.
+    /// Index from 0.
     joint: usize,
     /// rad/s²
     acceleration: f64,
-    /// Over the limit.
+    /// Acceleration divided by its limit.
     share: f64,
 }
 
@@ -177,12 +177,12 @@ impl Excess {
     }
 }
 
-/// The mean second derivative of what has these values before, at and behind a moment; `times` are the seconds between.
+/// The mean second derivative of a value before, at and behind a moment; `times` are the seconds between.
 fn second_difference([before, here, behind]: [f64; 3], times: [f64; 2]) -> f64 {
     2.0 * ((behind - here) / times[1] - (here - before) / times[0]) / (times[0] + times[1])
 }
 
-/// Seconds from a point to the next; none if the arm stops for a turn on the spot, or the way is not known.
+/// Seconds from a point to the next; `None` if the arm stops for a turn on the spot, or cannot move there.
 fn seconds_between(points: &[ArmPoint], checked: &[PointCheck]) -> Option<f64> {
     let [from, to] = points else { return None };
     let [left, reached] = checked else {

@@ -1,4 +1,4 @@
-//! What joints an arm may take at each point of a path, and the cheapest chain of them.
+//! The joints that an arm may take at each point of a path, and the cheapest chain of them.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,31 +11,32 @@ use super::{
 };
 use crate::geometry::rigid::RigidTransform;
 
-/// Costs as much as this many seconds of joint motion: a singularity nearby, and a turn by one step.
+/// Costs in seconds of joint motion: of a singularity nearby, and of turning the nozzle by one step.
 const SINGULAR_COST: f64 = 2.0;
 const TURN_COST: f64 = 0.02;
-/// A way that no joint manages, or on which the arm would fold over or turn a joint once around, costs this much and more.
+/// Least cost of a move that is too fast for a joint, changes the configuration or turns a joint by more than half a
+/// turn.
 const JUMP_COST: f64 = 1e4;
-/// What collides costs more than a hundred jumps: as if beyond a limit, it is only chosen where none is free.
+/// A collision costs as much as a hundred jumps: like a solution beyond a limit, it is only chosen if none is free.
 const COLLISION_COST: f64 = 1e6;
-/// Chains that are chosen before every candidate is tested for collisions.
+/// Chains chosen before every candidate is tested for collisions.
 const LAZY_ROUNDS: usize = 3;
 
-/// One way to stand at a point.
+/// Possible joints at a point.
 #[derive(Clone, Copy)]
 pub(super) struct Candidate {
     pub(super) joints: Joints,
     pub(super) turn: usize,
-    /// Which of the eight, as one bit.
+    /// The configuration, one of eight, as one bit.
     configuration: u8,
-    /// Of the point alone.
+    /// Cost of the point itself, without the move to it.
     cost: f64,
-    /// Whether it collides; none if it was not tested yet.
+    /// Whether it collides; none if not tested yet.
     pub(super) is_collision: Option<bool>,
 }
 
 impl Candidate {
-    /// Whether it collides; tested once, and from then on part of its cost.
+    /// Whether it collides. Tests it once and adds a collision to its cost.
     fn collides(&mut self, solver: &Solver<'_>) -> bool {
         if let Some(known) = self.is_collision {
             return known;
@@ -65,7 +66,7 @@ pub(super) fn turned(point: &ArmPoint, angle: f64) -> RigidTransform {
     point.robot_from_nozzle * UnitQuaternion::from_euler_angles(0.0, 0.0, angle)
 }
 
-/// The turns that are tried at a point.
+/// The turns to be tried at a point.
 pub(super) fn turns_of(point: &ArmPoint, num_turns: usize) -> std::ops::Range<usize> {
     0..if point.is_turn_free {
         num_turns.max(1)
@@ -85,7 +86,7 @@ pub(super) fn candidates_of(
         for solution in solver.solutions(&pose, None) {
             let is_singular = solver.singularity(&solution).is_some();
             let configuration = solver.arm.configuration_bit(&solution);
-            // Turning away from the path's own orientation gains nothing by itself.
+            // Turning away from the path's own orientation has no benefit of its own.
             let away = turn.min(num_turns - turn) as f64;
             let cost = 0.1 * TURN_COST * away + if is_singular { SINGULAR_COST } else { 0.0 };
             all.extend(
@@ -105,7 +106,7 @@ pub(super) fn candidates_of(
     all
 }
 
-/// Seconds that the slowest joint needs from one to the other, and the largest angle that a joint turns by, radians.
+/// Returns the seconds that the slowest joint needs between two positions, and the largest angle of a joint, radians.
 fn joint_time(arm: &Arm, from: &Joints, to: &Joints) -> (f64, f64) {
     let mut worst = (0.0_f64, 0.0_f64);
     for ((to, from), speed) in to.iter().zip(from).zip(arm.speeds) {
@@ -115,23 +116,24 @@ fn joint_time(arm: &Arm, from: &Joints, to: &Joints) -> (f64, f64) {
     worst
 }
 
-/// Seconds that a move takes: a turn on the spot takes as long as the joints want.
+/// Returns the seconds of a move; `None` for a turn on the spot, which takes as long as the joints need.
 pub(super) fn move_time(from: &RigidTransform, to: &RigidTransform, speed: f64) -> Option<f64> {
-    /// Nothing moves by less, metres.
+    /// Shorter moves count as standing still, metres.
     const STANDS: f64 = 1e-4;
     let distance = (to.translation.vector - from.translation.vector).norm();
     (distance > STANDS).then(|| distance / speed)
 }
 
-/// The cheapest chain of candidates with their collisions; each that it holds has been tested.
+/// Finds the cheapest chain of candidates including their collisions; each of its candidates has been tested.
 ///
-/// A point under a round jet has up to 24 turns × 8 configurations, more with whole turns of joints. To test one means to
-/// place five capsules and search the part's points along some of them, about as much work as finding it; and hardly any is
-/// ever used. So only what the chain holds is tested, after R. Bohlin, L. E. Kavraki, "Path Planning Using Lazy PRM", ICRA
-/// 2000: an untested candidate costs as little as a free one, so a chain stays the cheapest if all that it holds prove free.
-/// Where one is not, every candidate of its point is tested and another chain chosen. A path without collisions takes one
-/// test per point; one that collides nearly everywhere takes [`LAZY_ROUNDS`] chains more and a test of each candidate.
-/// There is a solver for each point, where the rail is there. None soon after `is_cancelled`.
+/// A point under a round jet has up to 24 turns × 8 configurations, more with whole turns of joints. Testing one takes
+/// five capsules and a search of the part's points along some of them, about as much work as finding it, and most are
+/// never used. So only the candidates of the chain are tested, after R. Bohlin, L. E. Kavraki, "Path Planning Using
+/// Lazy PRM", ICRA 2000: an untested candidate costs as little as a free one, so a chain stays the cheapest if all its
+/// candidates prove free. If one collides, all candidates of its point are tested and another chain is chosen. A path
+/// without collisions takes one test per point; one that collides nearly everywhere takes [`LAZY_ROUNDS`] more chains
+/// and a test of each candidate. `solvers` has one solver per point, for the rail's position there. Returns `None` soon
+/// after `is_cancelled` returns true.
 pub(super) fn free_chain(
     solvers: &[Solver<'_>],
     points: &[ArmPoint],
@@ -170,7 +172,7 @@ pub(super) fn free_chain(
     best_chain(arm, points, candidates, num_turns, is_cancelled)
 }
 
-/// The cheapest chain of candidates; none where there is no candidate, behind which a new chain begins.
+/// Finds the cheapest chain of candidates; it has `None` at a point without candidates, after which a new chain begins.
 fn best_chain(
     arm: &Arm,
     points: &[ArmPoint],
@@ -178,7 +180,7 @@ fn best_chain(
     num_turns: usize,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Option<Vec<Option<usize>>> {
-    // Of every candidate the cost so far and the candidate of the point before.
+    // For every candidate, the cost up to it and the candidate at the previous point.
     let mut chains: Vec<Vec<(f64, Option<usize>)>> = Vec::with_capacity(points.len());
     for (i, here) in candidates.iter().enumerate() {
         if is_cancelled() {
@@ -218,7 +220,7 @@ fn best_chain(
                 }
                 best
             };
-            // A nozzle that turns farther at once is only looked at where nothing else goes on without a collision.
+            // Larger turns of the nozzle are only considered if no smaller one continues without a collision.
             let near = cheapest(true);
             let is_free = |k: usize| former[k].is_collision != Some(true);
             let best = if near.1.is_some_and(is_free) {

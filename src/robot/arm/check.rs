@@ -1,4 +1,4 @@
-//! A path held against an arm.
+//! Checks a path against an arm.
 
 use super::{
     ArmError, PlacedArm,
@@ -11,25 +11,25 @@ use super::{
 };
 use crate::geometry::rigid::{RigidTransform, is_finite};
 
-/// A place of the nozzle that the arm shall reach.
+/// A pose of the nozzle that the arm must reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmPoint {
-    /// Frame of the path from the nozzle: origin at the mouth, z towards the part.
+    /// Pose of the nozzle in the frame of the path: origin at the mouth, z towards the part.
     pub robot_from_nozzle: RigidTransform,
     /// Speed on the way to the next point, m/s.
     pub speed: f64,
     /// True if the jet is round: the nozzle may turn about its z axis.
     pub is_turn_free: bool,
-    /// True if the gun sprays on the way to the next point: a rail rather moves elsewhere.
+    /// True if the gun sprays on the way to the next point; a rail moves there only if it must.
     pub is_gun_on: bool,
 }
 
 /// Parameters of [`check_path`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheckParams {
-    /// Turns about the nozzle's z axis that are tried, 1..72. Raising it costs as much time.
+    /// Turns about the nozzle's z axis that are tried, 1..72. The time grows in proportion.
     pub num_turns: usize,
-    /// Where a rail stands that does not move along the path, metres; 0 without one.
+    /// Position of a rail that does not move along the path, metres; 0 without one.
     pub rail: f64,
 }
 
@@ -42,31 +42,31 @@ impl Default for CheckParams {
     }
 }
 
-/// One point of a check.
+/// Result for one point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointCheck {
-    /// The joints there; none if it is out of reach or beyond a limit.
+    /// The joints; none if the point is out of reach or beyond a limit.
     pub joints: Option<Joints>,
-    /// Turn about the nozzle's z axis against the path, radians within ±π.
+    /// Turn about the nozzle's z axis relative to the path, radians within ±π.
     pub turn: f64,
-    /// Where the rail is, metres; 0 without one.
+    /// Position of the rail, metres; 0 without one.
     pub rail: f64,
-    /// What is wrong with it.
+    /// The problem of the point, or of the way to it, if any.
     pub problem: Option<PointProblem>,
 }
 
-/// What came of a check.
+/// Result of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathCheck {
-    /// Every point, in the path's order.
+    /// One per point, in the path's order.
     pub points: Vec<PointCheck>,
-    /// Where a program of the path begins and ends; none if the path alone was checked. What is wrong there counts for the
-    /// first and the last point.
+    /// Approach point and end of a program of the path; none if the path alone was checked. Their problems are reported
+    /// at the first and the last point.
     pub ends: Option<[PointCheck; 2]>,
 }
 
 impl PathCheck {
-    /// Points without a problem.
+    /// Number of points without a problem.
     pub fn num_reached(&self) -> usize {
         self.points
             .iter()
@@ -74,8 +74,8 @@ impl PathCheck {
             .count()
     }
 
-    /// Points at which, or on the way to which, gun or arm come too near to something. The way to a point that is out of
-    /// reach is not known.
+    /// Number of points at which, or on the way to which, gun or arm collide. The way to a point that is out of reach
+    /// is not known.
     pub fn num_collisions(&self) -> usize {
         let problems = self.points.iter().map(|point| &point.problem);
         problems
@@ -83,7 +83,7 @@ impl PathCheck {
             .count()
     }
 
-    /// The least and the greatest position of the rail along the path and at the ends of its program, metres.
+    /// Least and greatest position of the rail along the path and at the ends of its program, metres.
     pub fn rail_range(&self) -> [f64; 2] {
         let ends = self.ends.iter().flatten();
         let positions = self.points.iter().chain(ends).map(|point| point.rail);
@@ -91,7 +91,7 @@ impl PathCheck {
         positions.fold(range, |[low, high], at| [low.min(at), high.max(at)])
     }
 
-    /// Why no program should be written for this arm, in words; none if it reaches every point.
+    /// Returns a reason against writing a program for this arm; `None` if it reaches every point.
     pub fn doubt(&self, arm: &str) -> Option<String> {
         let (num, all) = (self.num_reached(), self.points.len());
         let collisions = match self.num_collisions() {
@@ -102,8 +102,8 @@ impl PathCheck {
     }
 }
 
-/// Every point of the path with the joints that reach it, or why none do. The points of a path without a problem are
-/// reached one after the other by straight moves at their speed.
+/// Finds the joints for every point of the path, or the problem there. Points without a problem are reached one after
+/// the other by straight moves at their speed.
 pub fn check_path(
     placed: &PlacedArm,
     points: &[ArmPoint],
@@ -112,7 +112,7 @@ pub fn check_path(
     check_unless(&|| false, placed, points, params)
 }
 
-/// The same; [`ArmError::Cancelled`] soon after `is_cancelled`.
+/// As [`check_path`], but returns [`ArmError::Cancelled`] soon after `is_cancelled` returns true.
 pub(super) fn check_unless(
     is_cancelled: &(dyn Fn() -> bool + Sync),
     placed: &PlacedArm,
@@ -164,7 +164,7 @@ pub(super) fn check_unless(
             joints: candidate.joints,
             rail,
         };
-        // What would break something comes first.
+        // A collision precedes all other problems.
         let here = if candidate.is_collision == Some(true) {
             solver.collision(&candidate.joints)
         } else {
@@ -186,7 +186,7 @@ pub(super) fn check_unless(
     })
 }
 
-/// Refuses what cannot be checked; a point is named by its place in `points`.
+/// Refuses what cannot be checked. An error counts the points of `points` from 1.
 pub(in crate::robot) fn refuse_bad(
     placed: &PlacedArm,
     points: &[ArmPoint],
@@ -228,7 +228,7 @@ pub(in crate::robot) fn refuse_bad(
     Ok(())
 }
 
-/// Why no solution is left at a point.
+/// Returns why a point has no candidate.
 fn why_not(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> PointProblem {
     let mut nearest: Option<(f64, PointProblem)> = None;
     for turn in turns_of(point, num_turns) {
@@ -247,9 +247,9 @@ fn why_not(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> PointProb
     nearest.map_or(PointProblem::OutOfReach, |(_, problem)| problem)
 }
 
-/// Whether a point is reached at all, at any turn, without a collision.
+/// Whether a point can be reached at some turn without a collision.
 pub(super) fn is_reached(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> bool {
-    /// Where the first few collide the others usually do as well, and hundreds of places are asked for.
+    /// If the first few solutions collide, the others usually do as well, and there are hundreds of places to compare.
     const NUM_TESTED: usize = 6;
     let poses = turns_of(point, num_turns).map(|turn| turned(point, angle_of(turn, num_turns)));
     let solutions = poses.flat_map(|pose| solver.solutions(&pose, None));

@@ -1,74 +1,74 @@
-//! Why an arm or a check is no use.
+//! Errors of arms and their checks.
 
 use std::path::PathBuf;
 
 use super::ARM_NAMES;
 use crate::{error::Advice, files::FileError};
 
-/// Why an arm or a check is no use.
+/// Why an arm cannot be used, or a path not be checked.
 #[derive(Debug, thiserror::Error)]
 pub enum ArmError {
     /// The arm's file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// No arm of that name.
+    /// No arm has this name.
     #[error("no arm is called {name:?}")]
     Unknown {
-        /// The name.
+        /// The name given.
         name: String,
     },
-    /// An arm whose wrist axes do not meet.
+    /// The axes of the arm's wrist do not meet.
     #[error(
         "{name}: Universal Robots' arms have no spherical wrist, so their reach cannot be checked here"
     )]
     NoSphericalWrist {
-        /// The name.
+        /// The name given.
         name: String,
     },
-    /// The file is no arm.
+    /// The file does not describe an arm.
     #[error("{}: {}", path.display(), message.trim_end())]
     Text {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The error in it.
         message: String,
     },
-    /// The file lists no boxes of a cell.
+    /// The file does not describe the obstacles of a cell.
     #[error("{}: {}", path.display(), message.trim_end())]
     Obstacles {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The error in it.
         message: String,
     },
-    /// Limits that leave nothing between them.
+    /// A joint's limits are not in order, or too large.
     #[error("joint {joint} is limited to {low:.1} to {high:.1} degrees")]
     Limits {
         /// The joint, from 1.
         joint: usize,
-        /// Lower limit.
+        /// Lower limit, degrees.
         low: f64,
-        /// Upper limit.
+        /// Upper limit, degrees.
         high: f64,
     },
-    /// A rail without length, or longer than any.
+    /// The rail has no length, or is too long.
     #[error("the rail runs from {low:.0} to {high:.0} mm")]
     Rail {
-        /// From.
+        /// First position, millimetres.
         low: f64,
-        /// To.
+        /// Last position, millimetres.
         high: f64,
     },
-    /// A text that describes no rail.
+    /// The text does not describe a rail.
     #[error("{text:?} is no rail")]
     NoRail {
-        /// What was given.
+        /// The text given.
         text: String,
     },
-    /// A number of the arm that cannot be.
+    /// A number of the arm or of the check is out of its range.
     #[error("{what} is {value}")]
     Value {
-        /// Which.
+        /// Name of the number.
         what: String,
         /// Its value.
         value: f64,
@@ -76,13 +76,13 @@ pub enum ArmError {
     /// The caller cancelled.
     #[error("the check of the arm was cancelled")]
     Cancelled,
-    /// A path without points.
+    /// The path has no points.
     #[error("the path has no points")]
     NoPoints,
-    /// A pose that is none.
+    /// A number is not finite, or the speed of a point is out of its range.
     #[error("{what} is infinite or not a number")]
     NotFinite {
-        /// Which.
+        /// What it belongs to.
         what: String,
     },
 }

@@ -1,4 +1,4 @@
-//! An arm as a text file.
+//! An arm as a TOML file.
 //!
 //! ```toml
 //! name = "Cell 3"
@@ -18,7 +18,7 @@
 //! acceleration_mm_s2 = 2000                         # without it the rail's acceleration is neither kept to nor checked
 //! ```
 //!
-//! Without `radii_mm` they are 10, 9 and 6 % of the reach, more than most arms have.
+//! The default of `radii_mm` is 10, 9 and 6 % of the reach, more than most arms have.
 
 use std::path::Path;
 
@@ -28,10 +28,10 @@ use serde::Deserialize;
 use super::{Arm, ArmError, Rail};
 use crate::files::read_text;
 
-/// Radii of upper arm, forearm and wrist where the file has none, in shares of the reach.
+/// Default radii of upper arm, forearm and wrist, as shares of the reach.
 const RADII: [f64; 3] = [0.10, 0.09, 0.06];
 
-/// A larger file is no arm.
+/// Largest file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
 #[derive(Debug, Deserialize)]
@@ -61,7 +61,7 @@ struct RailText {
 }
 
 impl Arm {
-    /// Reads an arm.
+    /// Reads an arm from a TOML file.
     pub fn read(path: &Path) -> Result<Self, ArmError> {
         let wrong = |message: String| ArmError::Text {
             path: path.to_owned(),
@@ -71,7 +71,7 @@ impl Arm {
             .map_err(|error| wrong(error.message().to_owned()))?;
         let rail = text.rail.map(|rail| -> Result<Rail, ArmError> {
             let direction = Unit::try_new(Vector3::from(rail.direction), 1e-6)
-                // Not so of one that is not finite, or whose length is not.
+                // False if the direction or its length is not finite.
                 .filter(|direction| (direction.norm() - 1.0).abs() < 1e-6);
             let direction = direction.ok_or_else(|| wrong("the rail has no direction".into()))?;
             if rail.acceleration_mm_s2.is_some() && rail.speed_mm_s.is_none() {

@@ -1,4 +1,4 @@
-//! From joints to flange and back, and what kind of pose of the arm that is.
+//! Forward and inverse kinematics, singularities and configurations.
 
 use std::f64::consts::TAU;
 
@@ -19,19 +19,19 @@ use crate::geometry::{rigid::RigidTransform, segment::Segment};
 /// Angles of the six joints, radians.
 pub type Joints = [f64; 6];
 
-/// A pose of the arm in which it cannot move in some direction.
+/// A pose in which the arm cannot move in some direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Singularity {
-    /// Joints 4 and 6 turn about one line.
+    /// The wrist is straight: joints 4 and 6 turn about one line.
     Wrist,
     /// The arm is stretched out.
     Elbow,
-    /// The wrist is above joint 1.
+    /// The middle of the wrist is on the axis of joint 1.
     Shoulder,
 }
 
 impl Singularity {
-    /// For people.
+    /// A description for people.
     pub fn name(self) -> &'static str {
         match self {
             Self::Wrist => "wrist straight",
@@ -41,27 +41,27 @@ impl Singularity {
     }
 }
 
-/// Sine of 2°: nearer to a singularity joints race.
+/// Sine of 2°: nearer to a wrist or elbow singularity, joints would have to be too fast.
 const NEAR: f64 = 0.035;
-/// The same of the wrist's distance from joint 1, metres.
+/// Least distance of the wrist from the axis of joint 1, for the same reason, metres.
 const NEAR_AXIS: f64 = 0.03;
-/// What a solution must reproduce, metres and radians.
+/// Largest error of a solution in forward kinematics, metres and radians.
 const EXACT: f64 = 1e-6;
 
-/// The inverse kinematics of an arm, and what it would run into.
+/// The inverse kinematics of an arm, with its obstacles.
 pub(super) struct Solver<'a> {
     pub(super) arm: &'a Arm,
     obstacles: &'a Obstacles,
     opw: OPWKinematics,
     base_from_robot: RigidTransform,
     nozzle_from_flange: RigidTransform,
-    /// Where the axis of the gun ends, on the flange: its round end touches the nozzle's mouth.
+    /// End of the gun's axis on the flange, so that its round end touches the nozzle's mouth.
     gun_end: Point3<f64>,
     gun_radius: f64,
 }
 
 impl<'a> Solver<'a> {
-    /// The rail stands at this position.
+    /// A solver for this position of the rail.
     pub(super) fn new(placed: &'a PlacedArm, rail: f64) -> Self {
         let arm = &placed.arm;
         let [a1, a2, b, c1, c2, c3, c4] = arm.lengths;
@@ -81,7 +81,7 @@ impl<'a> Solver<'a> {
         let robot_from_foot =
             Translation3::from(arm.rail_shift(rail)) * placed.robot_from_base * foot;
         let mouth = placed.flange_from_nozzle.translation.vector;
-        // A gun that is wider than long is a ball.
+        // A gun wider than it is long becomes a ball.
         let gun_radius = placed.gun_radius.min(mouth.norm() / 2.0);
         let way = mouth.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
         Self {
@@ -95,16 +95,17 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// The nozzle, in the frame of the path.
+    /// Pose of the nozzle in the frame of the path.
     pub(super) fn forward(&self, joints: &Joints) -> Option<RigidTransform> {
         let foot_from_flange = isometry(&self.opw.try_forward(joints).ok()?);
         Some(self.base_from_robot.inverse() * foot_from_flange * self.nozzle_from_flange.inverse())
     }
 
-    /// Gun and arm with these joints, which are finite. Elbow and forearm are one body of two capsules.
+    /// The bodies of gun and arm for these joints, which must be finite. Elbow and forearm are one body of two
+    /// capsules.
     pub(super) fn bodies(&self, joints: &Joints) -> [Capsule; 5] {
         let robot_from_foot = self.base_from_robot.inverse();
-        // Joints 1 to 3, the forearm behind the step of the elbow, the middle of the wrist, the flange.
+        // Joints 1 to 3, the forearm behind the elbow's offset, the middle of the wrist, the flange.
         let poses = self.opw.forward_with_joint_poses(joints);
         let poses = poses.map(|pose| robot_from_foot * isometry(&pose));
         let [_, shoulder, elbow, forearm, wrist, flange] =
@@ -125,7 +126,7 @@ impl<'a> Solver<'a> {
         ]
     }
 
-    /// The base column: its axis and its radius.
+    /// Axis and radius of the base column.
     fn column(&self) -> (Segment, f64) {
         let robot_from_foot = self.base_from_robot.inverse();
         let [a1, _, _, c1, ..] = self.arm.lengths;
@@ -137,24 +138,24 @@ impl<'a> Solver<'a> {
         (axis, upper_arm.max(a1.abs()))
     }
 
-    /// Every body of these that is too near to something.
+    /// All pairs of these bodies and obstacles that are too near.
     fn pairs(&self, bodies: &[Capsule; 5]) -> impl Iterator<Item = Nearness> {
         let of_arm = self.obstacles.pairs_of_arm(bodies, self.column());
         of_arm.chain(self.obstacles.pairs(bodies))
     }
 
-    /// Whether gun or arm are too near to something: stops at the first.
+    /// Whether gun or arm are too near to something; stops at the first.
     pub(super) fn collides(&self, joints: &Joints) -> bool {
         self.pairs(&self.bodies(joints)).next().is_some()
     }
 
-    /// The same, with what to what; it takes longer.
+    /// As [`Self::collides`], but finds the worst pair, which takes longer.
     pub(super) fn collision(&self, joints: &Joints) -> Option<PointProblem> {
         let (body, obstacle) = worst(self.pairs(&self.bodies(joints)))?;
         Some(PointProblem::Collision { body, obstacle })
     }
 
-    /// Every solution within a turn either way, whatever the limits; `near` fixes what a singularity leaves open.
+    /// All solutions within a turn either way, whatever the limits; `near` decides what a singularity leaves free.
     pub(super) fn solutions(
         &self,
         robot_from_nozzle: &RigidTransform,
@@ -183,7 +184,7 @@ impl<'a> Solver<'a> {
         found
     }
 
-    /// The solution with every whole turn of its joints that lies within the limits.
+    /// The solution with all whole turns of its joints that are within the limits.
     pub(super) fn within_limits(&self, joints: &Joints) -> Vec<Joints> {
         let mut all = vec![*joints];
         for (i, [low, high]) in self.arm.limits.into_iter().enumerate() {
@@ -204,11 +205,11 @@ impl<'a> Solver<'a> {
         all
     }
 
-    /// The joint that is farthest beyond its limit, and its angle; none if none is.
+    /// The joint that is farthest beyond its limit, and its angle; `None` if all are within.
     pub(super) fn beyond_limit(&self, joints: &Joints) -> Option<(usize, f64)> {
         let beyond = |i: usize| {
             let [low, high] = self.arm.limits[i];
-            // The whole turn that comes nearest.
+            // The angle, up to whole turns, that is nearest to the limits.
             let middle = f64::midpoint(low, high);
             let angle = joints[i] - TAU * ((joints[i] - middle) / TAU).round();
             (i, angle, (low - angle).max(angle - high))
@@ -217,7 +218,7 @@ impl<'a> Solver<'a> {
         (worst.2 > 0.0).then_some((worst.0, worst.1))
     }
 
-    /// Which singularity is near, if one is.
+    /// The singularity nearby, if there is one.
     pub(super) fn singularity(&self, joints: &Joints) -> Option<Singularity> {
         let [ahead, elbow, wrist] = self.arm.shape(joints).map(f64::abs);
         let all = [
@@ -232,12 +233,12 @@ impl<'a> Solver<'a> {
 }
 
 impl Arm {
-    /// Angles of the model, as the source has them.
+    /// Angles of the model of Brandstötter et al.
     fn model(&self, joints: &Joints) -> Joints {
         std::array::from_fn(|i| joints[i] * f64::from(self.signs[i]) - self.offsets[i])
     }
 
-    /// Distance of the wrist from joint 1, and the sines of the elbow and of joint 5.
+    /// Signed distance of the wrist from the axis of joint 1, and the sines of the elbow and of joint 5.
     fn shape(&self, joints: &Joints) -> [f64; 3] {
         let [a1, a2, _, _, c2, c3, _] = self.lengths;
         let [_, q2, q3, _, q5, _] = self.model(joints);
@@ -246,14 +247,14 @@ impl Arm {
         [ahead, fold.sin(), q5.sin()]
     }
 
-    /// Which of the eight configurations, as one bit of eight.
+    /// The configuration as one bit of eight.
     pub(super) fn configuration_bit(&self, joints: &Joints) -> u8 {
         let [ahead, up, unflipped] = self.configuration(joints).map(u8::from);
         1 << (4 * ahead + 2 * up + unflipped)
     }
 
-    /// Which of the eight configurations: wrist ahead, elbow up, wrist unflipped. Ahead and up are seen from joint 1, with
-    /// which they turn: behind joint 1 an elbow that is up bends the same way.
+    /// The configuration: wrist ahead, elbow up, wrist unflipped. Ahead and up are relative to joint 1 and turn with
+    /// it: behind joint 1 an elbow that is up bends the same way.
     pub(in crate::robot) fn configuration(&self, joints: &Joints) -> [bool; 3] {
         self.shape(joints).map(|x| x > 0.0)
     }

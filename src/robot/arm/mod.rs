@@ -1,21 +1,21 @@
-//! What a six-axis arm reaches: a spray path through the inverse kinematics of the arm that is to run it.
+//! Whether a six-axis arm can run a spray path, by its inverse kinematics.
 //!
-//! The arm has a spherical wrist and a parallel base (*ortho-parallel*), seven lengths and the signs and offsets of its
-//! joints: M. Brandstötter, A. Angerer, M. Hofbaur, "An Analytical Solution of the Inverse Kinematics Problem of
-//! Industrial Serial Manipulators with an Ortho-parallel Basis and a Spherical Wrist", Austrian Robotics Workshop 2014.
-//! Of the up to eight solutions of every point, with every whole turn that the joints' limits allow, dynamic programming
-//! picks those that move the joints least in time. A round jet leaves the turn about the nozzle open: it is tried in steps of
-//! 15°. Straight moves longer than 50 mm are followed in between.
+//! The arm has a spherical wrist and a parallel base (*ortho-parallel*), described by seven lengths and the signs and
+//! offsets of its joints: M. Brandstötter, A. Angerer, M. Hofbaur, "An Analytical Solution of the Inverse Kinematics
+//! Problem of Industrial Serial Manipulators with an Ortho-parallel Basis and a Spherical Wrist", Austrian Robotics
+//! Workshop 2014. Each point has up to eight solutions, with every whole turn that the joints' limits allow; dynamic
+//! programming picks those with the least time of joint motion. A round jet leaves the turn about the nozzle free: it
+//! is tried in steps of 15°. Straight moves longer than 50 mm are checked in between.
 //!
-//! Gun and arm have to stay clear of [`Obstacles`] at every point and on the way to it.
+//! Gun and arm must stay clear of [`Obstacles`] at every point and on the way to it.
 //!
-//! An arm may stand on a [`Rail`]. One with a top speed moves along the path: `rail_plan` chooses where it is at every point.
-//! Any other stands still, and a better position of it is suggested.
+//! An arm may stand on a [`Rail`]. A rail with a top speed moves along the path: `rail_plan` chooses its position at
+//! every point. Any other stands still, and a better position of it can be suggested.
 //!
-//! Where their limits are known, accelerations of joints and rail are checked too (`acceleration`).
+//! If their limits are known, the accelerations of joints and rail are checked too (`acceleration`).
 //!
-//! Known limits: the choice of configurations and turns does not weigh accelerations. Joint 3 of FANUC arms is coupled to
-//! joint 2 on the controller; here it is the angle against the upper arm, and so is its limit.
+//! Known limits: the choice of configurations and turns does not consider accelerations. Joint 3 of FANUC arms is
+//! coupled to joint 2 on the controller; here it is the angle against the upper arm, and so is its limit.
 
 mod acceleration;
 mod chain;
@@ -52,50 +52,50 @@ pub use self::{
 /// A six-axis arm with a spherical wrist.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arm {
-    /// What it is called.
+    /// Name shown to people.
     pub name: String,
     /// a1, a2, b, c1, c2, c3, c4 of the source, metres.
     lengths: [f64; 7],
     /// Added to a joint of the model before its sign, radians.
     offsets: [f64; 6],
-    /// 1 or -1: which way a joint turns.
+    /// Direction of each joint: 1 or -1.
     signs: [i8; 6],
-    /// Least and largest angle of each joint, radians.
+    /// Least and greatest angle of each joint, radians.
     limits: [[f64; 2]; 6],
-    /// Fastest speed of each joint, rad/s.
+    /// Top speed of each joint, rad/s.
     speeds: [f64; 6],
     /// Greatest acceleration of each joint, rad/s²; none if not known.
     accelerations: Option<[f64; 6]>,
-    /// How far the controller's base frame is above the foot, metres.
+    /// Height of the controller's base frame above the foot, metres.
     base_height: f64,
-    /// What upper arm, forearm and wrist fill around their axes, metres.
+    /// Radii of upper arm, forearm and wrist around their axes, metres.
     radii: [f64; 3],
-    /// Whose controllers count the joints as they are counted here; none of an arm from a file.
+    /// The maker whose controllers count the joints as here; none for an arm from a file.
     maker: Option<Convention>,
-    /// The rail that it stands on.
+    /// The rail on which it stands, if any.
     pub rail: Option<Rail>,
 }
 
-/// An arm as it stands in the cell.
+/// An arm in its cell.
 #[derive(Clone, Debug)]
 pub struct PlacedArm {
     /// The arm.
     pub arm: Arm,
-    /// Its base in the frame of the path: the identity where the path is in the arm's own base frame.
+    /// Pose of its base in the frame of the path; the identity if the path is in the arm's own base frame.
     pub robot_from_base: RigidTransform,
-    /// Where the nozzle is on the flange.
+    /// Pose of the nozzle on the flange.
     pub flange_from_nozzle: RigidTransform,
-    /// What the gun fills around the line from the flange to the nozzle's mouth, metres, 0..1.
+    /// Radius of the gun around the line from the flange to the nozzle's mouth, metres, 0..1.
     pub gun_radius: f64,
-    /// What gun and arm must not run into.
+    /// Obstacles for gun and arm.
     pub obstacles: Obstacles,
 }
 
-/// Radius of a gun with its hoses where nobody says another, metres.
+/// Default radius of a gun with its hoses, metres.
 pub const GUN_RADIUS: f64 = 0.05;
 
 impl PlacedArm {
-    /// The same beside a part: its points, in the part's frame.
+    /// Adds a part as an obstacle; its points are in the part's frame.
     #[must_use]
     pub fn with_part(self, points: &[Point3<f32>], robot_from_part: &RigidTransform) -> Self {
         Self {
@@ -106,27 +106,26 @@ impl PlacedArm {
 }
 
 impl Arm {
-    /// The rail's position moves the base by this.
+    /// Shift of the base at this position of the rail.
     pub(super) fn rail_shift(&self, position: f64) -> Vector3<f64> {
         self.rail.map_or_else(Vector3::zeros, |rail| {
             rail.direction.into_inner() * position
         })
     }
 
-    /// The maker whose controllers count these joints as they are counted here, all but joint 3 of FANUC arms; none if that
-    /// is not known.
+    /// The maker whose controllers count these joints as here, except joint 3 of FANUC arms; none if not known.
     pub(super) fn maker(&self) -> Option<Convention> {
         self.maker
     }
 
-    /// The rail that moves it along the path, and its top speed, m/s.
+    /// The rail if it moves along the path, and its top speed, m/s.
     pub fn moving_rail(&self) -> Option<(Rail, f64)> {
         let rail = self.rail?;
         Some((rail, rail.speed?))
     }
 
-    /// What has no known limit of its acceleration, which is then not checked: "joints", "rail" (one that moves along the
-    /// path) or "joints and rail".
+    /// Names what has no known limit of acceleration and is therefore not checked: "joints", "rail" (one that moves
+    /// along the path) or "joints and rail".
     pub fn unchecked_accelerations(&self) -> Option<&'static str> {
         let moving = self.moving_rail();
         let is_rail = moving.is_some_and(|(rail, _)| rail.acceleration.is_none());
@@ -138,7 +137,7 @@ impl Arm {
         }
     }
 
-    /// How far the nozzle's end of the arm reaches from joint 2, metres.
+    /// Distance from joint 2 to the middle of the wrist with the arm stretched, metres.
     pub fn reach(&self) -> f64 {
         let [_, a2, _, _, c2, c3, _] = self.lengths;
         c2.abs() + a2.hypot(c3)

@@ -1,17 +1,17 @@
-//! Five arms that are common in paint shops, by their published parameters.
+//! Five arms that are common in paint shops, with their published parameters.
 //!
-//! Lengths, signs and offsets are those of ROS-Industrial's `opw_parameters_*.yaml` (Apache 2.0 and BSD): `kuka_kr6_support`,
-//! `fanuc_m20ia_support`, `abb_irb2600_support`, `abb_irb4600_support`, `motoman_gp25_support`; limits and speeds those of
-//! the URDF beside them, of the IRB 2600 those of ABB's *Product specification IRB 2600*, because joint 2 of its URDF has
-//! its limits the other way round. What upper arm, forearm and wrist fill around their axes is published nowhere: the radii are
-//! our estimate from the proportions of the makers' drawings, on the wide side.
+//! Lengths, signs and offsets are those of ROS-Industrial's `opw_parameters_*.yaml` (Apache 2.0 and BSD):
+//! `kuka_kr6_support`, `fanuc_m20ia_support`, `abb_irb2600_support`, `abb_irb4600_support`, `motoman_gp25_support`.
+//! Limits and speeds are those of the URDF beside them; for the IRB 2600 those of ABB's *Product specification IRB
+//! 2600*, because its URDF has the limits of joint 2 the other way round. The radii of upper arm, forearm and wrist are
+//! not published: they are generous estimates from the proportions of the makers' drawings.
 
 use std::path::Path;
 
 use super::{Arm, ArmError};
 use crate::robot::Convention;
 
-/// The names of the arms that are known.
+/// Names of the arms that are built in.
 pub const ARM_NAMES: [&str; 5] = ["kr6-r900", "m-20ia", "irb2600", "irb4600", "gp25"];
 
 const fn arm_of(
@@ -122,11 +122,11 @@ const GP25: Numbers = arm_of(
 );
 
 impl Arm {
-    /// The arm of one of the [`ARM_NAMES`], or that of a TOML file.
+    /// Returns the arm of one of the [`ARM_NAMES`], or reads that of a TOML file.
     pub fn named(name: &str) -> Result<Self, ArmError> {
         let (title, numbers, base_height, maker) = match name {
             "kr6-r900" => ("KUKA KR 6 R900-2", KR6_R900, 0.0, Convention::Kuka),
-            // FANUC's and Yaskawa's base frames lie at the height of joint 2.
+            // FANUC's and Yaskawa's base frames are at the height of joint 2.
             "m-20ia" => ("FANUC M-20iA", M_20IA, 0.525, Convention::Fanuc),
             "irb2600" => ("ABB IRB 2600-12/1.65", IRB2600, 0.0, Convention::Abb),
             "irb4600" => ("ABB IRB 4600-40/2.55", IRB4600, 0.0, Convention::Abb),
@@ -140,7 +140,7 @@ impl Arm {
             signs: numbers.signs,
             limits: numbers.limits_deg.map(|limits| limits.map(f64::to_radians)),
             speeds: numbers.speeds_deg.map(f64::to_radians),
-            // Their makers publish none.
+            // The makers publish none.
             accelerations: None,
             base_height,
             radii: numbers.radii_mm.map(|radius| radius / 1000.0),

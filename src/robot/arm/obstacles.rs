@@ -1,8 +1,8 @@
-//! What gun and arm must not run into: the part, boxes of the cell, its floor, and the arm itself.
+//! Obstacles for gun and arm: the part, boxes of the cell, its floor, and the arm itself.
 //!
-//! Upper arm, forearm, wrist and gun are capsules: all points within a radius of a straight segment. The part is the points
-//! that it was enrolled with, each standing for the surface up to their spacing around it. Boxes and floor stay where they
-//! are in the robot's base frame:
+//! Upper arm, forearm, wrist and gun are capsules: all points within a radius of a straight segment. The part is its
+//! enrolled points, each standing for the surface around it up to the points' spacing. Boxes and floor stay in place in
+//! the robot's base frame:
 //!
 //! ```toml
 //! floor_mm = -600                  # height of the floor; none without it
@@ -13,17 +13,17 @@
 //! angles_deg = [0, 0, 30]          # about x, y and z of the base, R = Rz·Ry·Rx; 0 without them
 //! ```
 //!
-//! Of the arm itself gun and wrist must not run into the upper arm, gun, wrist and forearm not into the base column, and the
-//! gun not into the forearm. The column reaches from the foot up to the height of joint 2; its radius is that of the upper arm,
-//! or the distance of joint 2 from joint 1 if that is more. Bodies that share a joint are not held against each other: wrist and
-//! forearm, forearm and upper arm, upper arm and column. The gun begins at the end of a short wrist, so near the middle of the
-//! wrist it is always near to the forearm. What of either lies there within the radii and the clearance does not count: a gun
-//! ahead of the wrist is clear, one that is folded back along the forearm is not.
+//! Of the arm itself, gun and wrist must stay clear of the upper arm; gun, wrist and forearm of the base column; and
+//! the gun of the forearm. The column reaches from the foot to the height of joint 2; its radius is that of the upper
+//! arm, or the distance of joint 2 from joint 1 if larger. Bodies that share a joint are not compared: wrist and
+//! forearm, forearm and upper arm, upper arm and column. The gun begins at the end of a short wrist, so near the middle
+//! of the wrist it is always near the forearm. The parts of both that are there, within the radii and the clearance,
+//! are ignored: a gun ahead of the wrist is clear, one folded back along the forearm is not.
 //!
-//! Known limits: the limits of joint 5 have to keep wrist and forearm apart. Hoses, cables and what the arm carries besides the
-//! gun are no bodies, nor are its counterweights. Part, boxes and floor are not held
-//! against the base column, which stands still or runs along its rail. The side of the part that was not enrolled is not
-//! there, and neither is a stand or a wall unless a box stands for it.
+//! Known limits: only the limits of joint 5 keep wrist and forearm apart. Hoses, cables, counterweights and anything
+//! that the arm carries besides the gun are not modelled. Part, boxes and floor are not compared with the base column,
+//! which stands still or runs along its rail. The side of the part that was not enrolled is missing, and so is a stand
+//! or a wall without a box.
 
 use std::{path::Path, sync::Arc};
 
@@ -41,13 +41,13 @@ use crate::{
     },
 };
 
-/// A larger file lists no boxes of a cell.
+/// Largest file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 20;
-/// Every candidate may be tested against all boxes; no cell has as many.
+/// Most boxes: a candidate may be tested against all of them, and no cell has as many.
 const MAX_BOXES: usize = 200;
-/// Letters of a box's name.
+/// Most letters of a box's name.
 const MAX_NAME: usize = 60;
-/// No cell is as large, millimetres.
+/// Limit for coordinates and sizes, millimetres; no cell is larger.
 const LARGEST: f64 = 100_000.0;
 
 /// A body of gun or arm.
@@ -64,7 +64,7 @@ pub enum Body {
 }
 
 impl Body {
-    /// For people.
+    /// Name for people.
     pub fn name(self) -> &'static str {
         match self {
             Self::Gun => "gun",
@@ -75,24 +75,24 @@ impl Body {
     }
 }
 
-/// Something that is in the way.
+/// An obstacle.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Obstacle {
-    /// The part that is painted.
+    /// The part to be painted.
     Part,
     /// The floor of the cell.
     Floor,
-    /// A box of the cell, by its name.
+    /// A box of the cell, by name.
     Box(String),
     /// The upper arm, from joint 2 to joint 3.
     UpperArm,
     /// The forearm, from joint 3 to the middle of the wrist.
     Forearm,
-    /// The base column, from the foot up around joint 1.
+    /// The base column, from the foot upwards around joint 1.
     BaseColumn,
 }
 
-/// A body that is too near to something, and by how much: the room between them less the clearance, metres, below 0.
+/// The room between body and obstacle less the clearance, metres, below 0, and the two.
 pub(super) type Nearness = (f64, Body, Obstacle);
 
 /// All points within `radius` metres of the axis, in the frame of the path.
@@ -103,10 +103,10 @@ pub(super) struct Capsule {
     pub(super) radius: f64,
 }
 
-/// What gun and arm must not run into, in the frame of the path.
+/// Obstacles for gun and arm, in the frame of the path.
 #[derive(Clone, Debug)]
 pub struct Obstacles {
-    /// Nearer than this is too near, metres, 0..1.
+    /// Least distance from an obstacle, metres, 0..1.
     pub clearance: f64,
     boxes: Vec<CellBox>,
     /// Height of the floor, metres.
@@ -121,7 +121,7 @@ struct CellBox {
     half: Vector3<f64>,
 }
 
-/// The points of the part, from the middle of their extent.
+/// The points of the part, relative to the middle of their bounding box.
 #[derive(Debug)]
 struct PartPoints {
     tree: KdTree,
@@ -130,7 +130,7 @@ struct PartPoints {
     middle_from_robot: RigidTransform,
 }
 
-/// The file's content.
+/// Content of the file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Text {
@@ -150,7 +150,7 @@ struct BoxText {
 }
 
 impl Default for Obstacles {
-    /// None, with a clearance of 20 mm.
+    /// No obstacles, with a clearance of 20 mm.
     fn default() -> Self {
         Self {
             clearance: 0.02,
@@ -162,7 +162,7 @@ impl Default for Obstacles {
 }
 
 impl Obstacles {
-    /// Reads the boxes of a cell and its floor.
+    /// Reads the boxes of a cell and its floor from a TOML file.
     pub fn read(path: &Path) -> Result<Self, ArmError> {
         let wrong = |message: String| ArmError::Obstacles {
             path: path.to_owned(),
@@ -193,7 +193,7 @@ impl Obstacles {
         })
     }
 
-    /// The same with the part's points, in the part's frame; those that are not finite do not count.
+    /// Adds a part by its points in the part's frame; points that are not finite are ignored.
     #[must_use]
     pub fn with_part(self, points: &[Point3<f32>], robot_from_part: &RigidTransform) -> Self {
         Self {
@@ -202,7 +202,7 @@ impl Obstacles {
         }
     }
 
-    /// The corners of each box. Two are joined by an edge if their numbers differ in one bit.
+    /// The corners of each box; two are joined by an edge if their indices differ in one bit.
     pub fn boxes(&self) -> impl Iterator<Item = [Point3<f64>; 8]> {
         self.boxes.iter().map(|one| {
             let robot_from_box = one.box_from_robot.inverse();
@@ -214,7 +214,7 @@ impl Obstacles {
         })
     }
 
-    /// Every body that is too near to something.
+    /// All pairs of these bodies and obstacles of the cell that are too near.
     pub(super) fn pairs(&self, bodies: &[Capsule]) -> impl Iterator<Item = Nearness> {
         bodies.iter().flat_map(move |capsule| {
             let Capsule { body, axis, radius } = *capsule;
@@ -235,8 +235,8 @@ impl Obstacles {
         })
     }
 
-    /// Bodies of the arm that are too near to another one or to the base column, which is given by its axis and radius.
-    /// `bodies` are gun, wrist, forearm, its step behind the elbow, and upper arm.
+    /// All pairs of the arm's bodies, and of these and the base column, given by its axis and radius, that are too
+    /// near. `bodies` are gun, wrist, forearm, its step behind the elbow, and upper arm.
     pub(super) fn pairs_of_arm(
         &self,
         bodies: &[Capsule; 5],
@@ -268,13 +268,13 @@ impl Obstacles {
     }
 }
 
-/// How much nearer than `within` two axes are, metres, below 0; none if they are not.
+/// Distance of two axes less `within`, metres, if below 0.
 fn room(axis: &Segment, other: &Segment, within: f64) -> Option<f64> {
     let room = axis.distance_to_segment(other) - within;
     (room < 0.0).then_some(room)
 }
 
-/// The body that is too near to something, and to what: of several the pair with the least room, whatever their order.
+/// The pair with the least room; independent of the pairs' order.
 pub(super) fn worst(pairs: impl Iterator<Item = Nearness>) -> Option<(Body, Obstacle)> {
     let worst = pairs.min_by(|a, b| {
         let room = a.0.total_cmp(&b.0);
@@ -311,10 +311,10 @@ impl BoxText {
 }
 
 impl CellBox {
-    /// The distance of a segment to its surface, if below `within`; 0 inside.
+    /// Distance of a segment from its surface, if below `within`; 0 inside.
     fn distance(&self, axis: &Segment, within: f64) -> Option<f64> {
         let axis = axis.moved(&self.box_from_robot);
-        // The spheres around both are apart: most boxes of a cell are far from most bodies.
+        // Skip if the spheres around both are apart: most boxes of a cell are far from most bodies.
         let middle = nalgebra::center(&axis.from, &axis.to).coords.norm();
         if middle - self.half.norm() - axis.length() / 2.0 >= within {
             return None;
@@ -341,11 +341,11 @@ impl PartPoints {
         })
     }
 
-    /// The distance of a segment to its surface, if below `within`: that to the nearest point less the points' spacing.
+    /// Distance of a segment from its surface, if below `within`: that from the nearest point less the points' spacing.
     fn distance(&self, axis: &Segment, within: f64) -> Option<f64> {
         let axis = axis.moved(&self.middle_from_robot);
         let within = within + self.spacing;
-        // Beside the box around all points no point needs to be looked for.
+        // Outside of the box around all points no search is needed.
         if axis.distance_to_box(&self.half) >= within {
             return None;
         }

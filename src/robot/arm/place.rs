@@ -1,4 +1,5 @@
-//! Where an arm would reach more of a path. Obstacles stay where they are, and what collides is not reached.
+//! Suggests where an arm would reach more of a path. Obstacles stay in place, and points with a collision are not
+//! reached.
 
 use nalgebra::Translation3;
 
@@ -8,25 +9,25 @@ use super::{
     kinematics::Solver,
 };
 
-/// A better place, and what it reaches.
+/// A better place for the base or the rail, and what the arm reaches there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaceSuggestion {
-    /// How far to move the base, metres along the axes of the path's frame; along the rail this is its first number.
+    /// Shift of the base, metres along the axes of the path's frame; for a rail, its position as the first number.
     pub shift: [f64; 3],
-    /// Points without a problem there.
+    /// Number of points without a problem there.
     pub num_reached: usize,
 }
 
-/// Points of the path that are sampled while places are compared.
+/// Points of the path that are sampled to compare places.
 const NUM_SAMPLES: usize = 60;
-/// Turns that are tried meanwhile.
+/// Turns of the nozzle that are tried at each sample.
 const NUM_TURNS: usize = 8;
-/// Best places that are checked in full.
+/// Number of best places that are checked in full.
 const NUM_CHECKED: usize = 3;
 
-/// Moves the base by up to a metre sideways and half a metre up or down, in steps of 200 and 250 mm, and returns the place
-/// that reaches most points, if it reaches more than `num_reached`. `progress` takes the places looked at, and how many there
-/// are in all; [`ArmError::Cancelled`] soon after `is_cancelled`.
+/// Tries the base up to a metre away along x and y and half a metre up or down, in steps of 200 and 250 mm. Returns the
+/// place that reaches most points, if it reaches more than `num_reached`. `progress` receives the number of places
+/// examined and of all places. Returns [`ArmError::Cancelled`] soon after `is_cancelled` returns true.
 pub fn suggest_base(
     placed: &PlacedArm,
     points: &[ArmPoint],
@@ -63,7 +64,8 @@ pub fn suggest_base(
     search.best(shifts.collect(), at)
 }
 
-/// The same of a position of the rail, every 100 mm; none without a rail, or with one that moves along the path.
+/// As [`suggest_base`], for a position of the rail, every 100 mm; `None` without a rail, or with one that moves along
+/// the path.
 pub fn suggest_rail(
     placed: &PlacedArm,
     points: &[ArmPoint],
@@ -86,7 +88,7 @@ pub fn suggest_rail(
     search.best(shifts.collect(), |[rail, ..]| (placed.clone(), rail))
 }
 
-/// What places are compared by.
+/// The common arguments of both searches.
 struct Search<'a> {
     points: &'a [ArmPoint],
     params: &'a CheckParams,
@@ -96,7 +98,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The best of these places; `at` is the arm there, and where its rail stands.
+    /// Finds the best of these places; `at` returns the arm and the rail's position at a place.
     fn best(
         &self,
         shifts: Vec<[f64; 3]>,
@@ -111,7 +113,7 @@ impl Search<'_> {
             let distance: f64 = shift.iter().map(|x| x * x).sum();
             ranked.push((num, distance, shift));
         }
-        // Most points first, then the shortest way.
+        // Most points first, then the shortest shift.
         ranked.sort_by(|a, b| b.0.cmp(&a.0).then(a.1.total_cmp(&b.1)));
         let mut found: Option<PlaceSuggestion> = None;
         let num_places = ranked.len();
@@ -131,7 +133,7 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// How many of the sampled points are reached from there.
+    /// Number of sampled points that are reached.
     fn num_sampled(&self, placed: &PlacedArm, rail: f64) -> Result<usize, ArmError> {
         refuse_bad(placed, self.points, self.params)?;
         let solvers: Vec<Solver<'_>> = rails(placed, rail)
@@ -151,7 +153,8 @@ impl Search<'_> {
     }
 }
 
-/// Where the rail may be while a place is compared: at this position, or, if it moves along the path, every half of the reach.
+/// Positions of the rail to compare a place with: this one or, if the rail moves along the path, one per half of the
+/// reach.
 fn rails(placed: &PlacedArm, rail: f64) -> Vec<f64> {
     match placed.arm.moving_rail() {
         Some((moving, _)) => moving.positions(placed.arm.reach() / 2.0),

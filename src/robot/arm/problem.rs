@@ -1,32 +1,32 @@
-//! Why a point of a path is no good.
+//! The problems of a path's points.
 
 use super::{
     kinematics::Singularity,
     obstacles::{Body, Obstacle},
 };
 
-/// Why a point is no good.
+/// Why the arm cannot run a point of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PointProblem {
-    /// The arm is too short, or its wrist too near to its own base.
+    /// The arm is too short, or its wrist would be too near to its own base.
     OutOfReach,
-    /// A joint would have to turn farther than it can, in each of the solutions; this is the nearest.
+    /// Every solution has a joint beyond its limit; this is the nearest to it.
     JointLimit {
         /// The joint, from 1.
         joint: usize,
         /// The angle that it would need, radians.
         angle: f64,
     },
-    /// The arm can, but near a pose in which joints race.
+    /// The arm reaches it, but near a pose in which joints would have to be too fast.
     NearSingularity(Singularity),
-    /// On the way from the point before, a joint would have to turn faster than it can.
+    /// On the way from the previous point, a joint would have to be faster than it can.
     TooFast {
         /// The joint, from 1.
         joint: usize,
         /// The speed that it would need, rad/s.
         speed: f64,
     },
-    /// On the way from the point before, the rail would have to move faster than it can.
+    /// On the way from the previous point, the rail would have to be faster than it can.
     RailTooFast {
         /// The speed that it would need, m/s.
         speed: f64,
@@ -37,29 +37,29 @@ pub enum PointProblem {
         joint: usize,
         /// The acceleration that it would need, rad/s².
         acceleration: f64,
-        /// The greatest that it can, rad/s².
+        /// The joint's limit, rad/s².
         limit: f64,
     },
-    /// The same of the rail.
+    /// Within that window, the rail would have to accelerate more than it can.
     RailAcceleration {
         /// The acceleration that it would need, m/s².
         acceleration: f64,
-        /// The greatest that it can, m/s².
+        /// The rail's limit, m/s².
         limit: f64,
     },
-    /// On the way from the point before, the arm would have to fold over, or to turn a joint once around.
+    /// On the way from the previous point, the arm would have to change its configuration, or turn a joint once around.
     ConfigurationChange,
-    /// Gun or arm come nearer to something than the clearance, at the point or on the way from the point before.
+    /// Gun or arm come nearer to an obstacle than the clearance, at the point or on the way from the previous one.
     Collision {
-        /// What comes too near.
+        /// The body that is too near.
         body: Body,
-        /// To what.
+        /// The obstacle.
         obstacle: Obstacle,
     },
 }
 
 impl PointProblem {
-    /// In words, without the point.
+    /// Describes the problem in words, without the point.
     pub fn describe(&self) -> String {
         match self {
             Self::OutOfReach => "out of reach".into(),
@@ -108,7 +108,7 @@ impl PointProblem {
         }
     }
 
-    /// True if joints or rail cannot accelerate as much: run slower there, or round the corner in a larger radius.
+    /// Returns true for an acceleration, which a lower speed or a corner of larger radius would reduce.
     pub fn is_acceleration(&self) -> bool {
         matches!(
             self,
@@ -116,7 +116,7 @@ impl PointProblem {
         )
     }
 
-    /// Which kind it is, for programs.
+    /// A name of the problem for programs.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::OutOfReach => "out_of_reach",

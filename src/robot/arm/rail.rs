@@ -9,11 +9,11 @@ use super::ArmError;
 /// A straight rail below an arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rail {
-    /// Which way it runs, in the frame of the path.
+    /// Direction of the rail in the frame of the path.
     pub direction: Unit<Vector3<f64>>,
-    /// From and to, metres from where the calibration was made.
+    /// First and last position, metres from where the cell was calibrated.
     pub range: [f64; 2],
-    /// Top speed, 0.001..10 m/s, of a rail that moves along the path; none of one that stands still meanwhile.
+    /// Top speed, 0.001..10 m/s, if it moves along the path; none if it stands still.
     pub speed: Option<f64>,
     /// Greatest acceleration, 0.001..100 m/s²; none if not known.
     pub acceleration: Option<f64>,
@@ -47,7 +47,7 @@ impl Rail {
         Ok(self)
     }
 
-    /// Even positions from one end to the other, at most `step` metres apart, and at most 1001 of them.
+    /// Even positions from one end to the other, at most `step` metres apart unless that would be more than 1001.
     pub(super) fn positions(&self, step: f64) -> Vec<f64> {
         let [low, high] = self.range;
         let num = ((high - low) / step).ceil().clamp(1.0, 1000.0);
@@ -59,8 +59,8 @@ impl Rail {
 impl FromStr for Rail {
     type Err = ArmError;
 
-    /// Axis of the path's frame, from, to and, if it moves along the path, top speed and, if known, greatest acceleration, in
-    /// millimetres and seconds: `y,-2000,2000,1000,2000`. `-y` runs the other way.
+    /// Parses axis of the path's frame, first and last position and, if it moves along the path, top speed and
+    /// optionally greatest acceleration, in millimetres and seconds: `y,-2000,2000,1000,2000`. `-y` runs the other way.
     fn from_str(text: &str) -> Result<Self, ArmError> {
         let wrong = || ArmError::NoRail { text: text.into() };
         let mut words = text.split(',').map(str::trim);

@@ -1,22 +1,23 @@
-//! Where a rail that moves along a path is at every point.
+//! The positions of a rail that moves along a path.
 //!
 //! Positions every 100 mm (farther apart on rails of more than 10 m) are tried at every point: which of the arm's eight
-//! configurations reach it from there, within the joints' limits, not singular and clear of all obstacles. Dynamic programming
-//! over point, position and configuration then finds the cheapest run of the rail. It stands, or moves from one position to
-//! another, over as many points as that takes: at an even speed, or, where the limit of its acceleration is known, speeding up
-//! evenly from standstill and slowing down again. What a move costs, in positions moved:
+//! configurations reach it from there, within the joints' limits, not singular and clear of all obstacles. Dynamic
+//! programming over point, position and configuration then finds the cheapest run of the rail. The rail stands still,
+//! or moves from one position to another over as many points as that takes: at constant speed or, if its limit of
+//! acceleration is known, accelerating evenly from standstill and slowing down again. The cost, in positions moved, is:
 //!
-//! - its length, a little more at half the top speed and more at the full one, and [`START`] for each move: few, slow ones win;
-//! - [`GUN`] times as much while the gun is on, so that it rather stands along a stroke;
-//! - up to [`BORDER`] over the whole path for standing where the next position does not reach.
+//! - for a move its length, a little more at half the top speed and more at the full one, plus [`START`]: few, slow
+//!   moves win;
+//! - [`GUN`] times as much while the gun is on, so that the rail tends to stand still along a stroke;
+//! - up to [`BORDER`] over the whole path for standing at a position whose neighbour does not reach the point.
 //!
-//! A point that is not reached, a move too fast for the rail and an arm that folds over cost more than all of that. So where
-//! the rail can run such that every point is reached by one configuration, the cheapest such run is found, among runs between
-//! these positions; of a move past more than [`MAX_LOOKED_AT`] points only so many and its last are looked at. The run is a
-//! proposal: every point, and the way to it, is then checked with the rail where it is.
+//! A missed point, a move too fast for the rail and a change of configuration each cost more than all of that. So if
+//! some run of the rail reaches every point with one configuration, the cheapest such run between these positions is
+//! found; of a move past more than [`MAX_LOOKED_AT`] points only that many, and the last, are examined. The run is a
+//! proposal: afterwards every point and the way to it are checked with the rail in its place.
 //!
-//! Known limits: how fast joints turn does not count here. Near the border of its reach an arm may be too slow, which the check
-//! then says.
+//! Known limits: joint speeds are not considered. Near the border of its reach an arm may be too slow, which the check
+//! then reports.
 
 use super::{
     Arm, ArmError, ArmPoint, CheckParams, PlacedArm,
@@ -25,27 +26,28 @@ use super::{
 };
 use crate::geometry::parallel::{map_in_order, num_cores};
 
-/// Between two positions, metres, and the most of them.
+/// Distance of two positions, metres, and their largest number.
 const STEP: f64 = 0.1;
 const MAX_POSITIONS: f64 = 100.0;
-/// Turns that are tried of a round jet.
+/// Turns of the nozzle that are tried for a round jet.
 const NUM_TURNS: usize = 8;
-/// Shares of the top speed at which it moves, and what a way costs at each.
+/// Speeds of a move as shares of the top speed, and the cost per position at each.
 const PACES: [(f64, f64); 3] = [(0.25, 1.0), (0.5, 1.25), (1.0, 1.5)];
-/// Costs of a move; see above.
+/// Costs of a move, see the module's documentation.
 const START: f64 = 4.0;
 const GUN: f64 = 4.0;
 const BORDER: f64 = 4.0;
-/// A point that is not reached; and a move that is too fast, or the arm folding over: one of them is better than a point that
-/// is missed, two are not. All else together costs less.
+/// Costs of a missed point, and of a jump: a move too fast for the rail, or a change of configuration. One jump is
+/// better than a missed point, two are not. All other costs together are less.
 const MISSED: f64 = 1e7;
 const JUMP: f64 = 0.9 * MISSED;
-/// Points that are looked at, evenly, between the ends of a move: a slow rail passes thousands on its way.
+/// Points examined, evenly, between the ends of a move: a slow rail passes thousands on its way.
 const MAX_LOOKED_AT: usize = 100;
-/// The configurations of an arm.
+/// Number of configurations of an arm.
 const NUM_CONFIGURATIONS: usize = 8;
 
-/// Where the rail is at every point, metres: 0 without one. [`ArmError::Cancelled`] soon after `is_cancelled`.
+/// Returns the rail's position at every point, metres; `params.rail` if it does not move along the path. Returns
+/// [`ArmError::Cancelled`] soon after `is_cancelled` returns true.
 pub(super) fn rail_positions(
     placed: &PlacedArm,
     points: &[ArmPoint],
@@ -79,7 +81,7 @@ pub(super) fn rail_positions(
     let times = points.iter().enumerate().map(|(i, point)| {
         if let Some(before) = i.checked_sub(1).map(|before| &points[before]) {
             let (from, to) = (&before.robot_from_nozzle, &point.robot_from_nozzle);
-            // A turn on the spot takes as long as it wants: no time that could be counted on.
+            // A turn on the spot takes as long as the joints need; do not count on that time.
             now += move_time(from, to, before.speed).unwrap_or(0.0);
         }
         now
@@ -96,7 +98,7 @@ pub(super) fn rail_positions(
     .ok_or(ArmError::Cancelled)
 }
 
-/// The configurations that reach a point at any turn of the nozzle, a bit for each.
+/// The configurations that reach a point at some turn of the nozzle, a bit for each.
 fn configurations(arm: &Arm, solver: &Solver<'_>, point: &ArmPoint) -> u8 {
     let mut found = 0;
     for turn in turns_of(point, NUM_TURNS) {
@@ -115,14 +117,14 @@ fn configurations(arm: &Arm, solver: &Solver<'_>, point: &ArmPoint) -> u8 {
     found
 }
 
-/// What a run of the rail is chosen by.
+/// Input of the search for a run of the rail.
 struct Plan {
-    /// When the nozzle is at each point, seconds.
+    /// Time of the nozzle at each point, seconds.
     times: Vec<f64>,
     is_gun_on: Vec<bool>,
-    /// Of each point and position the configurations that reach it.
+    /// For each point and position, the configurations that reach it.
     reached: Vec<Vec<u8>>,
-    /// Even, metres.
+    /// Evenly spaced, metres.
     positions: Vec<f64>,
     /// Top speed, m/s.
     speed: f64,
@@ -133,17 +135,17 @@ struct Plan {
 /// Point, position and configuration.
 type State = (usize, usize, usize);
 
-/// The state before, packed: a long path on a long rail has millions of states.
+/// The previous state, packed: a long path on a long rail has millions of states.
 type Before = (u32, u8, u8);
 
-/// The cheapest run to each state of a point: its cost, and the state before.
+/// For each state of a point, the cost of the cheapest run to it, and the previous state.
 type Costs = Vec<[(f64, Option<Before>); NUM_CONFIGURATIONS]>;
 
 impl Plan {
-    /// The position of the rail at every point; none soon after `is_cancelled`.
+    /// Returns the position of the rail at every point; `None` soon after `is_cancelled` returns true.
     fn run(mut self, is_cancelled: &dyn Fn() -> bool) -> Option<Vec<f64>> {
         let num = self.times.len();
-        // What no position reaches is missed wherever the rail is: it may as well pass.
+        // A point that no rail position reaches is lost anyway; do not let it constrain the rail.
         for here in &mut self.reached {
             if here.iter().all(|found| *found == 0) {
                 here.fill(u8::MAX);
@@ -176,11 +178,11 @@ impl Plan {
                     let next = (point + 1, position, configuration);
                     let from = (point, position, configuration);
                     relax(&mut costs, next, cost + own(next), from);
-                    // Folding over, or a move that the rail cannot make, from wherever that is cheapest.
+                    // A jump, from the cheapest state.
                     let from = (point, cheapest.0, cheapest.1);
                     relax(&mut costs, next, least + JUMP + own(next), from);
                 }
-                // A run that has jumped already may as well jump to the end of the move.
+                // A run that has already jumped may as well jump to the end of the move.
                 let is_cheap = |(cost, _): &(f64, Option<Before>)| *cost < least + JUMP / 2.0;
                 if !costs[point][position].iter().any(is_cheap) {
                     continue;
@@ -200,8 +202,8 @@ impl Plan {
         Some(self.back(&costs))
     }
 
-    /// Every move from a position at a point: the point at which it ends, where, the configurations that reach all between,
-    /// and its cost.
+    /// All moves from a position at a point: the point and the position at the end, the configurations that reach every
+    /// point in between, and the cost.
     fn moves(
         &self,
         point: usize,
@@ -219,7 +221,7 @@ impl Plan {
             }
             let mut passing = self.reached[end][to];
             let every = (end - point).div_ceil(MAX_LOOKED_AT);
-            // The last as well: what a move is late for lies at its end.
+            // Examine the last point too: one that the move misses for being late is at its end.
             let last = (every > 1).then_some(end - 1);
             for between in (point + 1..end).step_by(every).chain(last) {
                 if passing == 0 {
@@ -237,11 +239,11 @@ impl Plan {
         })
     }
 
-    /// How long a move of so many metres takes at this speed.
+    /// Seconds of a move of `way` metres at this speed.
     fn seconds_for(&self, way: f64, speed: f64) -> f64 {
         match self.acceleration {
             None => way / speed,
-            // It slows down before it is that fast.
+            // It slows down before it reaches this speed.
             Some(acceleration) if way * acceleration < speed * speed => {
                 2.0 * (way / acceleration).sqrt()
             }
@@ -249,7 +251,7 @@ impl Plan {
         }
     }
 
-    /// The share of a move of so many metres that is behind at a point between its ends, 0..1.
+    /// The share, 0..1, of a move of `way` metres that is done at a point between its ends.
     fn share(&self, way: f64, from: usize, to: usize, between: usize) -> f64 {
         let all = self.times[to] - self.times[from];
         let passed = self.times[between] - self.times[from];
@@ -285,7 +287,8 @@ impl Plan {
     }
 }
 
-/// Metres of a way ridden after `passed` of `all` seconds, from standstill to standstill, no faster than it takes.
+/// Metres ridden after `passed` of `all` seconds of a move from standstill to standstill, at the lowest top speed
+/// possible.
 fn ridden(way: f64, all: f64, passed: f64, acceleration: f64) -> f64 {
     // all = way / top + top / acceleration
     let root = (all * all - 4.0 * way / acceleration).max(0.0).sqrt();
@@ -301,7 +304,7 @@ fn ridden(way: f64, all: f64, passed: f64, acceleration: f64) -> f64 {
     }
 }
 
-/// How near the border of what is reached each position is: 1 beside it, 0.5 one farther, 0 within.
+/// How near each position is to the border of those that reach a point: 1 next to it, 0.5 one farther, 0 elsewhere.
 fn border(here: &[u8]) -> Vec<f64> {
     let is_missed = |position: usize| here.get(position).is_some_and(|found| *found == 0);
     let all = (0..here.len()).map(|at| {

@@ -23,7 +23,7 @@ fn placed(name: &str) -> PlacedArm {
     }
 }
 
-/// A gun held ahead of the flange and bent by 45°, so that its z axis is not joint 6.
+/// A gun held ahead of the flange and tilted by about 45°, so that its z axis is not that of joint 6.
 fn with_gun(name: &str) -> PlacedArm {
     PlacedArm {
         flange_from_nozzle: from_euler_zyx([0.0, 0.8, 0.0, 0.05, 0.0, 0.2]),
@@ -31,7 +31,7 @@ fn with_gun(name: &str) -> PlacedArm {
     }
 }
 
-/// A row of points ahead of the arm, the nozzle pointing ahead.
+/// A row of points ahead of the arm, with the nozzle pointing ahead.
 fn row(arm: &PlacedArm, num: usize, length: f64) -> Vec<ArmPoint> {
     let ahead = 0.7 * arm.arm.reach() + 0.25;
     let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), FRAC_PI_2);
@@ -87,7 +87,7 @@ fn each_reason_is_named() {
     assert_eq!(found.points[0].problem, Some(PointProblem::OutOfReach));
     assert_eq!(found.points[0].joints, None);
 
-    // Joint 1 ends 10° to either side: a point at the left is not within it.
+    // Joint 1 is limited to 10° on either side: a point to the left is beyond it.
     let mut narrow = placed.clone();
     narrow.arm.limits[0] = [-0.17, 0.17];
     let mut left = row(&narrow, 1, 0.0);
@@ -98,7 +98,7 @@ fn each_reason_is_named() {
         "{problem:?}"
     );
 
-    // As fast as no joint turns.
+    // Faster than any joint can turn.
     let mut fast = row(&placed, 20, 0.8);
     for point in &mut fast {
         point.speed = 50.0;
@@ -157,7 +157,7 @@ fn a_slow_move_neither_turns_a_joint_once_around_nor_folds_the_arm_over() {
         let joints = [0.0, 0.2, 0.3, 0.0, 0.8, joint_6];
         solver.forward(&joints).expect("finite")
     };
-    // 20 mm at 1 mm/s, in which joint 6 turns from 2.95 to 3.1 rad: any joint had the time for a whole turn.
+    // 20 mm at 1 mm/s while joint 6 turns from 2.95 to 3.1 rad: every joint has time for a whole turn.
     let poses = [pose(2.95), Translation3::new(0.02, 0.0, 0.0) * pose(3.1)];
     let points = poses.map(|robot_from_nozzle| ArmPoint {
         robot_from_nozzle,
@@ -165,16 +165,16 @@ fn a_slow_move_neither_turns_a_joint_once_around_nor_folds_the_arm_over() {
         is_turn_free: false,
         is_gun_on: true,
     });
-    // Shoulder and elbow fold one way only.
+    // Shoulder and elbow have one configuration only.
     placed.arm.limits[0] = [-0.5, 0.5];
     placed.arm.limits[1] = [-0.3, 0.7];
     placed.arm.limits[2] = [-0.3, 0.9];
     placed.arm.limits[4] = [-1.4, 1.4];
     for (joint_4, joint_6, is_reached) in [
         ([-1.0, 1.0], [-4.0, 4.0], true),
-        // Only a whole turn back is left at the second point.
+        // At the second point only a whole turn back is left.
         ([-1.0, 1.0], [-3.2, 3.0], false),
-        // Only the other wrist is.
+        // Only the other configuration of the wrist is left there.
         ([-4.0, 4.0], [-0.1, 3.0], false),
     ] {
         placed.arm.limits[3] = joint_4;
@@ -195,7 +195,7 @@ fn a_slow_move_neither_turns_a_joint_once_around_nor_folds_the_arm_over() {
 #[test]
 fn a_round_jet_reaches_more_because_the_nozzle_may_turn() {
     let mut placed = with_gun("gp25");
-    // A wrist that hardly turns.
+    // A wrist with little range.
     placed.arm.limits[3] = [-0.6, 0.6];
     placed.arm.limits[5] = [-0.6, 0.6];
     let mut points = row(&placed, 20, 0.3);
@@ -209,7 +209,7 @@ fn a_round_jet_reaches_more_because_the_nozzle_may_turn() {
     let found = check(&placed, &points);
     assert!(fixed < 20 && found.num_reached() == 20, "{fixed} {found:?}");
     assert!(found.points[0].turn != 0.0);
-    // z still points the way of the path.
+    // z still points as the path has it.
     let solver = Solver::new(&placed, 0.0);
     for (point, wanted) in found.points.iter().zip(&points) {
         let at = solver.forward(&point.joints.expect("one")).expect("finite");

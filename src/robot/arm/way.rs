@@ -8,12 +8,12 @@ use super::{
 };
 use crate::geometry::rigid::RigidTransform;
 
-/// Straight moves are followed in steps of at most this, metres and radians.
+/// Longest steps in which straight moves are followed, metres and radians.
 const STEP: [f64; 2] = [0.05, 0.175];
-/// Two solutions are the same within this, radians.
+/// Differences of joints up to this are ignored, radians.
 const SAME: f64 = 1e-4;
 
-/// Where a straight move begins or ends.
+/// One end of a straight move.
 pub(super) struct WayEnd {
     pub(super) nozzle: RigidTransform,
     pub(super) joints: Joints,
@@ -21,7 +21,7 @@ pub(super) struct WayEnd {
 }
 
 impl WayEnd {
-    /// A point as it was checked; none if it is not reached.
+    /// The end at a checked point; `None` if it is not reached.
     pub(super) fn of(point: &ArmPoint, checked: &PointCheck) -> Option<Self> {
         Some(Self {
             nozzle: turned(point, checked.turn),
@@ -30,7 +30,8 @@ impl WayEnd {
         })
     }
 
-    /// The joints nearest to `near` at this share of the straight move to another end; none if it is not reached there.
+    /// The joints nearest to `near` at this share of the straight move to another end; `None` if that pose is not
+    /// reached.
     pub(super) fn joints_towards(
         &self,
         end: &Self,
@@ -55,7 +56,7 @@ impl WayEnd {
     }
 }
 
-/// Follows a straight move from one chosen solution towards the next, and says what is wrong with it.
+/// Follows a straight move from one chosen solution to the next, and returns its problem, if any.
 pub(super) fn way_problem(
     placed: &PlacedArm,
     start: &WayEnd,
@@ -82,8 +83,8 @@ pub(super) fn way_problem(
             let Some(nearest) = nearest(&solver, &pose, &at) else {
                 return trouble.or(Some(PointProblem::OutOfReach));
             };
-            // It comes before whatever else is wrong, but a limit stops the arm before it. The ends of the way are points, which
-            // are tested.
+            // A collision precedes all other problems, but the arm stops at a limit before it collides. The ends of the
+            // move are points, which are tested already.
             if outside(&solver, &nearest).is_none()
                 && let Some(collision) = solver.collision(&nearest)
             {
@@ -100,7 +101,7 @@ pub(super) fn way_problem(
     trouble
 }
 
-/// The largest difference between two joints, radians.
+/// Largest difference of a joint, radians.
 pub(super) fn apart(a: &Joints, b: &Joints) -> f64 {
     let all = a.iter().zip(b);
     all.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
@@ -112,17 +113,17 @@ fn nearest(solver: &Solver<'_>, pose: &RigidTransform, at: &Joints) -> Option<Jo
     solutions.min_by(|a, b| apart(a, at).total_cmp(&apart(b, at)))
 }
 
-/// What is wrong if a straight move from `at`, shortly before its end, does not arrive with the joints chosen there. However
-/// slow the move is, the controller neither folds the arm over on it nor turns a joint once around.
+/// Returns the problem of a straight move from `at`, shortly before its end, that does not arrive with the joints
+/// chosen there. However slow the move, the controller neither changes the configuration nor turns a joint once around.
 fn arrival_problem(
     solver: &Solver<'_>,
     start: &WayEnd,
     end: &WayEnd,
     at: &Joints,
 ) -> Option<PointProblem> {
-    /// Two solutions that are not singular are farther apart, radians.
+    /// Least difference of two solutions that are not singular, radians.
     const OTHER: f64 = 0.01;
-    // At a singularity, which is a problem of its own, several solutions meet.
+    // Several solutions meet at a singularity, which is a problem of its own.
     let ends = [&start.joints, &end.joints];
     if ends
         .iter()
@@ -141,7 +142,7 @@ fn arrival_problem(
     Some(beyond.unwrap_or(PointProblem::ConfigurationChange))
 }
 
-/// Whether the rail gets as far in so many seconds, or in as many as it wants.
+/// Checks that the rail can ride this far in `allowed` seconds; unlimited if `None`.
 fn rail_problem(arm: &Arm, ride: f64, allowed: Option<f64>) -> Option<PointProblem> {
     /// The times of a run are sums, which are not exact.
     const EXACT: f64 = 1e-6;
@@ -150,7 +151,7 @@ fn rail_problem(arm: &Arm, ride: f64, allowed: Option<f64>) -> Option<PointProbl
     (speed > fastest * (1.0 + EXACT)).then_some(PointProblem::RailTooFast { speed })
 }
 
-/// What is wrong with a short step from one solution to the next, which may take so many seconds, or as many as it wants.
+/// Returns the problem of a short step between two solutions that may take `allowed` seconds; unlimited if `None`.
 fn step_problem(
     solver: &Solver<'_>,
     at: &Joints,
@@ -181,7 +182,7 @@ fn step_problem(
     )
 }
 
-/// The first joint outside its limits, as it stands.
+/// The first joint outside its limits, and its angle.
 fn outside(solver: &Solver<'_>, joints: &Joints) -> Option<(usize, f64)> {
     let limits = solver.arm.limits.iter().zip(joints).enumerate();
     let mut beyond =

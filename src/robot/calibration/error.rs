@@ -1,4 +1,4 @@
-//! Why a calibration file cannot be used.
+//! Errors of calibration files.
 
 use std::path::PathBuf;
 
@@ -11,37 +11,37 @@ pub enum CalibrationError {
     /// The file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// Made by a newer version of this program.
+    /// The file was made by a newer version of this program.
     #[error("{}: made by a newer version of Partsight (schema {found}, this one reads up to {SCHEMA_VERSION})", path.display())]
     Newer {
         /// The file.
         path: PathBuf,
-        /// Its version.
+        /// Schema version of the file.
         found: u32,
     },
-    /// Something in it cannot be understood.
+    /// The file has unexpected content.
     #[error("{}: no calibration: {found}", path.display())]
     Bad {
         /// The file.
         path: PathBuf,
-        /// The first thing wrong.
+        /// The first error in it.
         found: String,
     },
-    /// A matrix that is no place of a camera.
+    /// A matrix is not a rigid transform.
     #[error("{}: {key} is not a rigid transform: it stretches, mirrors, is not finite or does not end in 0 0 0 1", path.display())]
     NotRigid {
         /// The file.
         path: PathBuf,
-        /// The matrix.
+        /// Name of the matrix.
         key: &'static str,
     },
-    /// Numbers that the file cannot hold.
+    /// The numbers would change in the file, so it was not written.
     #[error("{}: not written: the numbers would not come back from the file as they are", path.display())]
     NotKept {
         /// The file.
         path: PathBuf,
     },
-    /// The system does not say where a user's data belong.
+    /// The system names no folder for user data.
     #[error("this system names no folder for a user's data")]
     NoUserFolder,
 }

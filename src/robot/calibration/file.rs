@@ -1,4 +1,4 @@
-//! A calibration as a text file that a person can read and mend.
+//! A calibration as a text file that a person can read and correct.
 
 use std::{
     fmt::Write as _,
@@ -15,25 +15,25 @@ use crate::{
     robot::hand_eye::Mount,
 };
 
-/// The version of the file that this program writes. It reads this one and older ones.
+/// Version of the file that this program writes. It reads this one and older ones.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// A larger file is no calibration.
+/// Largest file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// Numbers that a person entered with four digits are off a rotation by as much.
+/// Tolerance for a rotation: people enter numbers with four digits.
 const ROUNDING: f64 = 1e-3;
 
-/// A calibration as it was read.
+/// A calibration read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {
     /// The calibration.
     pub calibration: CellCalibration,
-    /// True if its numbers are others than those that the program wrote: somebody edited the file.
+    /// True if the file's numbers are not those that the program wrote: someone edited the file.
     pub is_edited: bool,
 }
 
-/// The file's content, as far as this version knows it.
+/// Content of the file.
 #[derive(Debug, Deserialize)]
 struct Text {
     #[serde(default)]
@@ -53,7 +53,7 @@ struct Text {
 
 type Matrix = [[f64; 4]; 4];
 
-/// Numbers come back from the file to within this share: a nanometre in a metre.
+/// Tolerance for numbers read back, relative above 1: a nanometre in a metre.
 const KEPT: f64 = 1e-9;
 
 const HEAD: &str = "\
@@ -65,13 +65,13 @@ const HEAD: &str = "\
 ";
 
 impl CellCalibration {
-    /// Reads a calibration.
+    /// Reads a calibration file.
     pub fn load(path: &Path) -> Result<Loaded, CalibrationError> {
         let text = read_text(path, MAX_BYTES)?;
         parse(&text, path)
     }
 
-    /// The same; `None` where there is no such file.
+    /// Reads a calibration file; `None` if it does not exist.
     pub fn load_if_there(path: &Path) -> Result<Option<Loaded>, CalibrationError> {
         match Self::load(path) {
             Err(CalibrationError::File(FileError::NotFound { .. })) => Ok(None),
@@ -79,7 +79,7 @@ impl CellCalibration {
         }
     }
 
-    /// Writes a calibration, whole or not at all; the folder is made where it is missing.
+    /// Writes a calibration, whole or not at all. Creates the folder if it is missing.
     pub fn save(&self, path: &Path) -> Result<(), CalibrationError> {
         if let Some(folder) = path
             .parent()
@@ -95,7 +95,7 @@ impl CellCalibration {
         Ok(())
     }
 
-    /// What is to be written at that path, read back: numbers that do not come back are not written.
+    /// Returns the file's text after reading it back: numbers that would change are not written.
     fn checked_text(&self, path: &Path) -> Result<String, CalibrationError> {
         let text = self.to_text();
         let again = parse(&text, path)?.calibration;
@@ -114,7 +114,7 @@ impl CellCalibration {
         }
     }
 
-    /// As [`Self::save`]; what was at that path before is kept beside it, and where is told.
+    /// As [`Self::save`], but first copies a different file at that path beside it, and returns the path of the copy.
     pub fn save_keeping_former(&self, path: &Path) -> Result<Option<PathBuf>, CalibrationError> {
         self.checked_text(path)?;
         let former = match read_text(path, MAX_BYTES) {
@@ -132,7 +132,7 @@ impl CellCalibration {
         Ok(kept)
     }
 
-    /// The content of its file.
+    /// The content of the file.
     pub fn to_text(&self) -> String {
         let quoted = |text: &str| toml::Value::from(text).to_string();
         let mount = match self.camera.mount() {
@@ -169,17 +169,17 @@ impl CellCalibration {
     }
 }
 
-/// Digits behind the point: a picometre, so that reading back changes nothing that anybody sees.
+/// Decimals: a picometre, so that reading back changes nothing noticeable.
 const DECIMALS: usize = 12;
 
-/// A number of a matrix; adding 0 takes the sign off a zero.
+/// Writes a number of a matrix; adding 0 turns -0 into 0.
 fn written(number: f64) -> String {
     let rounded = (number * 1e12).round() / 1e12 + 0.0;
     format!("{rounded:15.DECIMALS$}")
 }
 
 fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
-    /// The one line that every version has.
+    /// The one field that every version has.
     #[derive(Deserialize)]
     struct Versioned {
         schema_version: u32,
@@ -249,7 +249,7 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
         None => is_calculated,
     };
     if is_edited {
-        // Residuals of other numbers would be a false witness.
+        // The residuals belong to other numbers.
         calibration.origin = Origin::ByHand;
     }
     Ok(Loaded {
@@ -258,7 +258,7 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
     })
 }
 
-/// Where the cell's calibration is when none is named: `cell.toml` in the user's data folder.
+/// The path of the cell's calibration if none is named: `cell.toml` in the folder for user data.
 pub fn default_path() -> Result<PathBuf, CalibrationError> {
     let folders = user_folders().ok_or(CalibrationError::NoUserFolder)?;
     Ok(folders.data_dir().join("cell.toml"))

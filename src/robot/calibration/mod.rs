@@ -1,8 +1,8 @@
-//! The cell's calibration: where the camera sits, beside the robot or on its flange, and how that is known.
+//! The cell's calibration: where the camera sits, fixed in the cell or on the robot's flange, and how that was found.
 //!
-//! A camera in the cell stays where it is: `robot_from_camera`. A camera on the flange moves with the arm, so that a
-//! capture needs the arm's pose as well: `robot_from_camera = robot_from_flange · flange_from_camera`. A cell that always
-//! captures from one pose of the arm has it in its file; otherwise every capture brings its own.
+//! A camera fixed in the cell has a constant `robot_from_camera`. A camera on the flange moves with the arm, so a
+//! capture needs the arm's pose as well: `robot_from_camera = robot_from_flange · flange_from_camera`. A cell that
+//! always captures from one pose of the arm stores it in its calibration; otherwise every capture brings its own.
 
 mod error;
 mod file;
@@ -30,79 +30,80 @@ pub use self::{
     file::{Loaded, SCHEMA_VERSION, default_path},
 };
 
-/// Where the camera of a cell sits, and how that is known.
+/// Where the camera of a cell sits, and how that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellCalibration {
-    /// What people call the cell; may be empty.
+    /// Name of the cell; may be empty.
     pub name: String,
-    /// Whatever is worth remembering; may be empty.
+    /// Notes for people; may be empty.
     pub notes: String,
     /// Where the camera sits.
     pub camera: CameraPlace,
-    /// How that is known.
+    /// How that was found.
     pub origin: Origin,
-    /// When it was.
+    /// When that was found.
     pub made_at: Timestamp,
 }
 
 /// Where a camera sits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CameraPlace {
-    /// In the cell, where it stays.
+    /// Fixed in the cell.
     Fixed {
-        /// Takes the camera's frame to the robot's base frame.
+        /// Transform from the camera frame to the robot's base frame.
         robot_from_camera: RigidTransform,
     },
     /// On the robot's flange.
     OnFlange {
-        /// Takes the camera's frame to the flange's.
+        /// Transform from the camera frame to the flange frame.
         flange_from_camera: RigidTransform,
-        /// Where the arm stands at every capture; none if each capture says so itself.
+        /// `robot_from_flange` at every capture; none if each capture brings its own.
         capture_pose: Option<RigidTransform>,
     },
 }
 
-/// How the camera's place is known.
+/// How the camera's place was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Origin {
     /// A person entered the numbers.
     ByHand,
-    /// It was calculated from pairs of robot and camera poses.
+    /// It was computed from pairs of robot and camera poses.
     HandEye(CalibrationFit),
 }
 
-/// A hand-eye calibration, in the figures that a person judges it by.
+/// The figures by which a person judges a hand-eye calibration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CalibrationFit {
-    /// The file of the pairs.
+    /// Name of the file of pairs.
     pub pairs_file: String,
-    /// Pairs used.
+    /// Number of pairs used.
     pub num_pairs: usize,
-    /// Pairs of the file that were left out.
+    /// Pairs of the file that were not used.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<String>,
-    /// Root mean square of how far the target was seen from where it should have been, millimetres.
+    /// Root mean square distance of the target from where it should have been seen, millimetres.
     pub rms_mm: f64,
-    /// The same of its turn, degrees.
+    /// The same for its rotation, degrees.
     pub rms_degrees: f64,
     /// The largest distance, millimetres.
     pub worst_mm: f64,
-    /// The pair with it.
+    /// The pair with the largest distance.
     pub worst_pair: String,
-    /// The camera's place is off by less in 95 of 100 cases, millimetres where the targets stood; none if not held.
+    /// Bound of the camera's position error in 95 of 100 cases, millimetres, where the targets stood; none if
+    /// unconstrained.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound_mm: Option<f64>,
-    /// The same of its turn, degrees.
+    /// The same for its rotation, degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound_degrees: Option<f64>,
-    /// What was doubtful about the pairs.
+    /// Doubts about the pairs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub doubts: Vec<String>,
 }
 
 impl CalibrationFit {
-    /// What is to be remembered of a solved calibration; figures are rounded to a micrometre and 1/10 000 of a degree.
+    /// Extracts the figures of a solved calibration, rounded to a micrometre and 1/10 000 of a degree.
     pub fn of(solved: &HandEye, pairs_file: String, left_out: Vec<String>) -> Self {
         let rounded = |value: f64, unit: f64| (value / unit).round() * unit;
         let mm = |off: &PoseDelta| rounded(off.shift.mm(), 0.001);
@@ -125,7 +126,7 @@ impl CalibrationFit {
 }
 
 impl Origin {
-    /// In words, for people.
+    /// Describes the origin in words, for people.
     pub fn describe(&self) -> String {
         match self {
             Self::ByHand => "entered by hand".into(),
@@ -142,7 +143,7 @@ impl Origin {
     }
 }
 
-/// A camera on the flange, and nobody said where the flange was.
+/// The camera is on the flange, and the arm's pose at the capture is not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the camera is on the robot's flange, and the arm's pose at the capture is not known")]
 pub struct NoRobotPose;
@@ -153,23 +154,23 @@ impl Advice for NoRobotPose {
     }
 }
 
-/// Distances in another unit than was meant, most likely.
+/// A shift that is probably in another unit.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum UnitDoubt {
-    /// Metres were needed.
+    /// Too far for metres.
     #[error("{name} shifts by {:.0} m: these look like millimetres given as metres", distance.0)]
     TooFar {
         /// The transform.
         name: &'static str,
-        /// How far it shifts.
+        /// Length of its shift.
         distance: Metres,
     },
-    /// Millimetres were needed.
+    /// Too near for millimetres.
     #[error("{name} shifts by {:.2} mm only: these look like metres given as millimetres", distance.mm())]
     TooNear {
         /// The transform.
         name: &'static str,
-        /// How far it shifts.
+        /// Length of its shift.
         distance: Metres,
     },
 }
@@ -181,14 +182,14 @@ impl Advice for UnitDoubt {
 }
 
 impl CameraPlace {
-    /// What makes the unit of its lengths doubtful, if anything does.
+    /// Returns the transform whose unit of length is doubtful, if there is one.
     pub fn unit_doubt(&self) -> Option<UnitDoubt> {
-        // No cell is larger, and no camera or flange sits as near to the robot's base.
+        // No cell is larger, and no camera or flange sits nearer to the robot's base.
         let in_cell = [Metres(0.02), Metres(20.0)];
         let on_flange = [Metres(0.002), Metres(3.0)];
         let doubt = |name, transform: &RigidTransform, [least, most]: [Metres; 2]| {
             let distance = Metres(transform.translation.vector.norm());
-            // Nothing at all was not measured: it stands for a frame that is the same.
+            // A shift of exactly zero was not measured: it stands for two frames that are the same.
             if distance.0 > 0.0 && distance < least {
                 return Some(UnitDoubt::TooNear { name, distance });
             }
@@ -205,7 +206,7 @@ impl CameraPlace {
         }
     }
 
-    /// The camera as it is fixed to this mount.
+    /// The place of a camera with this transform to its mount.
     pub fn on(mount: Mount, mount_from_camera: RigidTransform) -> Self {
         match mount {
             Mount::EyeToHand => Self::Fixed {
@@ -218,7 +219,7 @@ impl CameraPlace {
         }
     }
 
-    /// What it is fixed to.
+    /// What the camera is fixed to.
     pub fn mount(&self) -> Mount {
         match self {
             Self::Fixed { .. } => Mount::EyeToHand,
@@ -226,7 +227,7 @@ impl CameraPlace {
         }
     }
 
-    /// `robot_from_camera` or `flange_from_camera`.
+    /// Returns `robot_from_camera` or `flange_from_camera`.
     pub fn mount_from_camera(&self) -> &RigidTransform {
         match self {
             Self::Fixed { robot_from_camera } => robot_from_camera,
@@ -238,7 +239,8 @@ impl CameraPlace {
 }
 
 impl CellCalibration {
-    /// Takes the camera's frame to the robot's base frame; `given` is `robot_from_flange` at this capture.
+    /// Returns the transform from the camera frame to the robot's base frame; `given` is `robot_from_flange` at this
+    /// capture.
     pub fn robot_from_camera(
         &self,
         given: Option<&RigidTransform>,
@@ -255,7 +257,7 @@ impl CellCalibration {
         }
     }
 
-    /// The camera's frame for this capture; `given` is `robot_from_flange` at it.
+    /// Returns the robot frame of this capture; `given` is `robot_from_flange` there.
     pub fn frame(&self, given: Option<&RigidTransform>) -> Result<RobotFrame, NoRobotPose> {
         Ok(RobotFrame {
             robot_from_camera: self.robot_from_camera(given)?,
@@ -268,9 +270,9 @@ impl CellCalibration {
         format!("{} ({})", self.shown_name(), self.identity())
     }
 
-    /// Eight hexadecimal digits by which its numbers are known: the same for the same camera at the same place.
+    /// Eight hexadecimal digits that identify its transforms: equal for the same camera in the same place.
     pub fn identity(&self) -> String {
-        // Tenths of micrometres: what reading a file back changes is far below them.
+        // Tenths of micrometres: reading a file back changes much less.
         let text: Vec<String> = self
             .matrices()
             .into_iter()
@@ -279,7 +281,7 @@ impl CellCalibration {
         format!("{:08x}", crc32(text.concat().as_bytes()))
     }
 
-    /// Its transforms by name.
+    /// Its transforms, with their names.
     fn matrices(&self) -> Vec<(&'static str, &RigidTransform)> {
         match &self.camera {
             CameraPlace::Fixed { robot_from_camera } => {
@@ -296,7 +298,7 @@ impl CellCalibration {
         }
     }
 
-    /// Its name, or what stands for it where it has none.
+    /// Its name, or a placeholder if it has none.
     pub fn shown_name(&self) -> &str {
         if self.name.is_empty() {
             "unnamed cell"
@@ -306,12 +308,12 @@ impl CellCalibration {
     }
 }
 
-/// A matrix as text, to be known by its checksum.
+/// Writes a matrix as the text of which the checksum is taken.
 fn numbers_text(name: &str, numbers: &[f64; 16], decimals: usize) -> String {
     let unit = 10_f64.powi(-(decimals as i32));
     let mut text = name.to_owned();
     for number in numbers {
-        // Adding 0 takes the sign off a zero.
+        // Adding 0 turns -0 into 0.
         let rounded = (number / unit).round() * unit + 0.0;
         // Writing to memory does not fail.
         let _ = write!(text, " {rounded:.decimals$}");

@@ -77,7 +77,7 @@ fn a_camera_on_the_flange_needs_the_arms_pose() {
     let x = *on_flange(None).camera.mount_from_camera();
     assert_eq!(on_flange(None).robot_from_camera(None), Err(NoRobotPose));
     assert_eq!(on_flange(Some(pose)).robot_from_camera(None), Ok(pose * x));
-    // The one of this capture counts.
+    // The pose given for this capture takes precedence.
     assert_eq!(
         on_flange(Some(pose)).robot_from_camera(Some(&other)),
         Ok(other * x)

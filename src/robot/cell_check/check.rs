@@ -1,4 +1,4 @@
-//! What a check found.
+//! The result of a check.
 
 use std::io::{self, Write};
 
@@ -11,61 +11,61 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// What a check found.
+/// The result of a check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CellCheck {
-    /// When.
+    /// Time of the check.
     pub at: Timestamp,
-    /// When its baseline was taken.
+    /// Time at which its baseline was taken.
     pub baseline: Timestamp,
-    /// Frames that were compared.
+    /// Number of frames that were compared.
     pub num_frames: usize,
     /// True if a frame or the baseline was simulated.
     pub is_simulated: bool,
-    /// What it comes to.
+    /// The conclusion.
     pub finding: CellFinding,
-    /// How far the part's middle moved, along x, y and z of the camera, metres.
+    /// Shift of the part's middle along x, y and z of the camera, metres.
     pub shift_m: [f64; 3],
-    /// By how much the part turned, radians.
+    /// Angle by which the part turned, radians.
     pub turn_rad: f64,
-    /// How far wall and floor moved where they are seen, at most, metres; none if neither was found again.
+    /// Largest shift of wall and floor where they are seen, metres; none if neither was found again.
     pub background_shift_m: Option<f64>,
-    /// How well the part lies on the baseline, root mean square, metres.
+    /// Root mean square distance of the part to the baseline, metres.
     pub rms_m: f64,
-    /// Noise of the camera at 1 m over that of the baseline.
+    /// The camera's noise at 1 m, divided by the baseline's.
     pub noise_ratio: f64,
 }
 
-/// What a check comes to.
+/// The conclusion of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CellFinding {
-    /// Everything is where it was.
+    /// Nothing moved.
     InPlace,
-    /// The part is elsewhere; wall and floor are not.
+    /// The part moved; wall and floor did not.
     PartMoved,
-    /// Wall and floor are elsewhere: the camera moved, and perhaps the part as well.
+    /// Wall and floor moved: the camera moved, and perhaps the part as well.
     CameraMoved,
-    /// The part is elsewhere; wall and floor do not show whether the camera moved.
+    /// The part moved; wall and floor do not show whether the camera moved.
     PartOrCameraMoved,
     /// Nothing moved, but the readings scatter more.
     Noisier,
 }
 
 impl CellCheck {
-    /// How far the part's middle moved.
+    /// Distance by which the part's middle moved.
     pub fn shift(&self) -> Metres {
         Metres(Vector3::from(self.shift_m).norm())
     }
 
-    /// By how much the part turned.
+    /// Angle by which the part turned.
     pub fn turn(&self) -> Radians {
         Radians(self.turn_rad)
     }
 }
 
 impl CellFinding {
-    /// True if part or camera are elsewhere.
+    /// Returns true if part or camera moved.
     pub fn has_moved(self) -> bool {
         match self {
             Self::PartMoved | Self::CameraMoved | Self::PartOrCameraMoved => true,
@@ -73,7 +73,7 @@ impl CellFinding {
         }
     }
 
-    /// As it is written.
+    /// The name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::InPlace => "in_place",
@@ -84,7 +84,7 @@ impl CellFinding {
         }
     }
 
-    /// For people.
+    /// The conclusion in words, for people.
     pub fn describe(self) -> &'static str {
         match self {
             Self::InPlace => "camera and part are in place",
@@ -117,7 +117,7 @@ impl Advice for CellFinding {
     }
 }
 
-/// Writes checks as a table: a line for each, below one that names the columns.
+/// Writes checks as CSV: a line with the column names, then a line per check.
 pub fn write_csv(writer: &mut dyn Write, checks: &[CellCheck]) -> io::Result<()> {
     writeln!(
         writer,

@@ -1,7 +1,7 @@
-//! Where the baseline and what came of every check are kept: a folder of three kinds of files.
+//! The folder with the baseline and the result of every check.
 //!
-//! `baseline.toml` names the points' file, `part-CHECKSUM.pcd`, which is written before it: a power cut leaves the old
-//! baseline or the new one. `checks.jsonl` has a line for each check, the newest last.
+//! `baseline.toml` names the file of the points, `part-CHECKSUM.pcd`, which is written before it: a power cut leaves
+//! the old baseline or the new one. `checks.jsonl` has a line per check, the newest last.
 
 use std::{
     io,
@@ -22,19 +22,19 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// The version of the baseline's file that this program writes, and the newest that it reads.
+/// Version of the baseline file that this program writes, and the newest that it reads.
 const SCHEMA_VERSION: u32 = 1;
 const BASELINE: &str = "baseline.toml";
 const CHECKS: &str = "checks.jsonl";
 const LOCK: &str = ".lock";
-/// A larger file is no baseline.
+/// Largest baseline file that is read, bytes.
 const MAX_BASELINE_BYTES: u64 = 1 << 16;
-/// Nothing of a cell is farther away; NaN is not nearer.
+/// Limit for coordinates in the file; NaN fails the comparison too.
 const MOST_METRES: f64 = 1000.0;
-/// Some 100 000 checks.
+/// Largest file of checks, bytes: some 100 000 checks.
 const MAX_CHECK_BYTES: u64 = 1 << 26;
 
-/// The folder of a cell's baseline and checks; it need not be there before the first baseline.
+/// The folder of a cell's baseline and checks; it need not exist before the first baseline.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CellCheckFolder {
     path: PathBuf,
@@ -52,23 +52,23 @@ pub enum CellCheckError {
         /// The folder.
         path: PathBuf,
     },
-    /// Made by a newer version of this program.
+    /// The file was made by a newer version of this program.
     #[error("{}: made by a newer version of Partsight (schema {found}, this one reads up to {SCHEMA_VERSION})", path.display())]
     Newer {
         /// The file.
         path: PathBuf,
-        /// Its version.
+        /// Schema version of the file.
         found: u32,
     },
-    /// Something in a file cannot be understood.
+    /// A file has unexpected content.
     #[error("{}: {found}", path.display())]
     Bad {
         /// The file.
         path: PathBuf,
-        /// The first thing wrong.
+        /// The first error in it.
         found: String,
     },
-    /// The system does not say where a user's data belong.
+    /// The system names no folder for user data.
     #[error("this system names no folder for a user's data")]
     NoUserFolder,
 }
@@ -93,19 +93,19 @@ impl Advice for CellCheckError {
     }
 }
 
-/// The baseline's file.
+/// Content of the baseline file.
 #[derive(Debug, Serialize, Deserialize)]
 struct Text {
     schema_version: u32,
     made_at: Timestamp,
     num_frames: usize,
     simulated: bool,
-    /// Beside it.
+    /// File name of the points, in the same folder.
     part: String,
     noise_at_1m_m: f64,
     max_shift_m: f64,
     max_turn_rad: f64,
-    /// Of each plane the ends of the two axes of what is seen of it, camera space, metres.
+    /// For each plane, the ends of the two axes of its visible patch, camera space, metres.
     #[serde(default)]
     background: Vec<[[f64; 3]; 4]>,
 }
@@ -116,18 +116,18 @@ impl CellCheckFolder {
         Self { path: path.into() }
     }
 
-    /// The user's own, beside the calibration in the folder that the system keeps for a user's data.
+    /// The user's own folder, beside the calibration in the system's folder for user data.
     pub fn of_user() -> Result<Self, CellCheckError> {
         let folders = user_folders().ok_or(CellCheckError::NoUserFolder)?;
         Ok(Self::at(folders.data_dir().join("cell-check")))
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Keeps a baseline in place of the one before.
+    /// Saves a baseline in place of the former one.
     pub fn save(&self, baseline: &CellBaseline) -> Result<(), CellCheckError> {
         let CellView {
             part,
@@ -163,7 +163,7 @@ impl CellCheckFolder {
         })
     }
 
-    /// The points of former baselines; one that cannot be removed does no harm.
+    /// Removes the points of former baselines; one that cannot be removed does no harm.
     fn remove_points_but(&self, name: &str) {
         for entry in std::fs::read_dir(&self.path)
             .into_iter()
@@ -179,9 +179,9 @@ impl CellCheckFolder {
         }
     }
 
-    /// The baseline.
+    /// Reads the baseline.
     pub fn baseline(&self) -> Result<CellBaseline, CellCheckError> {
-        /// The one line that every version has.
+        /// The one field that every version has.
         #[derive(Deserialize)]
         struct Versioned {
             schema_version: u32,
@@ -258,7 +258,7 @@ impl CellCheckFolder {
         })
     }
 
-    /// Writes a check behind those before.
+    /// Appends a check.
     pub fn add(&self, check: &CellCheck) -> Result<(), CellCheckError> {
         let path = self.path.join(CHECKS);
         let line = serde_json::to_string(check).expect("numbers and text have a JSON form");
@@ -277,7 +277,7 @@ impl CellCheckFolder {
         })
     }
 
-    /// All checks, the oldest first.
+    /// Reads all checks, the oldest first.
     pub fn checks(&self) -> Result<Vec<CellCheck>, CellCheckError> {
         let path = self.path.join(CHECKS);
         let text = match read_text(&path, MAX_CHECK_BYTES) {
@@ -298,7 +298,7 @@ impl CellCheckFolder {
             .collect()
     }
 
-    /// Runs one change while no other writer is at work; the folder is made where it is missing.
+    /// Runs a change under the folder's exclusive lock. Creates the folder if it is missing.
     fn writing<T>(
         &self,
         change: impl FnOnce() -> Result<T, CellCheckError>,

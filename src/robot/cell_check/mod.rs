@@ -1,9 +1,9 @@
-//! Whether camera and cell still stand where they stood: the same part, hung in the same place, is compared with what the
-//! camera saw of it before.
+//! Check of the cell: whether the camera has moved, found by comparing the same part, hung in the same place, with an
+//! earlier [`CellBaseline`].
 //!
-//! The part's points are aligned with those of the [`CellBaseline`], and wall and floor are compared with it, too. A camera
-//! that moved carries everything in its picture along; a part that hangs elsewhere leaves wall and floor where they were.
-//! Nothing need be enrolled: any rigid thing with edges serves.
+//! The part's points are aligned with those of the baseline, and wall and floor are compared too. If the camera moved,
+//! everything in the picture moved with it; if only the part hangs elsewhere, wall and floor stay where they were.
+//! Nothing needs to be enrolled: any rigid object with edges will do.
 
 mod check;
 mod file;
@@ -35,17 +35,17 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// The most frames of one check; more add nothing.
+/// Most frames in one check; more do not improve it.
 pub const MAX_FRAMES: usize = 16;
-/// Frames that are taken from a camera unless a person asks for another number.
+/// Frames captured from a camera unless a person asks for another number.
 pub const USUAL_FRAMES: usize = 5;
-/// Spacing of the baseline's points; frames are averaged within it.
+/// Spacing of the baseline's points; the frames are averaged within it.
 const SPACING: Metres = Metres(0.003);
-/// With less overlap than this, it is another part or partly hidden.
+/// Below this overlap it is another part, or the part is partly hidden.
 const LEAST_OVERLAP: f64 = 0.9;
-/// Planes further apart than this are different planes.
+/// Planes farther apart than this are different planes.
 const SAME_PLANE: (Metres, Radians) = (Metres(0.3), Radians(0.25));
-/// A larger ratio of noise than this is reported.
+/// A noise ratio above this is reported.
 const NOISIER: f64 = 1.5;
 
 /// The largest movement that still counts as in place.
@@ -58,7 +58,7 @@ pub struct CellLimits {
 }
 
 impl Default for CellLimits {
-    /// 5 mm and 0.5°: frames of a part that stands still, with a Kinect's noise, differed by at most 3.1 mm and 0.4°.
+    /// 5 mm and 0.5°: frames of a part at rest, with a Kinect's noise, differed by at most 3.1 mm and 0.4°.
     fn default() -> Self {
         Self {
             shift: Metres::from_mm(5.0),
@@ -68,9 +68,9 @@ impl Default for CellLimits {
 }
 
 impl CellLimits {
-    /// Shifts that can be allowed, millimetres.
+    /// Shifts that may be set as the limit, millimetres.
     pub const SHIFT_MM: RangeInclusive<f64> = 0.5..=100.0;
-    /// Turns that can be allowed, degrees.
+    /// Turns that may be set as the limit, degrees.
     pub const TURN_DEGREES: RangeInclusive<f64> = 0.05..=10.0;
 
     fn allow(&self, moved: &PoseDelta) -> bool {
@@ -78,12 +78,12 @@ impl CellLimits {
     }
 }
 
-/// What the camera saw when the cell was right.
+/// What the camera saw while the cell was right.
 #[derive(Clone, Debug)]
 pub struct CellBaseline {
     /// When it was taken.
     pub made_at: Timestamp,
-    /// Frames that it was taken from.
+    /// Number of frames that it was taken from.
     pub num_frames: usize,
     /// True if a frame was simulated.
     pub is_simulated: bool,
@@ -92,10 +92,10 @@ pub struct CellBaseline {
     view: CellView,
 }
 
-/// Why frames are no baseline, or cannot be compared with it.
+/// Why frames cannot be a baseline, or cannot be compared with one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CellViewError {
-    /// None was given.
+    /// No frame was given.
     #[error("no frame")]
     NoFrame,
     /// Part or camera moved between the frames.
@@ -104,25 +104,25 @@ pub enum CellViewError {
         moved.shift, moved.rotation
     )]
     Moving {
-        /// Counted from 1.
+        /// Number of the frame, from 1.
         frame: usize,
-        /// By how much.
+        /// How far it moved from the first frame.
         moved: PoseDelta,
     },
-    /// Too little of the part is there.
+    /// Too little of what is seen lies on the baseline's part.
     #[error("only {:.0} % of what is seen in frame {frame} lies on the part of the baseline", 100.0 * overlap)]
     OtherPart {
-        /// Counted from 1.
+        /// Number of the frame, from 1.
         frame: usize,
-        /// Share that lies on it, 0..1.
+        /// Share of the view that lies on the baseline's part, 0..1.
         overlap: f64,
     },
     /// The part cannot be aligned.
     #[error("frame {frame}: {error}")]
     Pose {
-        /// Counted from 1.
+        /// Number of the frame, from 1.
         frame: usize,
-        /// Why.
+        /// The underlying error.
         error: PoseError,
     },
 }
@@ -144,7 +144,7 @@ impl Advice for CellViewError {
 }
 
 impl CellBaseline {
-    /// Frames of a part and a camera that stand still.
+    /// Makes a baseline from frames in which part and camera stand still.
     pub fn new(
         views: &[CellView],
         limits: CellLimits,
@@ -185,12 +185,12 @@ impl CellBaseline {
         })
     }
 
-    /// How many of wall and floor it shows.
+    /// Number of background planes (wall, floor) in it.
     pub fn num_planes(&self) -> usize {
         self.view.background.len()
     }
 
-    /// The middle of the part's box, camera space.
+    /// Middle of the part's bounding box, camera space.
     fn middle(&self) -> Point3<f64> {
         let bounds = self.view.part.bounds();
         bounds.map_or_else(Point3::origin, |(low, high)| {
@@ -203,7 +203,7 @@ impl CellBaseline {
             .map_err(|error| CellViewError::Pose { frame: 1, error })
     }
 
-    /// Takes the baseline's part to where it is in a view; and the root mean square distance there, metres.
+    /// Returns the motion of the part from the baseline to a view, and the root mean square distance there, metres.
     fn moved(
         view: &CellView,
         target: &PreparedTarget,
@@ -219,7 +219,8 @@ impl CellBaseline {
             .as_ref()
             .is_ok_and(|found| overlap(found) >= LEAST_OVERLAP)
         {
-            // A grid that moved by several centimetres: plain ICP comes near, and the search goes on from there.
+            // For a grid that moved by several centimetres, plain ICP comes near and the global search continues from
+            // there.
             let again = align(PoseMethod::Icp, still)
                 .and_then(|near| align(PoseMethod::Global, near.target_from_source));
             let least = found.as_ref().map_or(0.0, overlap);
@@ -243,8 +244,8 @@ impl CellBaseline {
         Ok((found.target_from_source.inverse(), found.fit.rms_m))
     }
 
-    /// Compares frames with the baseline. Of several frames the median counts: one alone is off by some millimetres now
-    /// and then.
+    /// Compares frames with the baseline. Of several frames the median counts: a single one may be off by some
+    /// millimetres.
     pub fn check(
         &self,
         views: &[CellView],
@@ -263,7 +264,7 @@ impl CellBaseline {
             found.push((self.share_of_limits(&off), moved, rms_m));
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // The lower of the two in the middle.
+        // The median; the lower of the two middle values if their number is even.
         let (_, moved, rms_m) = found[(found.len() - 1) / 2];
         let off = pose_error(&moved, &RigidTransform::identity(), &middle);
         let shift: Vector3<f64> = moved * middle - middle;
@@ -276,7 +277,7 @@ impl CellBaseline {
             (true, ..) if noise_ratio > NOISIER => CellFinding::Noisier,
             (true, ..) => CellFinding::InPlace,
             (false, Some(true), false) => CellFinding::PartMoved,
-            // Whether the part moved as well does not matter then: the camera has to be calibrated again.
+            // Whether the part moved as well does not matter: the camera must be calibrated again anyway.
             (false, Some(false), _) | (false, None, true) => CellFinding::CameraMoved,
             (false, Some(true), true) | (false, None, false) => CellFinding::PartOrCameraMoved,
         };
@@ -298,8 +299,8 @@ impl CellBaseline {
         (off.shift.0 / self.limits.shift.0).max(off.rotation.0 / self.limits.turn.0)
     }
 
-    /// Wall and floor where they are expected once the camera sees everything moved so, each with what the view shows of it;
-    /// none of those that it does not show.
+    /// Pairs wall and floor, where they would be after this motion, with the planes that the view shows there. Planes
+    /// that it does not show are left out.
     fn background(&self, view: &CellView, moved: &RigidTransform) -> Vec<(PlanePatch, Plane)> {
         let pairs = self.view.background.iter().filter_map(|before| {
             let expected = before.carried(moved);
@@ -313,8 +314,8 @@ impl CellBaseline {
         pairs.collect()
     }
 
-    /// How far wall and floor moved where they are seen; of several views the median. `None` if
-    /// neither was found again.
+    /// Returns how far wall and floor moved where they are seen, as the median over the views; `None` if neither was
+    /// found again.
     fn background_shift(&self, views: &[CellView]) -> Option<Metres> {
         let still = RigidTransform::identity();
         let shifts = views.iter().filter_map(|view| {
@@ -326,8 +327,8 @@ impl CellBaseline {
         (!shifts.is_empty()).then(|| Metres(median(&mut shifts)))
     }
 
-    /// True if wall and floor of most views can have moved with the part. How far that went is known to within the limits:
-    /// where the part is, a plane may be off by as much, and far from it by what the turn makes of it there.
+    /// Returns true if wall and floor of most views can have moved with the part. The part's motion is known to within
+    /// the limits: at the part a plane may be off by that much, and farther away by what the turn adds there.
     fn moved_together(&self, views: &[CellView], moved: &RigidTransform) -> bool {
         let at = moved * self.middle();
         let with_part = |(expected, now): &(PlanePatch, Plane)| {
@@ -347,7 +348,7 @@ impl CellBaseline {
     }
 }
 
-/// The lower of the two in the middle, if their number is even.
+/// Returns the median; the lower of the two middle values if their number is even.
 fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values[(values.len() - 1) / 2]

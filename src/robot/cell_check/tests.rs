@@ -9,7 +9,7 @@ use crate::{
     stages::segment::SegmentParams,
 };
 
-/// Frames of a part that stands still, each with noise of its own; `moved` is what happened to the part since.
+/// Frames of a part at rest, each with its own noise; `moved` is how the part moved beforehand.
 fn views(kind: PartKind, noise: [u64; 3], moved: &RigidTransform) -> Vec<CellView> {
     let setup = CellSetup::with_part(kind, Side::Left, 0, 4);
     let standing = frame(&setup).truth.camera_from_part;
@@ -36,7 +36,7 @@ fn check(baseline: &CellBaseline, views: &[CellView]) -> CellCheck {
     baseline.check(views, true, at).expect("comparable")
 }
 
-/// What a camera sees that moved: everything the other way.
+/// The views after the camera moved: everything moves the opposite way.
 fn seen_from_elsewhere(views: &[CellView], moved: &RigidTransform) -> Vec<CellView> {
     let view = |view: &CellView| CellView {
         part: PointCloud::from_points(
@@ -86,7 +86,7 @@ fn a_part_that_hangs_elsewhere_is_told_from_a_camera_that_moved() {
     for kind in [PartKind::Fender, PartKind::FrontDoor, PartKind::BackBumper] {
         let baseline = baseline(kind);
         let middle = baseline.middle();
-        // About the middle of the part, so that the shift is what it says.
+        // About the middle of the part, so that the shift is the one stated.
         let about_middle = |moved: &RigidTransform| {
             let to_middle = Isometry3::from(middle.coords);
             to_middle * moved * to_middle.inverse()
@@ -190,7 +190,7 @@ fn baseline_and_checks_come_back_from_their_folder() {
     folder.add(&found).unwrap();
     folder.add(&found).unwrap();
     assert_eq!(folder.checks().unwrap(), [found.clone(), found]);
-    // The points of the baseline before go.
+    // The points of the previous baseline are removed.
     folder.save(&baseline(PartKind::Grille)).unwrap();
     let points = fs::read_dir(folder.path()).unwrap().flatten();
     let points = points.filter(|file| file.path().extension().is_some_and(|e| e == "pcd"));

@@ -1,4 +1,4 @@
-//! What one frame shows of the cell: a part before wall and floor.
+//! One frame of the cell: a part in front of wall and floor.
 
 use nalgebra::Point3;
 
@@ -11,20 +11,20 @@ use crate::{
     units::Metres,
 };
 
-/// How far a patch reaches from its middle, in standard deviations of its points: to the edge if they are evenly spread.
+/// Reach of a patch from its middle, in standard deviations of its points: its edge if they are evenly spread.
 const PATCH_REACH: f64 = 1.7;
 
-/// What one frame shows: a part before wall and floor.
+/// One frame of the cell: a part in front of wall and floor.
 #[derive(Clone, Debug)]
 pub struct CellView {
-    /// The part, camera space.
+    /// Points of the part, camera space.
     pub(super) part: PointCloud,
-    /// Wall and floor, as far as they were found.
+    /// Wall and floor, if they were found.
     pub(super) background: Vec<PlanePatch>,
     pub(super) noise_at_1m: Metres,
 }
 
-/// What is seen of a plane. Far from there its direction is uncertain: of a floor there is often but a strip.
+/// The visible part of a plane. Beyond it the plane's direction is uncertain: of a floor often only a strip is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlanePatch {
     pub(super) plane: Plane,
@@ -33,7 +33,7 @@ pub(super) struct PlanePatch {
 }
 
 impl PlanePatch {
-    /// Of points on a plane; `None` of fewer than three.
+    /// Fits a patch to points on a plane; `None` for fewer than three.
     fn new(points: impl Iterator<Item = (Point3<f64>, f64)> + Clone) -> Option<Self> {
         let principal = principal_axes(points)?;
         let ends = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)].map(|(axis, sign)| {
@@ -43,13 +43,13 @@ impl PlanePatch {
         Self::through(ends)
     }
 
-    /// With these ends of its axes; `None` if they lie on one line.
+    /// The patch with these ends of its axes; `None` if they lie on a line.
     pub(super) fn through(ends: [Point3<f64>; 4]) -> Option<Self> {
         let plane = Plane::through(&ends[0], &ends[1], &ends[2])?.facing(&Point3::origin());
         Some(Self { plane, ends })
     }
 
-    /// Where it is once the camera sees everything moved so.
+    /// The patch after this motion.
     pub(super) fn carried(&self, moved: &RigidTransform) -> Self {
         let normal = moved.rotation * self.plane.normal;
         Self {
@@ -61,25 +61,25 @@ impl PlanePatch {
         }
     }
 
-    /// How far another plane is off it where it was seen.
+    /// Largest distance of another plane from the ends of the patch.
     pub(super) fn distance_to(&self, other: &Plane) -> Metres {
         let distances = self.ends.iter().map(|end| other.signed_distance(end).abs());
         Metres(distances.fold(0.0, f64::max))
     }
 }
 
-/// What the frames of a baseline or of a check show.
+/// The frames of a baseline or of a check.
 #[derive(Clone, Debug)]
 pub struct CellViews {
     params: SegmentParams,
-    /// One for each frame, in their order.
+    /// One view per frame, in order.
     pub views: Vec<CellView>,
     /// True if a frame was simulated.
     pub is_simulated: bool,
 }
 
 impl CellViews {
-    /// Before the first frame; `params` find the part in each.
+    /// Starts without frames; `params` select the part in each.
     pub fn new(params: &SegmentParams) -> Self {
         Self {
             params: params.clone(),
@@ -88,7 +88,7 @@ impl CellViews {
         }
     }
 
-    /// Looks for the part in the next frame.
+    /// Finds the part in the next frame.
     pub fn add(&mut self, scene: &SceneCloud) -> Result<(), NoPart> {
         self.views.push(CellView::of(scene, &self.params)?);
         self.is_simulated |= scene.cloud.is_simulated;
@@ -97,7 +97,7 @@ impl CellViews {
 }
 
 impl CellView {
-    /// Looks for the part in a frame.
+    /// Finds the part in a frame.
     pub fn of(scene: &SceneCloud, params: &SegmentParams) -> Result<Self, NoPart> {
         let segmentation = segment(scene, params);
         let part = segmentation.part?;

@@ -9,7 +9,7 @@ use crate::{
     robot::{ConventionError, GimbalLock},
 };
 
-/// A 3×3 matrix by rows; what is written out here shares no code with what it checks.
+/// A 3×3 matrix by rows; this reference code shares nothing with the code under test.
 type Rows = [[f64; 3]; 3];
 
 fn product(a: Rows, b: Rows) -> Rows {
@@ -51,7 +51,7 @@ fn of_quaternion([x, y, z, w]: [f64; 4]) -> Rows {
     ]
 }
 
-/// exp of the cross product's matrix, by its power series (Rodrigues).
+/// The exponential of the cross product's matrix, by its power series (Rodrigues).
 fn of_rotation_vector([x, y, z]: [f64; 3]) -> Rows {
     let cross = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
     let mut term = about_x(0.0);
@@ -63,7 +63,7 @@ fn of_rotation_vector([x, y, z]: [f64; 3]) -> Rows {
     sum
 }
 
-/// The rotation and the shift in metres that a controller takes the numbers for.
+/// The rotation and the shift in metres that a controller understands by the numbers.
 fn understood(convention: Convention, n: &[f64]) -> (Rows, [f64; 3]) {
     let deg = |i: usize| n[i] / 180.0 * PI;
     let mm = || [n[0] / 1000.0, n[1] / 1000.0, n[2] / 1000.0];
@@ -79,7 +79,7 @@ fn understood(convention: Convention, n: &[f64]) -> (Rows, [f64; 3]) {
         Convention::RotationVector | Convention::UniversalRobots => {
             (of_rotation_vector([n[3], n[4], n[5]]), m())
         }
-        // Intrinsic: each turn is about the axes as the turns before left them, so it stands further to the right.
+        // Intrinsic: each turn is about the axes left by the previous turns, so it is further to the right.
         Convention::Kuka => (
             product(product(about_z(deg(3)), about_y(deg(4))), about_x(deg(5))),
             mm(),
@@ -92,7 +92,7 @@ fn understood(convention: Convention, n: &[f64]) -> (Rows, [f64; 3]) {
             product(product(about_z(deg(3)), about_y(deg(4))), about_z(deg(5))),
             mm(),
         ),
-        // Extrinsic: each turn is about the axes that stand, so it stands further to the left.
+        // Extrinsic: each turn is about the fixed axes, so it is further to the left.
         Convention::Fanuc | Convention::Yaskawa => (
             product(about_z(deg(5)), product(about_y(deg(4)), about_x(deg(3)))),
             mm(),
@@ -116,7 +116,7 @@ fn difference(a: Rows, b: Rows) -> f64 {
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Every convention says this rotation, and takes back what it said.
+/// Writes a rotation in every convention, checks the numbers and reads them back.
 fn says_and_reads(q: [f64; 4], shift: [f64; 3]) -> Result<(), TestCaseError> {
     let q = normalised(q);
     let pose = pose(q, shift);
@@ -141,7 +141,7 @@ fn says_and_reads(q: [f64; 4], shift: [f64; 3]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// The ranges that the meaning promises.
+/// Checks the ranges that the meaning promises.
 fn is_in_range(convention: Convention, n: &[f64]) -> Result<(), TestCaseError> {
     let range = |i: usize, low: f64, high: f64| {
         prop_assert!(
@@ -172,7 +172,7 @@ fn is_in_range(convention: Convention, n: &[f64]) -> Result<(), TestCaseError> {
     }
 }
 
-/// The quaternion of a rotation by three turns about axes 0..3, by products written out.
+/// The quaternion of three turns about axes 0..3, by explicit products.
 fn turned(turns: [(usize, f64); 3]) -> [f64; 4] {
     turns
         .into_iter()
@@ -213,7 +213,7 @@ proptest! {
         exponent in 3.0..12.0_f64,
         shift in shifts(),
     ) {
-        // As near as a picometre a metre, and exactly on it at the end of the range.
+        // As near as 1e-11, and exactly in gimbal lock at the end of the range.
         let off = if exponent > 11.0 { 0.0 } else { 10_f64.powf(-exponent) };
         let off = if side % 2 == 0 { off } else { -off };
         let (axes, middle) = match (order, side < 2) {
@@ -284,7 +284,7 @@ fn gimbal_lock_is_said_and_names_the_angle_set_to_zero() {
             "{note}"
         );
     }
-    // Doosan's lies where nothing is turned.
+    // Doosan's gimbal lock is at the identity.
     let standing = Convention::Doosan.write(&RigidTransform::identity());
     assert_eq!(standing.gimbal_lock, GimbalLock::Locked);
     assert!(
@@ -341,7 +341,7 @@ fn wrong_numbers_are_refused_in_words() {
         error(Convention::Matrix, &projective),
         ConventionError::NotRigid
     );
-    // Four decimals, as a person copies them.
+    // Four decimals, as people copy them.
     let copied = Convention::QuaternionXyzw.read(&[0.0, 0.0, 0.0, 0.1, 0.5, -0.7001, 0.5]);
     assert!((copied.expect("a pose").rotation.norm() - 1.0).abs() < 1e-12);
 }

@@ -1,26 +1,25 @@
 //! X and Z in closed form: the rotations by Kronecker products, then the shifts by linear least squares.
 //!
-//! Gᵢ X Bᵢ = Z says of the rotations that vec Z = (Bᵢᵀ ⊗ Gᵢ) vec X for every pair. The mean of those 9×9 matrices takes
-//! the true X to the true Z, and its largest singular value is then 1: the singular vectors that belong to it are both
-//! rotations at once.
+//! For the rotations, Gᵢ X Bᵢ = Z means vec Z = (Bᵢᵀ ⊗ Gᵢ) vec X for every pair. The mean of those 9×9 matrices maps
+//! the true X to the true Z, and its largest singular value is then 1: its singular vectors are the two rotations.
 
 use nalgebra::{DMatrix, DVector, Isometry3, Matrix3, SMatrix, Translation3, Vector3};
 
 use super::{Equation, HandEyeSolution, LEAST_PAIRS};
 use crate::geometry::rigid::rotation_nearest_to;
 
-/// Singular values below this share of the largest are noise of the arithmetic: the shift along them is left at 0.
+/// Singular values below this share of the largest are rounding errors: the shift along them is left at 0.
 const NEGLIGIBLE: f64 = 1e-9;
 
 /// X and Z in closed form.
 pub(super) struct ClosedForm {
     pub(super) unknowns: HandEyeSolution,
-    /// How far the next best rotation is behind, 0..1: at 0 another one fits as well.
+    /// Lead of the best rotation over the next, 0..1; at 0 another rotation fits as well.
     pub(super) lead: f64,
 }
 
-/// X and Z of at least three equations; `None` if they say too little for any answer. Nothing is known of how well the
-/// answer is held.
+/// Solves at least three equations for X and Z; `None` if they do not determine any answer. The accuracy is not
+/// assessed.
 pub(super) fn solve(equations: &[Equation]) -> Option<ClosedForm> {
     if equations.len() < LEAST_PAIRS {
         return None;
@@ -39,7 +38,7 @@ pub(super) fn solve(equations: &[Equation]) -> Option<ClosedForm> {
     let lead = 1.0 - others.fold(0.0, f64::max) / first.max(f64::MIN_POSITIVE);
     let x = Matrix3::from_iterator(svd.v_t?.row(largest).iter().copied());
     let z = Matrix3::from_iterator(svd.u?.column(largest).iter().copied());
-    // The signs of both are free together, and only one of them makes rotations.
+    // The sign of both is free, but only one makes X a rotation.
     let sign = x.determinant().signum();
     let (x, z) = (
         rotation_nearest_to(&(x * sign))?,

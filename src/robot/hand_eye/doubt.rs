@@ -1,4 +1,4 @@
-//! What is doubtful about a set of pairs, and what to do about it.
+//! Doubts about a set of pairs, with advice.
 
 use super::{
     CalibrationBounds, Equation, HandEyeSolution, Mount, PosePair, Residuals, Span,
@@ -11,17 +11,17 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// What is doubtful about a calibration.
+/// A doubt about a calibration.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HandEyeDoubt {
-    /// A position that no cell has: another unit was meant.
+    /// A position is farther away than any cell is large: probably another unit.
     #[error("{pair}: {what} lies {:.0} m away", distance.0)]
     FarAway {
         /// Name of the pair.
         pair: String,
-        /// Which pose.
+        /// The flange or the target.
         what: &'static str,
-        /// How far from its frame's origin.
+        /// Distance from its frame's origin.
         distance: Metres,
     },
     /// Robot and camera turned by different angles between the same two captures.
@@ -30,39 +30,39 @@ pub enum HandEyeDoubt {
         apart.degrees()
     )]
     TurnsDisagree {
-        /// Median of the difference.
+        /// Median of the differences.
         apart: Radians,
     },
-    /// The pairs would agree if some of the poses were meant another way.
+    /// The pairs would agree if some of the poses were read differently.
     #[error(
         "the pairs do not agree ({:.1} mm and {:.2}° rms), but they would to {:.1} mm and {:.2}° if {mistake}",
         rms.shift.mm(), rms.rotation.degrees(), then.shift.mm(), then.rotation.degrees()
     )]
     Mistaken {
-        /// What was probably meant.
+        /// The probable mistake.
         mistake: LikelyMistake,
-        /// As it is.
+        /// Root mean square with the poses as given.
         rms: PoseDelta,
-        /// As it would be then.
+        /// Root mean square with the mistake undone.
         then: PoseDelta,
     },
-    /// What is on the flange would be farther from it than anything is.
+    /// Camera or target would be too far from the flange that it is mounted on.
     #[error("{what} would sit {:.0} mm from the flange", distance.mm())]
     FarFromFlange {
         /// The camera, or the target.
         what: &'static str,
-        /// How far.
+        /// Distance from the flange.
         distance: Metres,
     },
-    /// Half turns about axes at right angles leave several answers.
+    /// All turns are half turns about axes at right angles, which leaves several solutions.
     #[error(
         "another place of the camera fits the pairs as well: the turns are half turns about axes at right angles"
     )]
     SeveralAnswers,
-    /// The pairs do not agree, and nobody knows why.
+    /// The pairs do not agree, for no known reason.
     #[error("the pairs do not agree: {:.1} mm and {:.2}° rms", rms.shift.mm(), rms.rotation.degrees())]
     Disagree {
-        /// As it is.
+        /// Root mean square of all pairs that are not suspect.
         rms: PoseDelta,
     },
     /// The arm hardly turned.
@@ -80,7 +80,7 @@ pub enum HandEyeDoubt {
         /// What the poses span.
         span: Span,
     },
-    /// One pair that is far off what the others say.
+    /// A pair deviates far from what the others agree on.
     #[error(
         "{pair} is suspect: {:.1} mm and {:.2}° off what the others say, which agree to {:.1} mm and {:.2}° rms",
         off.shift.mm(), off.rotation.degrees(), others.shift.mm(), others.rotation.degrees()
@@ -88,24 +88,24 @@ pub enum HandEyeDoubt {
     Suspect {
         /// Name of the pair.
         pair: String,
-        /// How far it is off.
+        /// Its deviation.
         off: PoseDelta,
         /// Root mean square of the pairs that are not suspect.
         others: PoseDelta,
     },
-    /// The pairs leave X too uncertain to paint by.
+    /// The pairs leave X too uncertain for painting.
     #[error("the camera's place may be off by {:.1} mm and {:.2}°", bounds.shift.mm(), bounds.turn.degrees())]
     Loose {
-        /// How far X may be off.
+        /// Bounds of the error of X.
         bounds: CalibrationBounds,
     },
-    /// The camera saw the target always at the same place.
+    /// The target was always at about the same place in the camera frame.
     #[error("the camera saw the target within {:.0} mm of one place", span.travel.mm())]
     LittleTravel {
         /// What the poses span.
         span: Span,
     },
-    /// So few pairs that their residuals say little.
+    /// Too few pairs for their residuals to say much.
     #[error("with {found} pairs the residuals say little of how far off the result is")]
     FewPairs {
         /// Pairs given.
@@ -184,30 +184,30 @@ impl Advice for HandEyeDoubt {
     }
 }
 
-/// No cell is as large.
+/// No cell is larger.
 const FARTHEST: Metres = Metres(20.0);
-/// A hand-eye calibration needs a turn that the noise of the camera is small beside.
+/// Least largest turn (15°), so that the camera's noise is small in comparison.
 const LEAST_TURN: Radians = Radians(0.26);
 const LEAST_OTHER_TURN: Radians = Radians(0.07);
 const LEAST_TRAVEL: Metres = Metres(0.05);
-/// Turns of [`LEAST_OTHER_TURN`] give some 0.002.
+/// Turns of [`LEAST_OTHER_TURN`] give a lead of about 0.002.
 const LEAST_LEAD: f64 = 2e-4;
-/// Long enough for a camera on a boom, or the middle of a bumper that the flange holds by its end.
+/// Allows for a camera on a boom, or for the middle of a bumper that the flange holds at its end.
 const FARTHEST_ON_FLANGE: Metres = Metres(1.2);
-/// A tenth of the spray's band.
+/// ±5 mm: a tenth of the stand-off band.
 const LOOSE: CalibrationBounds = CalibrationBounds {
     shift: Metres(0.005),
     turn: Radians(0.0087),
 };
-/// Half of what is left of the band to either side of its middle.
+/// ±25 mm: half of the stand-off band.
 const FAR_TOO_LOOSE: CalibrationBounds = CalibrationBounds {
     shift: Metres(0.025),
     turn: Radians(0.052),
 };
-/// With fewer pairs than this the residuals hide as much as they show.
+/// With fewer pairs than this the residuals understate the error.
 const ENOUGH_PAIRS: usize = 6;
 
-/// All doubts, the gravest first.
+/// Returns all doubts, the gravest first.
 pub(super) fn doubts(
     pairs: &[PosePair],
     equations: &[Equation],
@@ -226,7 +226,7 @@ pub(super) fn doubts(
         doubts.push(HandEyeDoubt::SeveralAnswers);
     }
     let suspects = suspects(equations);
-    // One pair in three at most is a slip; more is a mistake in all of them.
+    // At most one pair in three can be a slip; more suspects mean a mistake in all pairs.
     let is_few = |pairs: &Vec<usize>| 3 * pairs.len() <= equations.len();
     let suspects = suspects.filter(|found| is_few(&found.pairs));
     let rms_of_most = suspects.as_ref().map_or(residuals.rms, |found| found.rms);
@@ -262,7 +262,7 @@ pub(super) fn doubts(
     doubts
 }
 
-/// The farthest position, if it is too far.
+/// Reports the farthest position, if it is too far.
 fn far_away(pairs: &[PosePair]) -> Option<HandEyeDoubt> {
     let positions = pairs.iter().flat_map(|pair| {
         [
@@ -280,7 +280,7 @@ fn far_away(pairs: &[PosePair]) -> Option<HandEyeDoubt> {
     })
 }
 
-/// What is on the flange, if it is too far from it to be true.
+/// Reports the camera or target on the flange, if it is implausibly far from it.
 pub(super) fn far_from_flange(mount: Mount, unknowns: &HandEyeSolution) -> Option<HandEyeDoubt> {
     let (what, on_flange) = match mount {
         Mount::EyeInHand => ("the camera", &unknowns.mount_from_camera),

@@ -1,4 +1,4 @@
-//! Why pairs do not agree: each usual mistake is undone, and the one named that makes them agree.
+//! Why pairs do not agree: each common mistake is undone in turn, and the one that makes them agree is reported.
 
 use nalgebra::{Isometry3, Point3, Translation3};
 
@@ -8,43 +8,43 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// A pair's angles agree to what the camera errs by, and never by so much.
+/// Robot and camera turns differ by the camera's error, which is always less than this.
 const TURNS_AGREE: Radians = Radians(0.05);
 /// Pairs of a working cell agree better than this.
 const AGREE: PoseDelta = PoseDelta {
     rotation: Radians(0.026),
     shift: Metres(0.015),
 };
-/// A mistake is named if the pairs agree so much better without it.
+/// A mistake is reported if undoing it reduces the disagreement to less than this share.
 const MUCH_BETTER: f64 = 0.25;
 
-/// What a person may have meant otherwise.
+/// A common mistake that would explain the pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LikelyMistake {
-    /// The robot's poses the other way round, or the other mount.
+    /// The robot's poses were inverted, or the mount is the other one.
     #[error(
         "the robot's poses went the other way (flange_from_robot), or the camera sat on the other mount"
     )]
     RobotInverted,
-    /// The camera's poses the other way round, or the other mount: both solve the same equations.
+    /// The camera's poses were inverted, or the mount is the other one: both give the same equations.
     #[error(
         "the camera sat on the other mount, or its poses went the other way (target_from_camera)"
     )]
     CameraInverted,
-    /// Millimetres that were read as metres.
+    /// The camera's lengths were millimetres read as metres.
     #[error("the camera's lengths were a thousandth of what was read")]
     CameraInMillimetres,
-    /// Metres that were read as millimetres.
+    /// The camera's lengths were metres read as millimetres.
     #[error("the camera's lengths were a thousand times what was read")]
     CameraInMetres,
 }
 
-/// Why the pairs do not agree, if they do not.
+/// Returns why the pairs do not agree, if they do not.
 pub(super) fn disagreement(equations: &[Equation], rms: PoseDelta) -> Option<HandEyeDoubt> {
     if rms.shift <= AGREE.shift && rms.rotation <= AGREE.rotation {
         return None;
     }
-    // However the poses were turned round, robot and camera turn by the same angle.
+    // Even with inverted poses, robot and camera turn by the same angle.
     let apart = turns_apart(equations);
     if apart > TURNS_AGREE {
         return Some(HandEyeDoubt::TurnsDisagree { apart });
@@ -81,7 +81,8 @@ fn turns_apart(equations: &[Equation]) -> Radians {
     Radians(apart.get(apart.len() / 2).copied().unwrap_or(0.0))
 }
 
-/// How badly equations agree, whatever their unit of length: beside how far apart the targets stood.
+/// Disagreement of the equations, independent of their unit of length: shifts are relative to the spread of the
+/// targets.
 fn quality(equations: &[Equation], rms: PoseDelta) -> f64 {
     let positions = || {
         equations

@@ -1,9 +1,9 @@
 //! Hand-eye calibration: where the camera sits, from pairs of a robot pose and a camera pose.
 //!
-//! The arm takes several poses, and at each one the camera says where a target is. What does not change in between is
-//! looked for: where the camera is fixed (X), and where the target is fixed (Z). With the camera on the flange the target
-//! stands in the cell; with the camera in the cell the target is on the flange. Turning the robot poses round makes one
-//! equation of both mounts:
+//! The arm takes several poses, and at each the camera measures the pose of a target. Two transforms stay constant and
+//! are solved for: that of the camera to its mount (X), and that of the target to the other side (Z). With the camera
+//! on the flange the target stands in the cell; with the camera in the cell the target is on the flange. With the
+//! robot's poses inverted for one of them, both mounts have the same equation:
 //!
 //! ```text
 //! eye in hand   robot_from_flange · flange_from_camera · camera_from_target = robot_from_target
@@ -11,24 +11,23 @@
 //!               ─────── Gᵢ ───────   ─────── X ───────   ────── Bᵢ ────────   ─────── Z ──────
 //! ```
 //!
-//! which is AX = XB written with absolute poses: A = Gⱼ⁻¹Gᵢ and B = BⱼBᵢ⁻¹ for any two of them. The rotations of X and Z
-//! follow in closed form from all pairs at once, the shifts by linear least squares; then both poses are refined
-//! together, rotations and shifts weighed by how well each of them fits.
+//! This is AX = XB written with absolute poses: A = Gⱼ⁻¹Gᵢ and B = BⱼBᵢ⁻¹ for any two of them. The rotations of X and Z
+//! follow in closed form from all pairs at once, the shifts by linear least squares. Then both poses are refined
+//! together, with rotations and shifts weighted by how well each of them fits.
 //!
-//! Sources: M. Shah, "Solving the robot-world/hand-eye calibration problem using the Kronecker product", ASME Journal of
-//! Mechanisms and Robotics 5(3), 2013, for the closed form; Y. C. Shiu and S. Ahmad, "Calibration of wrist-mounted robotic
-//! sensors by solving homogeneous transform equations of the form AX = XB", IEEE Transactions on Robotics and
-//! Automation 5(1), 1989, for what the turns must span; P. J. Rousseeuw, "Least median of squares regression", Journal of
-//! the American Statistical Association 79, 1984, for how pairs that do not belong are found.
+//! Sources: M. Shah, "Solving the robot-world/hand-eye calibration problem using the Kronecker product", ASME Journal
+//! of Mechanisms and Robotics 5(3), 2013, for the closed form; Y. C. Shiu and S. Ahmad, "Calibration of wrist-mounted
+//! robotic sensors by solving homogeneous transform equations of the form AX = XB", IEEE Transactions on Robotics and
+//! Automation 5(1), 1989, for what the turns must span; P. J. Rousseeuw, "Least median of squares regression", Journal
+//! of the American Statistical Association 79, 1984, for finding pairs that do not belong.
 //!
-//! Deviations: Shah's shifts are solved for by themselves as here, but not refined; the refinement by Levenberg and
-//! Marquardt, its weighing, the bounds and the doubts are ours. The closed form has no logarithm of a rotation in it, so
-//! turns by half a circle need no care.
+//! Deviations: Shah also solves for the shifts separately, but does not refine them; the refinement by Levenberg and
+//! Marquardt, its weights, the bounds and the doubts are ours. The closed form contains no logarithm of a rotation, so
+//! turns of 180° need no special care.
 //!
-//! Known limits: what errs alike in every pair, such as a camera's scale or a tool that was measured wrongly, shows in
-//! the residuals only as far as it cannot be mended by X and Z, and is not in the bounds. With the poses of robot *and*
-//! camera the other way round, X and Z change places and fit as well; what tells is that one of them then lies far from
-//! the flange.
+//! Known limits: an error common to all pairs, such as a wrong scale of the camera or a wrongly measured tool, shows in
+//! the residuals only as far as X and Z cannot absorb it, and is not in the bounds. If the poses of robot *and* camera
+//! are inverted, X and Z change places and fit as well; then one of them lies far from the flange.
 
 mod closed_form;
 mod doubt;
@@ -54,14 +53,14 @@ pub use self::{doubt::HandEyeDoubt, mistake::LikelyMistake, span::Span};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Mount {
-    /// The camera stands in the cell and sees what the robot does: X is `robot_from_camera`.
+    /// The camera is fixed in the cell and looks at the robot: X is `robot_from_camera`.
     EyeToHand,
     /// The camera is on the robot's flange: X is `flange_from_camera`.
     EyeInHand,
 }
 
 impl Mount {
-    /// In words, for people.
+    /// Describes the mount in words, for people.
     pub fn describe(self) -> &'static str {
         match self {
             Self::EyeToHand => "eye to hand: the camera stands in the cell",
@@ -94,23 +93,23 @@ impl Mount {
     }
 }
 
-/// One pose of the arm and what the camera saw there.
+/// A pose of the arm and the target's pose that the camera measured there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PosePair {
-    /// By which a person finds it again, such as a line of a file or the name of a capture.
+    /// Name for people, such as a line of a file or the name of a capture.
     pub name: String,
-    /// The flange in the robot's base frame, as the controller shows it.
+    /// Pose of the flange in the robot's base frame, as the controller shows it.
     pub robot_from_flange: RigidTransform,
-    /// The target in the camera's frame.
+    /// Pose of the target in the camera frame.
     pub camera_from_target: RigidTransform,
 }
 
-/// Fewer pairs leave X open.
+/// Fewest pairs that determine X.
 pub const LEAST_PAIRS: usize = 3;
-/// More pairs than anybody takes; a file with more is another file.
+/// Most pairs accepted; nobody takes as many.
 pub const MOST_PAIRS: usize = 1000;
 
-/// Why there is no calibration.
+/// Why a calibration cannot be computed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum HandEyeError {
     /// Too few pairs.
@@ -125,13 +124,13 @@ pub enum HandEyeError {
         /// Pairs given.
         found: usize,
     },
-    /// A pose that is no pose.
+    /// A pose has a number that is not finite.
     #[error("{pair}: a pose holds a number that is not finite")]
     NotFinite {
         /// Name of the pair.
         pair: String,
     },
-    /// All pairs say the same: nothing can be solved for.
+    /// The arm's poses hardly differ, so nothing can be solved for.
     #[error("the pairs leave the camera's place open: no two poses of the arm differ enough")]
     Unsolvable,
 }
@@ -151,23 +150,23 @@ impl Advice for HandEyeError {
     }
 }
 
-/// How far a pair is off what all of them say.
+/// The deviation of one pair from the solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairResidual {
-    /// The pair.
+    /// Name of the pair.
     pub name: String,
-    /// How far the target was seen from where it should have been; the shift is that of the target's origin.
+    /// Deviation of the measured from the expected pose of the target; the shift is that of its origin.
     pub off: PoseDelta,
 }
 
 /// How well the pairs agree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Residuals {
-    /// Each pair, in the order given.
+    /// One per pair, in the order given.
     pub pairs: Vec<PairResidual>,
-    /// Root mean square of all pairs.
+    /// Root mean square over all pairs.
     pub rms: PoseDelta,
-    /// The pair with the largest shift.
+    /// Index of the pair with the largest shift.
     pub worst: usize,
 }
 
@@ -178,16 +177,16 @@ impl Residuals {
     }
 }
 
-/// Bounds of X that hold in 95 of 100 cases if the pairs err independently.
+/// Bounds of the error of X in 95 of 100 cases, if the pairs err independently.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CalibrationBounds {
-    /// How far a point where the targets stood may be off; infinite where the pairs leave it open.
+    /// Error of a point in the middle of the target positions; infinite if unconstrained.
     pub shift: Metres,
-    /// How far the camera may be turned; infinite where the pairs leave it open.
+    /// Error of the camera's rotation; infinite if unconstrained.
     pub turn: Radians,
 }
 
-/// A solved calibration, and what is to be thought of it.
+/// A solved calibration, its quality and its doubts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HandEye {
     /// What the camera is fixed to.
@@ -196,18 +195,19 @@ pub struct HandEye {
     pub mount_from_camera: RigidTransform,
     /// Z: `flange_from_target` or `robot_from_target`.
     pub anchor_from_target: RigidTransform,
-    /// How well the pairs agree with both.
+    /// How well the pairs agree with X and Z.
     pub residuals: Residuals,
-    /// How far X may be off.
+    /// Bounds of the error of X.
     pub bounds: CalibrationBounds,
     /// What the poses span.
     pub span: Span,
-    /// What is doubtful, the gravest first.
+    /// Doubts, the gravest first.
     pub doubts: Vec<HandEyeDoubt>,
 }
 
 impl HandEye {
-    /// False if the poses leave the camera's place open, or do not belong together: the result must not be used.
+    /// Returns false if the poses do not constrain the camera's place, or contradict each other: the result must not be
+    /// used.
     pub fn is_usable(&self) -> bool {
         !self.doubts.iter().any(HandEyeDoubt::is_grave)
     }
@@ -221,7 +221,7 @@ struct Equation {
 }
 
 impl Equation {
-    /// Where X and Z say that the camera sees the target.
+    /// The target's pose in the camera frame according to X and Z.
     fn predicted(&self, unknowns: &HandEyeSolution) -> RigidTransform {
         (self.anchor_from_mount * unknowns.mount_from_camera).inv_mul(&unknowns.anchor_from_target)
     }
@@ -242,9 +242,9 @@ struct HandEyeSolution {
     anchor_from_target: RigidTransform,
 }
 
-/// Where the camera sits, from at least [`LEAST_PAIRS`] pairs.
+/// Computes where the camera sits from at least [`LEAST_PAIRS`] pairs.
 ///
-/// Pairs that do not span enough, or that do not belong together, give a result with [`HandEye::doubts`].
+/// Pairs that do not span enough, or contradict each other, give a result with [`HandEye::doubts`].
 pub fn solve(pairs: &[PosePair], mount: Mount) -> Result<HandEye, HandEyeError> {
     check(pairs)?;
     let equations: Vec<Equation> = pairs
@@ -312,7 +312,7 @@ fn residuals(pairs: &[PosePair], equations: &[Equation], unknowns: &HandEyeSolut
     }
 }
 
-/// Root mean squares, each by itself.
+/// Root mean squares of rotations and of shifts.
 fn rms(off: &[PoseDelta]) -> PoseDelta {
     let mean = |square: fn(&PoseDelta) -> f64| {
         (off.iter().map(square).sum::<f64>() / off.len().max(1) as f64).sqrt()

@@ -1,8 +1,8 @@
-//! The refinement: both poses together, by Levenberg and Marquardt, with what they are known by.
+//! The refinement of X and Z together, by Levenberg and Marquardt, and the bounds of the result.
 //!
-//! The residual of a pair is E = Z⁻¹ G X B, which would be the identity: its turn and its shift, each divided by how much
-//! such a figure scatters. How much that is follows from the residuals, as long as there are enough of them. X and Z are
-//! changed on their right, so that a change of X is one in the camera's frame.
+//! The residual of a pair is E = Z⁻¹ G X B, which ideally is the identity: its turn and its shift, each divided by its
+//! scatter. The scatter is estimated from the residuals if there are enough pairs. X and Z are changed on their right,
+//! so a change of X is one in the camera frame.
 //!
 //! Sources: K. Levenberg, "A method for the solution of certain non-linear problems in least squares", Quarterly of
 //! Applied Mathematics 2, 1944; D. W. Marquardt, SIAM Journal 11(2), 1963.
@@ -17,19 +17,19 @@ type NewtonStep = SVector<f64, 12>;
 type Information = SMatrix<f64, 12, 12>;
 type Jacobian = SMatrix<f64, 6, 12>;
 
-/// Rounds of weighing and refining; the weights settle within two.
+/// Rounds of weighting and refining; the weights settle within two.
 const ROUNDS: usize = 4;
-/// Steps of one round.
+/// Most steps of one round.
 const MAX_STEPS: usize = 50;
-/// A step that changes the sum of squares by less than this share is the last.
+/// A step that reduces the sum of squares by less than this share is the last.
 const SETTLED: f64 = 1e-12;
-/// With fewer pairs the scatter of shifts and turns cannot be told apart: their ratio stays at what is common.
+/// With fewer pairs the scatter of shifts and turns cannot be separated, and the common ratio is used.
 const LEAST_TO_WEIGH: usize = 6;
-/// The common ratio of both scatters, metres per radian: a millimetre for a tenth of a degree.
+/// The common ratio of the two scatters, metres per radian: a millimetre for a tenth of a degree.
 const COMMON_LEVER: f64 = 0.57;
-/// No camera that tells a pose errs outside of these.
+/// Plausible ratios, metres per radian.
 const LEVERS: std::ops::RangeInclusive<f64> = 0.05..=5.0;
-/// Eigenvalues of the information below this share of the largest hold nothing.
+/// A direction is unconstrained if its eigenvalue of the information is below this share of the largest.
 const HELD: f64 = 1e-10;
 
 /// The result of a refinement.
@@ -38,7 +38,7 @@ pub(super) struct Refined {
     lever: f64,
 }
 
-/// Refines X and Z from where they are.
+/// Refines X and Z, beginning at `start`.
 pub(super) fn refine(equations: &[Equation], start: HandEyeSolution) -> Refined {
     let mut unknowns = start;
     let mut lever = COMMON_LEVER;
@@ -51,7 +51,7 @@ pub(super) fn refine(equations: &[Equation], start: HandEyeSolution) -> Refined 
     Refined { unknowns, lever }
 }
 
-/// How many metres a shift scatters for each radian that a turn does.
+/// The ratio of the scatters of shift and turn, metres per radian.
 fn lever_of(equations: &[Equation], unknowns: &HandEyeSolution) -> f64 {
     let off: Vec<_> = equations.iter().map(|e| e.off(unknowns)).collect();
     let rms = rms(&off);
@@ -69,7 +69,7 @@ fn settle(equations: &[Equation], mut unknowns: HandEyeSolution, lever: f64) -> 
     for _ in 0..MAX_STEPS {
         let (information, pull) = normal_equations(equations, &unknowns, lever);
         let mut is_better = false;
-        // Ten times more damping each time: twelve orders are from a whole step to none.
+        // Ten times more damping per try: twelve orders of magnitude lead from a full step to none.
         while damping < 1e6 {
             let mut damped = information;
             for i in 0..12 {
@@ -109,7 +109,7 @@ impl HandEyeSolution {
     }
 }
 
-/// Turn, and shift divided by the lever.
+/// E, and the residual: its turn, then its shift divided by the lever.
 fn residual(
     equation: &Equation,
     unknowns: &HandEyeSolution,
@@ -150,10 +150,10 @@ fn normal_equations(
     (information, pull)
 }
 
-/// How the residual changes with turn and shift of X and Z.
+/// The derivative of the residual by turn and shift of X and Z.
 ///
-/// A change of X by (φ, ρ) multiplies E on its right by the change B⁻¹(φ, ρ)B, one of Z on its left by its inverse. The
-/// turn's logarithm is taken to the first order about E's own turn.
+/// A change (φ, ρ) of X multiplies E on its right by B⁻¹(φ, ρ)B, one of Z on its left by its inverse. The turn's
+/// logarithm is linearised about E's own turn.
 fn jacobian(equation: &Equation, error: &Isometry3<f64>, lever: f64) -> Jacobian {
     let target_from_camera = equation
         .camera_from_target
@@ -187,10 +187,10 @@ fn jacobian(equation: &Equation, error: &Isometry3<f64>, lever: f64) -> Jacobian
 }
 
 impl Refined {
-    /// How far X may be off, at the middle of where the targets stood.
+    /// Returns the bounds of the error of X, at the middle of the target positions.
     ///
-    /// The covariance is that of least squares; its scale comes from the residuals, so that few pairs give wide bounds
-    /// (the quantile of F instead of the normal distribution's).
+    /// The covariance is that of least squares. Its scale comes from the residuals, so few pairs give wide bounds
+    /// (quantile of F instead of the normal distribution).
     pub(super) fn bounds(&self, equations: &[Equation]) -> CalibrationBounds {
         let Self { unknowns, lever } = self;
         let num = equations.len() as f64;
@@ -229,14 +229,14 @@ impl Refined {
 }
 
 impl CalibrationBounds {
-    /// Nothing is held.
+    /// Unconstrained.
     const FREE: Self = Self {
         shift: Metres(f64::INFINITY),
         turn: Radians(f64::INFINITY),
     };
 }
 
-/// The covariance of all twelve; `None` if one of them is not held at all.
+/// The covariance of all twelve parameters; `None` if one of them is unconstrained.
 fn inverse(information: &Information) -> Option<Information> {
     let eigen = information.clone_owned().symmetric_eigen();
     let is_held = eigen.eigenvalues.min() > HELD * eigen.eigenvalues.max();
@@ -246,8 +246,8 @@ fn inverse(information: &Information) -> Option<Information> {
     })
 }
 
-/// Below so many degrees of freedom, a value of F with three degrees above them lies in 95 of 100 cases; beyond the last
-/// it is that of χ² over three.
+/// 95 % quantiles of the F distribution with 3 degrees of freedom over this many; the last one is that of χ² over
+/// three.
 const QUANTILES: [(f64, f64); 8] = [
     (6.0, 4.757),
     (12.0, 3.490),
@@ -259,7 +259,7 @@ const QUANTILES: [(f64, f64); 8] = [
     (f64::INFINITY, 2.605),
 ];
 
-/// Between the entries of the table it is nearly linear in one over the freedom.
+/// Interpolates the table linearly in the reciprocal of the freedom.
 fn quantile_of_f(freedom: f64) -> f64 {
     let pair = QUANTILES.windows(2).find(|pair| freedom <= pair[1].0);
     let Some(&[(low, at_low), (high, at_high)]) = pair else {
@@ -301,7 +301,7 @@ mod tests {
             };
             let expected = (at(1.0) - at(-1.0)) / (2.0 * h);
             let off = (found.column(column) - expected).amax();
-            // The logarithm's second order is left out: 0.04 rad squared over twelve.
+            // The neglected second order of the logarithm: 0.04 rad squared over twelve.
             assert!(off < 5e-4, "column {column}: {off}");
         }
     }
@@ -309,7 +309,7 @@ mod tests {
     #[test]
     fn quantiles_lie_between_those_of_the_table() {
         assert!((quantile_of_f(6.0) - 4.757).abs() < 1e-9);
-        // F(3, 30) of the tables is 2.922, F(3, 90) is 2.706, F(3, 240) is 2.642.
+        // Tables give F(3, 30) = 2.922, F(3, 90) = 2.706 and F(3, 240) = 2.642.
         assert!((quantile_of_f(30.0) - 2.922).abs() < 0.01);
         assert!((quantile_of_f(90.0) - 2.706).abs() < 0.01);
         assert!((quantile_of_f(240.0) - 2.642).abs() < 0.01);

@@ -1,4 +1,4 @@
-//! What the poses of the arm span: turns about one axis only leave the camera's place along that axis open.
+//! What the poses of the arm span: turns about a single axis leave the camera's place along that axis unconstrained.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -10,11 +10,11 @@ use crate::units::{Metres, Radians};
 pub struct Span {
     /// The largest turn of the flange between two poses.
     pub largest_turn: Radians,
-    /// Turns about other axes than the main one, root mean square over all two poses.
+    /// Root mean square turn about the second strongest axis, over all pairs of poses.
     pub other_turn: Radians,
-    /// The axis that the flange turned about most, in its own frame, unit length; its sign is free.
+    /// Unit axis in the flange frame about which it turned most; its sign is arbitrary.
     pub main_axis: Vector3<f64>,
-    /// The largest distance between two places where the camera saw the target.
+    /// Largest distance between two target positions in the camera frame.
     pub travel: Metres,
 }
 
@@ -46,7 +46,7 @@ impl Span {
         }
     }
 
-    /// The main axis in words: the flange's x, y or z where it is nearly one of them.
+    /// The main axis in words: the flange's x, y or z if it is nearly one of them.
     pub fn main_axis_in_words(&self) -> String {
         let axis = self.main_axis;
         // Within 15 degrees.

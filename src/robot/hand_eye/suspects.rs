@@ -1,9 +1,9 @@
-//! Pairs that do not belong to the others: a capture of another pose, a slip of the pen.
+//! Pairs that do not belong with the others: a capture of another pose, a typing error.
 //!
-//! One pair that is far off drags a fit of all towards itself and hides among the residuals. So the fit is looked for
-//! that most pairs agree with: from many triples of pairs, each improved by fitting the better half anew a few times
-//! (P. J. Rousseeuw and K. Van Driessen, "Computing LTS regression for large data sets", Data Mining and Knowledge
-//! Discovery 12, 2006). What is far off that one is suspect.
+//! A pair that is far off drags the fit of all pairs towards itself and hides among the residuals. So the fit that most
+//! pairs agree with is searched for: from many triples of pairs, each improved by fitting the better half anew a few
+//! times (P. J. Rousseeuw and K. Van Driessen, "Computing LTS regression for large data sets", Data Mining and
+//! Knowledge Discovery 12, 2006). Pairs that are far off this fit are suspect.
 
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
@@ -14,34 +14,35 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// With fewer pairs nobody can say which one is wrong.
+/// With fewer pairs it is not possible to tell which one is wrong.
 const LEAST_TO_TELL: usize = 6;
-/// Triples that are tried: with one pair in four wrong, all of them hit a wrong one once in 10²⁵ calls.
+/// Triples tried: with one pair in four wrong, all of them contain a wrong one less than once in 10²³ calls.
 const TRIPLES: usize = 100;
 /// Times that the better half is fitted anew.
 const IMPROVEMENTS: usize = 3;
-/// A pair so many times further off than the others are on average is suspect.
+/// A pair is suspect if it is this many times farther off than the others on average.
 const FACTOR: f64 = 5.0;
-/// Nobody looks for the cause of less than this.
+/// Smaller deviations are never suspect.
 const LEAST: PoseDelta = PoseDelta {
     rotation: Radians(0.002),
     shift: Metres(0.001),
 };
-/// A millimetre counts as much as a tenth of a degree.
+/// Metres per radian: a millimetre counts as much as a tenth of a degree.
 const LEVER: f64 = 0.57;
 
-/// Pairs that are suspect, and how well the others agree without them.
+/// The suspect pairs, and how well the others agree without them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Suspects {
-    /// Indices, in order.
+    /// Indices in ascending order.
     pub(super) pairs: Vec<usize>,
-    /// How far each of them is off what the others say.
+    /// Deviation of each suspect from the fit of the others.
     pub(super) off: Vec<PoseDelta>,
-    /// Of the others.
+    /// Root mean square of the others.
     pub(super) rms: PoseDelta,
 }
 
-/// The pairs that are far off what most of the others say; `None` if there is none, or if no one can tell.
+/// Finds the pairs that are far off what most of the others agree on; `None` if there are none, or if it cannot be
+/// told.
 pub(super) fn suspects(equations: &[Equation]) -> Option<Suspects> {
     let num = equations.len();
     if num < LEAST_TO_TELL {
@@ -78,7 +79,7 @@ pub(super) fn suspects(equations: &[Equation]) -> Option<Suspects> {
         }
     }
     let (sum_sq, mut fit) = best?;
-    // The better half is nearer than an average pair: by a factor of two at most.
+    // The better half is nearer than the average pair, by a factor of two at most.
     let mut scale = 2.0 * (sum_sq / half as f64).sqrt();
     let mut kept: Vec<usize> = Vec::new();
     for _ in 0..IMPROVEMENTS {
@@ -91,7 +92,7 @@ pub(super) fn suspects(equations: &[Equation]) -> Option<Suspects> {
         let rest = picked(equations, &kept);
         fit = refine::refine(&rest, fit).unknowns;
         let sum_sq: f64 = rest.iter().map(|e| far(&e.off(&fit)).powi(2)).sum();
-        // Two poses are fitted: so many pairs' worth of residuals are gone.
+        // The fit of two poses takes up two pairs' worth of residuals.
         scale = (sum_sq / (rest.len() as f64 - 2.0)).sqrt();
     }
     let pairs: Vec<usize> = (0..num).filter(|i| !kept.contains(i)).collect();
@@ -108,7 +109,7 @@ fn picked(equations: &[Equation], indices: &[usize]) -> Vec<Equation> {
     indices.iter().map(|&i| equations[i]).collect()
 }
 
-/// How far off, metres.
+/// Deviation in metres, with turns converted by [`LEVER`].
 fn far(off: &PoseDelta) -> f64 {
     off.shift.0.hypot(LEVER * off.rotation.0)
 }

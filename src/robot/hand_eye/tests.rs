@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use super::*;
 use crate::geometry::rigid::from_euler_zyx;
 
-/// How the camera errs, standard deviations per axis: metres and radians.
+/// Standard deviations of the camera's error per axis, metres and radians.
 #[derive(Clone, Copy)]
 struct Noise {
     shift: f64,
@@ -47,7 +47,7 @@ fn with_noise(pose: &RigidTransform, noise: Noise, random: &mut impl Rng) -> Rig
     Isometry3::from_parts(shift, turn * pose.rotation)
 }
 
-/// A cell with its truth.
+/// A cell and its true transforms.
 struct TrueCell {
     mount: Mount,
     mount_from_camera: RigidTransform,
@@ -71,7 +71,7 @@ impl TrueCell {
         }
     }
 
-    /// The pair that belongs to what the camera sees.
+    /// The pair for a target pose seen by the camera.
     fn pair(&self, number: usize, camera_from_target: RigidTransform) -> PosePair {
         let carrier =
             self.anchor_from_target * (self.mount_from_camera * camera_from_target).inverse();
@@ -90,7 +90,7 @@ impl TrueCell {
         pair
     }
 
-    /// Pairs with the target about 1.2 m before the camera, turned by up to `most` about any axis.
+    /// Pairs with the target about 1.2 m in front of the camera, turned by up to `most` about any axis.
     fn pairs(&self, num: usize, most: f64, noise: Noise, random: &mut impl Rng) -> Vec<PosePair> {
         (1..=num)
             .map(|number| {
@@ -106,7 +106,7 @@ impl TrueCell {
             .collect()
     }
 
-    /// How far X is off, at a point 1.2 m before the camera.
+    /// Error of X at a point 1.2 m in front of the camera.
     fn off(&self, found: &HandEye) -> PoseDelta {
         let at = Point3::new(0.0, 0.0, 1.2);
         pose_error(&found.mount_from_camera, &self.mount_from_camera, &at)
@@ -115,7 +115,7 @@ impl TrueCell {
 
 const MOUNTS: [Mount; 2] = [Mount::EyeToHand, Mount::EyeInHand];
 
-/// Runs `check` over so many random cells of both mounts.
+/// Runs `check` over `num` random cells for each mount.
 fn over_cells(num: u64, mut check: impl FnMut(TrueCell, &mut Pcg64)) {
     for mount in MOUNTS {
         for seed in 0..num {
@@ -152,7 +152,7 @@ fn exact_pairs_give_the_exact_calibration() {
     });
 }
 
-/// Root mean square and worst over cells.
+/// Root mean square and worst error over cells.
 fn accuracy(num_pairs: usize, noise: Noise) -> [PoseDelta; 2] {
     let mut all: Vec<PoseDelta> = Vec::new();
     over_cells(100, |cell, random| {
@@ -204,12 +204,12 @@ fn bounds_hold_in_at_least_95_of_100_cells() {
         });
         let shares = held.map(|held| held as f64 / f64::from(num));
         println!("{num_pairs} pairs: {shares:.3?} held, {looseness:.1} times wider on average");
-        // Of 300 cells, 95 in 100 less two standard deviations.
+        // 95 of 100, less two standard deviations for 300 cells.
         assert!(
             shares.iter().all(|share| *share > 0.925),
             "{num_pairs} pairs: {shares:?}"
         );
-        // Bounds that hold because they are absurd would be no bounds.
+        // Bounds must not hold merely by being far too wide.
         assert!(looseness < 12.0, "{num_pairs} pairs: {looseness}");
     }
 }

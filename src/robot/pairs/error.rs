@@ -14,31 +14,31 @@ pub enum PairsError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// Nobody says in which convention the robot's poses are.
+    /// Neither the caller nor the file names the convention of the robot's poses.
     #[error("{}: nothing says in which convention the robot's poses are written", path.display())]
     NoConvention {
         /// The file.
         path: PathBuf,
     },
-    /// A line that cannot be understood.
+    /// A line or pair cannot be read.
     #[error("{}, {place}: {problem}", path.display())]
     Line {
         /// The file.
         path: PathBuf,
-        /// Which line or pair.
+        /// The line or pair.
         place: String,
         /// What is wrong with it.
         problem: LineProblem,
     },
-    /// No JSON of pairs.
+    /// Not JSON of pairs.
     #[error("{}: no JSON of pairs: {found}", path.display())]
     BadJson {
         /// The file.
         path: PathBuf,
-        /// The first thing wrong.
+        /// The first error in it.
         found: String,
     },
-    /// No line with a pose.
+    /// The file has no poses.
     #[error("{}: no poses", path.display())]
     NoPoses {
         /// The file.
@@ -49,31 +49,31 @@ pub enum PairsError {
 /// What is wrong with one line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LineProblem {
-    /// A word where a number is needed.
+    /// A cell is not a number.
     #[error("{:?} in column {column} is not a number", shortened(cell))]
     NoNumber {
         /// The column, from 1.
         column: usize,
-        /// What is there.
+        /// Content of the cell.
         cell: String,
     },
     /// Too few numbers, or too many.
     #[error("{found} numbers, expected {needed}: {expected}")]
     Count {
-        /// How many there are.
+        /// Numbers in the line.
         found: usize,
-        /// How many are needed.
+        /// Numbers needed.
         needed: usize,
-        /// Which.
+        /// What the numbers are, for the message.
         expected: String,
     },
-    /// Numbers that are no pose in their convention.
+    /// The numbers are not a pose in their convention.
     #[error(transparent)]
     Pose(#[from] ConventionError),
-    /// A convention that is not known.
+    /// No convention has this name.
     #[error("no convention is called {:?}", shortened(name))]
     NoSuchConvention {
-        /// What was written.
+        /// The name in the file.
         name: String,
     },
 }

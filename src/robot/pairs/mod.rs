@@ -1,9 +1,10 @@
-//! Files of pairs for a hand-eye calibration: a table that a spreadsheet writes, or JSON.
+//! Files of pairs for a hand-eye calibration: a table from a spreadsheet, or JSON.
 //!
-//! A table has a line for each pair: the robot's pose `robot_from_flange`, then the camera's `camera_from_target`, each
-//! in the numbers of a named convention. A cell before them may hold a name. A line `# robot: kuka` names the convention
-//! of the robot's poses (`# convention: kuka` is the same), `# camera: matrix` that of the camera's, which is the matrix
-//! where nothing is said. Cells stand between commas, semicolons (then a comma may be a decimal one), tabs or spaces; a
+//! A table has one line per pair: the robot's pose `robot_from_flange`, then the camera's `camera_from_target`, each in
+//! the numbers of a named convention. A first cell may hold a name. A line `# robot: kuka` (or `# convention: kuka`)
+//! names the convention of the robot's poses, `# camera: matrix` that of the camera's; the default for the camera is
+//! `matrix`. Cells are separated by commas, semicolons (then commas may be decimal), tabs or spaces; a heading and
+//! comments (`#`) are skipped.
 //! heading and comments (`#`) are read over.
 //!
 //! ```text
@@ -16,8 +17,8 @@
 //! {"robot": "kuka", "camera": "matrix", "pairs": [{"name": "front", "robot": [6 numbers], "camera": [16 numbers]}]}
 //! ```
 //!
-//! A file of robot poses alone, for captures of which Partsight finds the camera's pose itself, has the same lines without
-//! the camera's numbers; the name is then that of the capture.
+//! A file of robot poses alone, for captures in which Partsight finds the camera's pose itself, has the same lines
+//! without the camera's numbers; the name is then that of the capture.
 
 mod error;
 mod json;
@@ -34,7 +35,7 @@ use crate::{
 
 pub use self::error::{LineProblem, PairsError};
 
-/// Which conventions poses are read in; what is not given here is what the file says.
+/// Conventions given by the caller; `None` uses the one that the file names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PairConventions {
     /// Of the robot's poses.
@@ -48,24 +49,24 @@ pub struct PairConventions {
 pub struct Pairs {
     /// The pairs, in the file's order.
     pub pairs: Vec<PosePair>,
-    /// In which convention the robot's poses were read.
+    /// Convention of the robot's poses in the file.
     pub robot: Convention,
-    /// In which convention the camera's poses were read.
+    /// Convention of the camera's poses in the file.
     pub camera: Convention,
 }
 
 /// A pose of the arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArmPose {
-    /// The name of its capture, where the file gives one.
+    /// Name of its capture, if the file gives one.
     pub capture: Option<String>,
-    /// Where it stands in the file, for people.
+    /// Name and line in the file, for messages.
     pub place: String,
-    /// The flange in the robot's base frame.
+    /// Pose of the flange in the robot's base frame.
     pub robot_from_flange: RigidTransform,
 }
 
-/// A larger file is no list of poses.
+/// Largest file that is read, bytes.
 const MAX_BYTES: u64 = 4 << 20;
 
 /// Reads a file of pairs.
@@ -109,7 +110,7 @@ pub fn read_pairs(path: &Path, given: PairConventions) -> Result<Pairs, PairsErr
     })
 }
 
-/// Reads a file of poses of the arm, and in which convention it was read.
+/// Reads a file of arm poses. Also returns the convention that was used.
 pub fn read_arm_poses(
     path: &Path,
     given: Option<Convention>,
@@ -135,7 +136,7 @@ pub fn read_arm_poses(
     Ok((poses.collect::<Result<_, PairsError>>()?, robot))
 }
 
-/// The conventions of robot and camera.
+/// Finds the conventions of the robot's and the camera's poses.
 fn conventions(
     text: &str,
     path: &Path,
@@ -199,7 +200,7 @@ impl Row {
     }
 }
 
-/// The lines with so many numbers, with or without a name before them.
+/// Reads the lines, each `needed` numbers after an optional name.
 fn rows(
     text: &str,
     path: &Path,
@@ -209,7 +210,7 @@ fn rows(
     let mut rows = Vec::new();
     for (i, (line, content)) in table_rows(text, path)?.into_iter().enumerate() {
         let mut cells: Vec<&str> = content.cells().collect();
-        // Spreadsheets end lines with empty cells.
+        // Spreadsheets pad lines with empty cells.
         while cells.len() > needed && cells.last().is_some_and(|cell| cell.is_empty()) {
             cells.pop();
         }

@@ -1,4 +1,5 @@
-//! How an arm stands at a point, in each controller's words, from the joints that the check of its reach found.
+//! The configuration of an arm at a point in each controller's notation, from the joints found by the check of its
+//! reach.
 //!
 //! | format | words | shoulder | elbow | wrist | turns | source |
 //! | --- | --- | --- | --- | --- | --- | --- |
@@ -7,27 +8,27 @@
 //! | ABB RAPID | confdata | cfx 4: wrist behind axis 1 | cfx 2: wrist behind the lower arm | cfx 1: axis 5 < 0 | cf1, cf4, cf6: quarter turns | ABB, *RAPID Instructions, Functions and Data types*, "confdata" |
 //! | Yaskawa JBI | `RCONF` | third: 1 behind | second: 1 lower arm | first: 1 no flip, B < 0 | R, T, S: 1 from ±180° on | Yaskawa, *DX100 Options: Instructions for Data Transmission*, "RCONF" |
 //!
-//! Front and back are the sides of joint 1 on which the middle of the wrist may lie; the elbow is up if the forearm bends
-//! forward from the upper arm. Both follow from the arm's lengths, so they change exactly where the arm is singular. Joint 3
-//! of FANUC arms is counted against the upper arm here and against the horizontal there; CONFIG does not count its turns, so
-//! the coupling does not enter.
+//! Front and back are the sides of joint 1 on which the centre of the wrist may lie; the elbow is up if the forearm
+//! bends forward from the upper arm. Both follow from the arm's lengths, so they change exactly where the arm is
+//! singular. Joint 3 of FANUC arms is counted against the upper arm here and against the horizontal there; CONFIG does
+//! not count its turns, so the coupling does not matter.
 //!
-//! Universal Robots' and Doosan's arms are not among those that can be checked, nor is it known how the joints of an arm
-//! from a file are counted on its controller: without a maker, or with another maker's format, there is no configuration.
+//! Universal Robots' and Doosan's arms are not among those that can be checked, and how a controller counts the joints
+//! of an arm from a file is unknown: without a maker, or with another maker's format, there is no configuration.
 //!
-//! Not sure: which joints CONFIG counts is set in `$SCR_GRP[1].$TURN_AXIS`, here its usual 4, 5, 6; it matters where J4 is
+//! Uncertain: `$SCR_GRP[1].$TURN_AXIS` sets which joints CONFIG counts, here the usual 4, 5, 6; it matters where J4 is
 //! beyond ±180°. The manuals of FANUC and Yaskawa draw the elbow with the wrist in front only. Yaskawa's older manuals
-//! (NX100) tell flip by R instead; jobs recorded on a YRC1000 go by B, and by the elbow behind joint 1 as here.
+//! (NX100) define flip by R instead; jobs recorded on a YRC1000 use B, and the elbow behind joint 1 as here.
 
 use super::ProgramFormat;
 use crate::robot::arm::{Arm, Joints};
 
-/// Steps per degree to which joints are rounded before they are compared: poses are not written more finely.
+/// Joints are rounded to this many steps per degree before they are compared, as fine as poses are written.
 const STEPS: f64 = 1e4;
-/// RCONF tells no turns apart beyond this, degrees.
+/// RCONF cannot express turns beyond this, degrees.
 const MOST_JBI: f64 = 360.0;
 
-/// How an arm stands with these joints; none where that is not known for sure.
+/// Returns the arm's configuration with these joints; `None` if it is not certain.
 pub(super) fn configuration(format: ProgramFormat, arm: &Arm, joints: &Joints) -> Option<String> {
     if arm.maker() != Some(format.convention()) {
         return None;

@@ -1,4 +1,4 @@
-//! Why a program cannot be written.
+//! Errors of writing a program.
 
 use std::path::PathBuf;
 
@@ -11,32 +11,32 @@ pub enum ProgramError {
     /// The file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The name of the file does not say which language.
+    /// The file's ending is not that of a controller's language.
     #[error("{}: the ending names no controller's language", path.display())]
     UnknownEnding {
         /// The file.
         path: PathBuf,
     },
-    /// The controller takes no program of that name.
+    /// The controller does not accept a program of this name.
     #[error("{} takes no program called {name:?}", format.title())]
     Name {
         /// The language.
         format: ProgramFormat,
         /// The name.
         name: String,
-        /// Most letters of the file's name, with which the programs that it calls are named as well.
+        /// Most letters of the file's name, from which the names of called programs are made.
         most: usize,
     },
-    /// A path without points.
+    /// The path has no points.
     #[error("the path has no points")]
     NoPoints,
-    /// A number that is none.
+    /// A pose has a number that is not finite.
     #[error("{} is infinite or not a number", if *point == 0 { "the pose of tool or part".into() } else { format!("the pose of point {point}") })]
     NotFinite {
         /// The point, from 1; 0 for tool or part.
         point: usize,
     },
-    /// Slower or faster than the controller moves.
+    /// A speed outside the controller's range.
     #[error("point {point} asks for {:.1} mm/s, {} takes {:.0} to {:.0}", speed * 1000.0, format.title(), format.speeds()[0] * 1000.0, format.speeds()[1] * 1000.0)]
     Speed {
         /// The language.
@@ -46,48 +46,48 @@ pub enum ProgramError {
         /// Its speed, m/s.
         speed: f64,
     },
-    /// More instructions than one program holds, with the gun on.
+    /// More instructions between two places with the gun off than one program holds.
     #[error("the gun stays on for {found} instructions, a program in {} holds {most} beside its header", format.title())]
     TooMany {
         /// The language.
         format: ProgramFormat,
-        /// Instructions needed until the gun closes.
+        /// Instructions until the gun closes.
         found: usize,
-        /// Instructions that it holds.
+        /// Instructions that a program holds beside its header.
         most: usize,
     },
-    /// No tool of the controller.
+    /// Not a tool of the controller.
     #[error("{tool:?} is no tool of {}", format.title())]
     Tool {
         /// The language.
         format: ProgramFormat,
-        /// What was given.
+        /// The tool given.
         tool: String,
     },
-    /// The arm moves along a rail, which the language has no words for.
+    /// The arm moves along a rail, but the language has no axis for it.
     #[error("{} has no axis for the arm's rail", format.title())]
     Rail {
         /// The language.
         format: ProgramFormat,
     },
-    /// No output of the controller.
+    /// Not a digital output of the controller.
     #[error("{} has no digital output {output}", format.title())]
     Output {
         /// The language.
         format: ProgramFormat,
-        /// The number.
+        /// Number of the output.
         output: u16,
     },
-    /// A length of the settings out of its range.
+    /// A length of the settings is out of its range.
     #[error("a {name} of {value}, expected {:.0} to {:.0} mm", low.mm(), high.mm())]
     Length {
-        /// Which.
+        /// Name of the length.
         name: &'static str,
-        /// What was given.
+        /// The value given.
         value: Metres,
-        /// The least.
+        /// Least value.
         low: Metres,
-        /// The most.
+        /// Greatest value.
         high: Metres,
     },
 }

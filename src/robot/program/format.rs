@@ -1,4 +1,4 @@
-//! The controllers' languages, and what each of them takes.
+//! The controllers' languages and their limits.
 
 use std::path::Path;
 
@@ -10,19 +10,19 @@ use crate::robot::Convention;
 pub enum ProgramFormat {
     /// KUKA Robot Language, one `.src` without `.dat`.
     Krl,
-    /// FANUC's teach pendant program as text.
+    /// FANUC's teach pendant program in ASCII form.
     Ls,
-    /// ABB's module.
+    /// ABB's RAPID module.
     Rapid,
     /// Universal Robots' script.
     UrScript,
-    /// Yaskawa's job.
+    /// Yaskawa's job (INFORM).
     Jbi,
     /// Doosan Robot Language.
     Drl,
 }
 
-/// How the files of all formats end, without the point.
+/// File endings of all formats, without the dot.
 pub const PROGRAM_ENDINGS: [&str; 6] = ["src", "ls", "mod", "script", "jbi", "drl"];
 
 impl ProgramFormat {
@@ -48,7 +48,7 @@ impl ProgramFormat {
         }
     }
 
-    /// The name for people.
+    /// The name shown to people.
     pub fn title(self) -> &'static str {
         match self {
             Self::Krl => "KUKA KRL",
@@ -60,7 +60,7 @@ impl ProgramFormat {
         }
     }
 
-    /// How its files end, without the point.
+    /// The ending of its files, without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Krl => PROGRAM_ENDINGS[0],
@@ -72,7 +72,7 @@ impl ProgramFormat {
         }
     }
 
-    /// The format that a file's name ends in.
+    /// Finds the format by the file's ending.
     pub fn of(path: &Path) -> Result<Self, ProgramError> {
         let ending = path.extension().unwrap_or_default();
         let found = Self::ALL.into_iter();
@@ -94,7 +94,7 @@ impl ProgramFormat {
         }
     }
 
-    /// Most letters of a program's name. A procedure of RAPID is called `run_` and the name.
+    /// Most letters of a program's name; a RAPID procedure is called `run_` plus the name.
     pub(super) fn longest_name(self) -> usize {
         match self {
             Self::Krl => 24,
@@ -105,7 +105,7 @@ impl ProgramFormat {
         }
     }
 
-    /// Most instructions of one program.
+    /// Most instructions of one program; none if unlimited.
     pub(super) fn most_lines(self) -> Option<usize> {
         match self {
             Self::Ls | Self::Jbi => Some(9999),
@@ -113,7 +113,7 @@ impl ProgramFormat {
         }
     }
 
-    /// The slowest and the fastest speed that it takes, m/s.
+    /// Slowest and fastest speed, m/s.
     pub(super) fn speeds(self) -> [f64; 2] {
         match self {
             Self::Krl | Self::Ls => [0.001, 2.0],
@@ -124,7 +124,7 @@ impl ProgramFormat {
         }
     }
 
-    /// The numbers of its digital outputs.
+    /// First and last number of its digital outputs.
     pub(super) fn outputs(self) -> [u16; 2] {
         match self {
             Self::Krl | Self::Jbi => [1, 4096],
@@ -135,7 +135,7 @@ impl ProgramFormat {
         }
     }
 
-    /// What it calls the axis of a rail; none if it has no external axes.
+    /// Name of the rail's axis; none if the language has no external axes.
     pub(super) fn rail_axis(self) -> Option<&'static str> {
         match self {
             Self::Krl | Self::Ls => Some("E1"),
@@ -145,7 +145,7 @@ impl ProgramFormat {
         }
     }
 
-    /// The largest number of a tool; none if tools have names.
+    /// Largest number of a tool; none if tools have names.
     pub(super) fn most_tools(self) -> Option<u8> {
         match self {
             Self::Krl => Some(16),

@@ -1,4 +1,4 @@
-//! Yaskawa's job, with Cartesian positions in the base frame: no pulses, so that it fits any arm.
+//! Yaskawa's job, with Cartesian positions in the base frame instead of pulses, so that it fits any arm.
 
 use jiff::tz::TimeZone;
 
@@ -8,11 +8,11 @@ use super::{
     text,
 };
 
-/// A comment holds 32 letters.
+/// Letters of a comment.
 const WIDTH: usize = 32;
-/// No flip, upper arm, front, no turns: where nothing else is known.
+/// No flip, upper arm, front, no turns; used if the configuration is not known.
 const USUAL: &str = "1,0,0,0,0,0";
-/// The numbers of a configuration that do not count.
+/// Unused numbers at the end of RCONF.
 const UNUSED: usize = 18;
 
 pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
@@ -21,13 +21,13 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines.add("/JOB");
     lines.add(format!("//NAME {}", name.to_uppercase()));
     lines.add("//POS");
-    // Of the robot, and of the base axis that is its rail.
+    // Positions of the robot, and of its rail as base axis.
     let num_rails = steps.iter().filter(|step| step.rail.is_some()).count();
     lines.add(format!("///NPOS {},{num_rails},0,0,0,0", steps.len()));
     lines.add(format!("///TOOL {}", program.tool(ProgramFormat::Jbi)));
     lines.add("///POSTYPE BASE");
     lines.add("///RECTAN");
-    // It holds for the points below it.
+    // RCONF applies to the points below it.
     let mut current = None;
     for (i, step) in steps.iter().enumerate() {
         let configuration = step.configuration.as_deref().unwrap_or(USUAL);
@@ -78,7 +78,7 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines
 }
 
-/// A job that calls others, one after the other, and has no positions.
+/// Writes a job without positions that calls others, one after the other.
 pub(super) fn write_calls(
     program: &Program<'_>,
     parts: &[String],
@@ -98,7 +98,7 @@ pub(super) fn write_calls(
     lines
 }
 
-/// What stands above the moves.
+/// Writes the lines between the positions and the moves.
 fn begin(lines: &mut Lines, program: &Program<'_>, attributes: &[&str], header: &[String]) {
     lines.add("//INST");
     let at = program.at.to_zoned(TimeZone::UTC);

@@ -1,4 +1,4 @@
-//! KUKA Robot Language: one `.src` whose points stand in the moves.
+//! KUKA Robot Language: one `.src` with the points in the moves.
 
 use super::{
     JOINT_SPEED, Lines, Program, ProgramFormat,
@@ -7,7 +7,7 @@ use super::{
 };
 use crate::geometry::rigid::RigidTransform;
 
-/// KRL takes 140; what stands behind `; ` is shorter.
+/// Letters of a comment after `; `; KRL takes 140.
 const WIDTH: usize = 100;
 
 pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
@@ -36,12 +36,12 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     let mut current = None;
     for step in steps {
         match step.motion {
-            // Linear moves keep the status and take the turn that is nearest: only here it is chosen.
+            // The configuration is only given here: linear moves keep the status and take the nearest turn.
             Motion::Joints => {
                 let to = frame(&step.to, step.configuration.as_deref(), step.rail);
                 lines.instruct(format!("PTP {to}"));
                 if step.rail.is_some() {
-                    // BAS (#VEL_PTP) slows the rail as well, and linear moves would wait for it.
+                    // BAS (#VEL_PTP) also slows the rail, and linear moves would wait for it.
                     lines.instruct("$VEL_EXTAX[1]=100");
                 }
             }
@@ -53,7 +53,7 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
                 }
                 if let Some(is_on) = line.gun {
                     let state = if is_on { "TRUE" } else { "FALSE" };
-                    // At the end of the move that follows: in the middle of its blend.
+                    // Switches at the end of the following move, in the middle of its blend.
                     lines.instruct(format!(
                         "TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[{output}]={state}"
                     ));
@@ -69,7 +69,7 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     lines
 }
 
-/// A pose, how the arm stands there, and where its rail is.
+/// Formats a pose with the arm's configuration and the rail's position.
 fn frame(pose: &RigidTransform, configuration: Option<&str>, rail: Option<f64>) -> String {
     let numbers = text::numbers(ProgramFormat::Krl, pose);
     let named = ["X", "Y", "Z", "A", "B", "C"].iter().zip(numbers);

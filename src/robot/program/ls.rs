@@ -1,4 +1,4 @@
-//! FANUC's teach pendant program as text.
+//! FANUC's teach pendant program in ASCII form.
 
 use jiff::tz::TimeZone;
 
@@ -8,9 +8,9 @@ use super::{
     text,
 };
 
-/// A remark holds 32 letters.
+/// Letters of a remark.
 const WIDTH: usize = 32;
-/// No flip, elbow up, front: where nothing else is known.
+/// No flip, elbow up, front; used if the configuration is not known.
 const USUAL: &str = "N U T, 0, 0, 0";
 
 pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
@@ -71,7 +71,7 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     whole(program, name, &moves, &points)
 }
 
-/// A program that calls others, one after the other.
+/// Writes a program that calls others, one after the other.
 pub(super) fn write_calls(
     program: &Program<'_>,
     parts: &[String],
@@ -91,7 +91,7 @@ pub(super) fn write_calls(
     whole(program, name, &calls, &Lines::default())
 }
 
-/// Instructions and points with what a program has around them.
+/// Puts head and end around instructions and points.
 fn whole(program: &Program<'_>, name: &str, moves: &Lines, points: &Lines) -> Lines {
     let at = program.at.to_zoned(TimeZone::UTC);
     let at = at.strftime("DATE %y-%m-%d  TIME %H:%M:%S");

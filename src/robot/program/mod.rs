@@ -9,25 +9,25 @@
 //! | Yaskawa JBI | X Y Z Rx Ry Rz, RECTAN in BASE | `V`, mm/s | none but at `PL=0` | `DOUT OT#` | Yaskawa, *DX100 Options: Instructions for Data Transmission*, job data format |
 //! | Doosan DRL | posx | `vel`, mm/s | `radius` | `set_digital_output` | Doosan, *Programming Manual*, motion and I/O |
 //!
-//! Every program does the same: gun off; a joint move to the approach point, which lies behind the first point along the
-//! nozzle; the path; gun off; a linear move away. A point's gun and speed hold on the way to the next one. KRL and RAPID
-//! switch the gun while the robot moves; the others stop at a point where the gun changes, because they run outputs ahead
-//! of a blended move. All poses are `robot_from_nozzle` in the robot's base frame.
+//! Every program does the same: gun off; a joint move to the approach point, which is behind the first point along the
+//! nozzle; the path; gun off; a linear move away. A point's gun state and speed apply on the way to the next point. KRL
+//! and RAPID switch the gun while the robot moves. The others stop at a point where the gun changes, because they run
+//! outputs ahead of a blended move. All poses are `robot_from_nozzle` in the robot's base frame.
 //!
-//! Where an arm was checked to reach the path, and the controller is of its maker, the points also name the configuration in
-//! which it does, so that no other is taken (`configuration`).
+//! If an arm was checked to reach the path, and the controller is of the arm's maker, the points also name the
+//! configuration that was checked, so that the controller takes no other (`configuration`).
 //!
-//! A rail that moves along the path is the first external axis of every position, in millimetres: E1 of KRL and LS, `eax_a` of
-//! RAPID (ABB's manual, "extjoint"), BC of JBI (Yaskawa's manual, "RECTAN"). Poses stay in the base frame, which does not move
-//! along. `URScript` and DRL have no such axis.
+//! A rail that moves along the path is the first external axis of every position, in millimetres: E1 of KRL and LS,
+//! `eax_a` of RAPID (ABB's manual, "extjoint"), BC of JBI (Yaskawa's manual, "RECTAN"). Poses stay in the base frame,
+//! which does not move along. `URScript` and DRL have no such axis.
 //!
-//! LS and JBI hold 9999 instructions. A longer path is cut where the gun is off into several programs, which a main program
-//! calls. Their names hold a checksum of the whole: on a controller that still has parts of an earlier path, or misses
-//! some, the call fails, and no robot follows one path with the end of another.
+//! LS and JBI hold 9999 instructions. A longer path is cut where the gun is off into several programs, called by a main
+//! program. Their names contain a checksum of the whole: on a controller that still has parts of an earlier path, or
+//! lacks some, the call fails, so no robot follows one path with the end of another.
 //!
-//! Known limits: nothing here was tried on a controller. Acceleration is the controller's default. Where the configuration
-//! is not known, `CONFIG` of LS and `RCONF` of JBI name the usual one (no flip, elbow up, front), and the other programs
-//! leave it to the controller.
+//! Known limits: nothing here was tried on a controller. Acceleration is the controller's default. If the configuration
+//! is not known, `CONFIG` of LS and `RCONF` of JBI name the usual one (no flip, elbow up, front), and the other
+//! programs leave it to the controller.
 
 mod configuration;
 mod error;
@@ -61,31 +61,32 @@ pub use self::{
     save::{ProgramTexts, remove_previous_program},
 };
 
-/// One place of the nozzle.
+/// One pose of the nozzle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProgramPoint {
-    /// The tool's frame in the robot's base frame: origin at the mouth, z towards the part.
+    /// Pose of the tool in the robot's base frame: origin at the nozzle's mouth, z towards the part.
     pub robot_from_nozzle: RigidTransform,
     /// True if the gun sprays on the way to the next point.
     pub is_gun_on: bool,
-    /// Speed on the way to the next point, m/s; none for that of the settings.
+    /// Speed on the way to the next point, m/s; none for [`ProgramSettings::speed`].
     pub speed: Option<f64>,
 }
 
-/// What the cell needs to know beside the path.
+/// Settings of the cell and of the moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProgramSettings {
-    /// The tool on the controller: a number for KRL, LS and JBI, a name for RAPID and DRL. Without it 1, or `tool1`.
+    /// The tool on the controller: a number for KRL, LS and JBI, a name for RAPID and DRL. Default: 1, or `tool1`.
     pub tool: Option<String>,
-    /// Where the nozzle is on the flange; KRL, RAPID and `URScript` set it, otherwise the tool of the controller counts.
+    /// Pose of the nozzle on the flange. KRL, RAPID and `URScript` set it; otherwise the controller's tool applies.
     pub flange_from_nozzle: Option<RigidTransform>,
     /// Number of the digital output that opens the gun.
     pub gun_output: u16,
     /// Speed where the path sets none, m/s.
     pub speed: f64,
-    /// How far before the first and behind the last point the program begins and ends, 10..1000 mm.
+    /// Distance of the approach point behind the first point, and of the end behind the last, 10..1000 mm.
     pub approach: Metres,
-    /// Radius within which the robot may cut a corner, 0..100 mm; at most 0.45 of the way to the neighbouring points.
+    /// Radius within which the robot may cut a corner, 0..100 mm; at most 0.45 of the distance to the neighbouring
+    /// points.
     pub blend: Metres,
 }
 
@@ -102,17 +103,17 @@ impl Default for ProgramSettings {
     }
 }
 
-/// Joint speed of the first move, as a share of the fastest.
+/// Joint speed of the first move, as a share of the maximum.
 const JOINT_SPEED: f64 = 0.1;
 
-/// A path as a program, and what its header says.
+/// A path to be written as a program, and the content of its header.
 #[derive(Clone, Debug)]
 pub struct Program<'a> {
-    /// The points in their order.
+    /// The points, in order.
     pub points: &'a [ProgramPoint],
     /// The settings.
     pub settings: &'a ProgramSettings,
-    /// The arm that was checked to reach the points, and what came of it; none if none was checked.
+    /// The arm, and the result of its check; none if no arm was checked.
     pub reach: Option<&'a (PlacedArm, PathCheck)>,
     /// Name of the part.
     pub part: &'a str,
@@ -120,17 +121,17 @@ pub struct Program<'a> {
     pub scene: Option<&'a str>,
     /// The part's pose in the robot's base frame.
     pub robot_from_part: RigidTransform,
-    /// By which calibration.
+    /// Name of the calibration.
     pub calibration: &'a str,
-    /// True if no real camera saw the scene, or none saw the part when it was enrolled.
+    /// True if the scene, or the enrolled part, was simulated.
     pub is_simulated: bool,
-    /// Why the program should not have been written; it was forced.
+    /// Reasons against writing the program, which were overridden.
     pub doubts: &'a [String],
-    /// When.
+    /// When the program was made.
     pub at: Timestamp,
 }
 
-/// In the header of every program, by which an earlier one is known.
+/// Text in the header of every program, which identifies it as ours.
 const MARK: &str = "Partsight robot program";
 
 impl Program<'_> {
@@ -201,7 +202,7 @@ impl Program<'_> {
         Ok(())
     }
 
-    /// Top speed of the rail that moves the arm along the path, m/s; none without one.
+    /// Top speed of the rail that moves the arm along the path, m/s; none if no rail moves.
     fn rail_speed(&self) -> Option<f64> {
         let (arm, _) = self.reach?;
         arm.arm.moving_rail().map(|(_, speed)| speed)
@@ -224,7 +225,7 @@ impl Program<'_> {
             .unwrap_or_else(|| standard.into())
     }
 
-    /// What stands above the moves, in lines of any length.
+    /// The header's lines, of any length.
     fn header(&self, format: ProgramFormat, steps: &[Step]) -> Vec<String> {
         let convention = format.convention();
         let seen = match self.scene {

@@ -1,4 +1,4 @@
-//! From a carried path to the points of a program, and whether an arm reaches them.
+//! Converts a carried path to the points of a program, and checks whether an arm reaches them.
 
 use std::{
     path::Path,
@@ -16,23 +16,23 @@ use crate::robot::{
     spray::CarriedPath,
 };
 
-/// A part that was captured longer ago than this may hang elsewhere.
+/// A part captured longer ago than this may hang elsewhere by now.
 const STALE: Duration = Duration::from_mins(10);
 
-/// True of a capture more than 10 minutes ago: no program is written of it unless forced.
+/// Returns true if the capture is more than 10 minutes old: a program of it must be forced.
 pub fn is_stale(captured: SystemTime) -> bool {
     let age = SystemTime::now().duration_since(captured);
     age.is_ok_and(|age| age > STALE)
 }
 
-/// The same of a capture's file, by when it was written; false where the system does not tell.
+/// The same for a capture's file, by its time of modification; false if the system does not provide that.
 pub fn is_stale_file(scene: &Path) -> bool {
     let written = scene.metadata().and_then(|meta| meta.modified());
     written.is_ok_and(is_stale)
 }
 
-/// The nozzle's places in the robot's base frame, for an arm; `speed` in m/s
-/// where the path sets none.
+/// Returns the nozzle poses of a path in the robot's base frame, for an arm. `speed`, in m/s, applies where the path
+/// sets none.
 pub fn arm_points(carried: &CarriedPath, frame: &RobotFrame, speed: f64) -> Vec<ArmPoint> {
     let points = carried.points.iter().map(|point| ArmPoint {
         robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
@@ -43,8 +43,8 @@ pub fn arm_points(carried: &CarriedPath, frame: &RobotFrame, speed: f64) -> Vec<
     points.collect()
 }
 
-/// Whether an arm reaches a carried path, clear of its obstacles. The program comes from an approach point and moves away at
-/// the end: what is wrong there counts for the first and the last point.
+/// Checks whether an arm reaches a carried path without a collision. Also checks the approach point before it and the
+/// retreat after it; their problems are reported at the first and the last point.
 pub fn check_reach(
     arm: &PlacedArm,
     carried: &CarriedPath,
@@ -53,7 +53,7 @@ pub fn check_reach(
 ) -> Result<PathCheck, ArmError> {
     let mut points = arm_points(carried, frame, settings.speed);
     let params = CheckParams::default();
-    // Before the approach point is put in front of them: an error names the path's own points.
+    // Checked before the approach point is inserted, so that an error counts the path's own points.
     refuse_bad(arm, &points, &params)?;
     let (Some(first), Some(last)) = (points.first().copied(), points.last().copied()) else {
         return Err(ArmError::NoPoints);
@@ -84,7 +84,7 @@ pub fn check_reach(
     Ok(check)
 }
 
-/// Of two problems the one that counts: a collision before all others.
+/// Returns the problem to report: a collision takes precedence.
 fn graver(own: Option<PointProblem>, other: Option<PointProblem>) -> Option<PointProblem> {
     if matches!(other, Some(PointProblem::Collision { .. })) {
         other
@@ -93,7 +93,7 @@ fn graver(own: Option<PointProblem>, other: Option<PointProblem>) -> Option<Poin
     }
 }
 
-/// The points of a program. `reach` turns the nozzle of a round jet about its axis as the arm reaches it.
+/// Returns the points of a program. With `reach`, the nozzle of a round jet is turned about its axis as in the check.
 pub fn program_points(
     carried: &CarriedPath,
     frame: &RobotFrame,
@@ -128,7 +128,7 @@ mod tests {
         units::Metres,
     };
 
-    /// A line of 200 mm across, 1.6 m before the robot and as high as this, the nozzle away from it.
+    /// A line 200 mm across, 1.6 m in front of the robot at this height, with the nozzle pointing away from it.
     fn line(height: f64) -> CarriedPath {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), std::f64::consts::FRAC_PI_2);
         let points = (0..5).map(|i| {
@@ -149,7 +149,7 @@ mod tests {
         }
     }
 
-    /// An arm that reaches the line, and where it is calibrated.
+    /// An arm that reaches the line, and its calibration.
     fn cell() -> (PlacedArm, RobotFrame) {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -0.8);
         let arm = PlacedArm {
@@ -179,7 +179,7 @@ mod tests {
             assert!(moved.fold(0.0, f64::max) > 0.01, "{near:?}");
             assert_eq!(arm.arm.configuration(&end), arm.arm.configuration(&point));
         }
-        // A metre behind the nozzle the arm would be in its own foot.
+        // 1.4 m behind the nozzle the arm would be inside its own base.
         settings.approach = Metres(1.4);
         let far = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
         let problems: Vec<bool> = far.points.iter().map(|p| p.problem.is_some()).collect();
@@ -188,7 +188,7 @@ mod tests {
         assert!(doubt.starts_with("arm reaches 3 of 5 points"), "{doubt}");
         let none = CarriedPath { points: Vec::new() };
         assert!(check_reach(&arm, &none, &frame, &settings).is_err());
-        // Counted as the path counts them, without the approach point.
+        // Counted as in the path, without the approach point.
         let mut stopped = line(1.2);
         stopped.points[2].speed = Some(0.0);
         let error = check_reach(&arm, &stopped, &frame, &settings).expect_err("no speed");
@@ -207,11 +207,11 @@ mod tests {
             };
             check_reach(&arm, &line(1.2), &frame, &settings).expect("checked")
         };
-        // A plate of 1 m, a point every 10 mm, square to the jet.
+        // A 1 m plate with a point every 10 mm, perpendicular to the jet.
         let side = |i: u16| 0.01 * f32::from(i) - 0.5;
         let plate = (0..=100).flat_map(|i| (0..=100).map(move |k| [side(i), side(k)]));
         let plate: Vec<Point3<f32>> = plate.map(|[y, z]| Point3::new(0.0, y, z)).collect();
-        // 150 mm before the mouth, as a part hangs.
+        // 150 mm in front of the mouth, as a part hangs.
         assert_eq!(checked(&plate, 1.75, 0.1).doubt("arm"), None);
         // 50 mm behind it.
         let through = checked(&plate, 1.55, 0.1);
@@ -222,7 +222,7 @@ mod tests {
             obstacle: Obstacle::Part,
         };
         assert_eq!(through.points[2].problem, Some(wanted));
-        // A bolt where the program begins, 300 mm behind the first point.
+        // A bolt at the program's start, 300 mm behind the first point.
         let bolt: Vec<Point3<f32>> = (-1_i16..=1)
             .map(|i| Point3::new(0.0, 0.01 * f32::from(i) - 0.1, -0.02))
             .collect();

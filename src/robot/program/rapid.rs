@@ -8,9 +8,9 @@ use super::{
 use crate::geometry::rigid::RigidTransform;
 
 const WIDTH: usize = 78;
-/// The tool that is declared where the settings say where the nozzle is.
+/// Name of the tool that is declared if the settings have the nozzle's pose.
 const OWN_TOOL: &str = "tPartsight";
-/// Speed of linear external axes in v1000, mm/s: where no rail moves.
+/// Speed of linear external axes in v1000, mm/s; used if no rail moves.
 const RAIL_SPEED: f64 = 5000.0;
 
 pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], name: &str) -> Lines {
@@ -31,8 +31,8 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     }
     let signal = format!("doGun{}", settings.gun_output);
     lines.add(format!("  PROC run_{name}()"));
-    // The first move takes the configuration that was checked, or stops; linear moves then keep it, also where an axis
-    // stands on the border of a quadrant.
+    // The first move takes the configuration that was checked, or stops; linear moves then keep it, even if an axis is
+    // at the border of a quadrant.
     let is_known = steps
         .first()
         .is_some_and(|step| step.configuration.is_some());
@@ -43,12 +43,12 @@ pub(super) fn write(program: &Program<'_>, steps: &[Step], header: &[String], na
     });
     lines.add("    ConfL\\Off;");
     lines.add(format!("    SetDO {signal},0;"));
-    // The rail keeps to its top speed also where the nozzle hardly moves.
+    // The rail keeps to its top speed even where the nozzle hardly moves.
     let rail_speed = program
         .rail_speed()
         .map_or(RAIL_SPEED, |speed| 1000.0 * speed);
     let rail = text::fixed(rail_speed, 3);
-    // TCP, orientation and external axes: a tenth of what v1000 has.
+    // TCP, orientation and external axes: a tenth of v1000's speeds.
     let slow = format!("[100,50,{},100]", text::fixed(JOINT_SPEED * rail_speed, 3));
     for step in steps {
         match step.motion {
@@ -93,7 +93,7 @@ fn target(step: &Step) -> String {
     format!("[{inner},{configuration},[{rail},9E9,9E9,9E9,9E9,9E9]]")
 }
 
-/// As z5 and its kin are made: the tool turns within one and a half times the radius.
+/// Scaled like z5 and the other predefined zones: the tool turns within 1.5 times the radius.
 fn zone(blend: f64) -> String {
     if blend <= 0.0 {
         return "fine".into();

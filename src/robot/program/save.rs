@@ -1,4 +1,4 @@
-//! A program as files: written whole, cut into several where one would be too long, and removed before the next.
+//! The files of a program: written whole, split if too long, and removed before the next.
 
 use std::{
     fs,
@@ -14,22 +14,22 @@ use super::{
 };
 use crate::files::{FileError, crc32, disk, folder_of, open_regular, write_atomically};
 
-/// A program's text, and those of the programs that it calls where one would be too long.
+/// The text of a program, and of the programs that it calls if one would be too long.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProgramTexts {
-    /// Called as the file.
+    /// The main program, which has the file's name.
     pub main: String,
-    /// Name and text of each, in the order in which they are called.
+    /// Names and texts of the called programs, in order.
     pub parts: Vec<(String, String)>,
 }
 
-/// A longer file is no program of ours.
+/// No program of ours is longer, bytes.
 const MAX_BYTES: u64 = 64 << 20;
-/// Hexadecimal digits of the checksum in the name of a part: `paint_1a2b3c4d_2`.
+/// Hexadecimal digits of the checksum in the name of a part, as in `paint_1a2b3c4d_2`.
 const CHECKSUM_DIGITS: usize = 8;
 
-/// Takes an earlier program of this name away, and then the parts that it called, so that no robot runs it for the next part;
-/// true if there was one. Anything else of those names stays.
+/// Removes an earlier program of this name, then the parts that it called, so that no robot runs it for the next part.
+/// Returns true if there was one. Other files of these names stay.
 pub fn remove_previous_program(path: &Path) -> Result<bool, FileError> {
     let mut is_found = false;
     let main = std::iter::once(path.to_owned());
@@ -45,14 +45,14 @@ pub fn remove_previous_program(path: &Path) -> Result<bool, FileError> {
 fn is_own_program(path: &Path) -> bool {
     let mut bytes = Vec::new();
     let read = open_regular(path).and_then(|file| file.take(MAX_BYTES).read_to_end(&mut bytes));
-    // Whatever is wrong with it shows when the next one is written.
+    // If it cannot be read, writing the next program will report the error.
     read.is_ok()
         && bytes
             .windows(MARK.len())
             .any(|part| part == MARK.as_bytes())
 }
 
-/// The files beside a program that are named as its parts are, also those of an interrupted writing.
+/// Files beside a program that are named like its parts, including those of an interrupted save.
 fn parts_beside(path: &Path) -> Vec<PathBuf> {
     let is_named_so = |file: &Path| {
         let (name, stem) = (file.file_stem()?.to_str()?, path.file_stem()?.to_str()?);
@@ -73,7 +73,7 @@ fn parts_beside(path: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// A file beside another, of the same ending.
+/// The path of a file in the same folder with the same ending.
 pub(super) fn beside(path: &Path, name: &str) -> PathBuf {
     let mut file = path.with_file_name(name);
     if let Some(ending) = path.extension() {
@@ -83,13 +83,13 @@ pub(super) fn beside(path: &Path, name: &str) -> PathBuf {
 }
 
 impl Program<'_> {
-    /// Writes the program, whole or not at all; it is called as the file. Programs that it calls are written beside it first;
-    /// returns how many.
+    /// Writes the program, whole or not at all, with the file's name as its own. Programs that it calls are written
+    /// beside it first; returns their number.
     pub fn save(&self, path: &Path, format: ProgramFormat) -> Result<usize, ProgramError> {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let ProgramTexts { main, parts } = self.texts(format, &name)?;
         if !parts.is_empty() {
-            // While they are written there is nothing that could be called.
+            // While the parts are written, there must be no main program that calls them.
             remove_previous_program(path)?;
         }
         let write = |path: &Path, text: &str| {
@@ -100,14 +100,14 @@ impl Program<'_> {
             .try_for_each(|(name, text)| write(&beside(path, name), text))
             .and_then(|()| write(path, &main));
         if saved.is_err() && !parts.is_empty() {
-            // What cannot be removed either is removed before the next program is written.
+            // If this fails too, they are removed before the next program is written.
             drop(remove_previous_program(path));
         }
         saved?;
         Ok(parts.len())
     }
 
-    /// The program's text, in several programs where one would be too long.
+    /// Returns the program's text, split into several programs if one would be too long.
     pub fn texts(&self, format: ProgramFormat, name: &str) -> Result<ProgramTexts, ProgramError> {
         self.check(format, name)?;
         let mut steps = steps::steps_of(self, format);
@@ -128,7 +128,7 @@ impl Program<'_> {
             header.insert(1, line);
             header
         };
-        // Longer numbers than there will be.
+        // With larger numbers than there will be, so that no header is longer.
         let empty = self.write(format, &[], &header_of(most, most), name);
         let most = most.saturating_sub(empty.num_instructions());
         let ranges = steps::split(&mut steps, most).map_err(|found| ProgramError::TooMany {
@@ -145,7 +145,7 @@ impl Program<'_> {
                 most: format.longest_name().saturating_sub(longest - name.len()),
             });
         }
-        // Only these two have a limit.
+        // Only LS and JBI have a limit.
         let main = if format == ProgramFormat::Ls {
             ls::write_calls(self, &names, &header, name)
         } else {

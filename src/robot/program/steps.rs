@@ -1,4 +1,4 @@
-//! What every program does, in no controller's words.
+//! The steps of a program, independent of the language.
 
 use std::ops::Range;
 
@@ -10,37 +10,37 @@ use crate::{geometry::rigid::RigidTransform, robot::arm::PointCheck};
 /// One step of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Step {
-    /// Where to.
+    /// Pose of the nozzle at its end, in the robot's base frame.
     pub(super) to: RigidTransform,
-    /// How the arm stands there, in the controller's words; none where that was not checked or is not known.
+    /// Configuration of the arm there, in the controller's notation; none if not checked or not known.
     pub(super) configuration: Option<String>,
-    /// Where the rail is that moves along the path, metres; none without one.
+    /// Position of the rail that moves along the path, metres; none without one.
     pub(super) rail: Option<f64>,
     pub(super) motion: Motion,
 }
 
-/// How a robot moves.
+/// Kind of move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Motion {
-    /// By the joints, slowly; the gun is off.
+    /// Joint move, slow, with the gun off.
     Joints,
-    /// In a straight line.
+    /// Linear move.
     Line(Line),
 }
 
-/// A straight move.
+/// A linear move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line {
-    /// How fast, m/s.
+    /// Speed, m/s.
     pub(super) speed: f64,
-    /// Radius of the blend at its end, metres; 0 to reach the point.
+    /// Blend radius at its end, metres; 0 to stop at the point.
     pub(super) blend: f64,
-    /// The gun from there on, where it changes.
+    /// Gun state from its end on, if it changes there.
     pub(super) gun: Option<bool>,
 }
 
 impl Line {
-    /// The blend of a controller that would switch the gun before a blended point.
+    /// The blend for controllers that would switch the gun before a blended point.
     pub(super) fn blend_unless_gun(&self) -> f64 {
         if self.gun.is_some() { 0.0 } else { self.blend }
     }
@@ -54,16 +54,16 @@ impl Step {
         }
     }
 
-    /// Of a controller that switches the gun after a move.
+    /// Instructions on a controller that switches the gun after a move.
     fn num_instructions(&self) -> usize {
         1 + usize::from(self.gun().is_some())
     }
 }
 
-/// A blend may reach this share of the way to the next point: two of them must not touch.
+/// Limit of a blend as a share of the way to the next point, so that two blends do not touch.
 const BLEND_SHARE: f64 = 0.45;
 
-/// The steps of a program, which has at least one point.
+/// Returns the steps of a program with at least one point.
 pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step> {
     let Program {
         points, settings, ..
@@ -83,7 +83,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
         Some(point?.rail)
     };
     let at = |index: usize| checked.and_then(|(_, check)| check.points.get(index));
-    // Behind a point, turned about the nozzle from there as the check has it.
+    // The pose behind a point, turned about the nozzle as in the check.
     let behind = |point: &ProgramPoint, index: usize, end: Option<&PointCheck>| {
         let turns = at(index).zip(end).map(|(point, end)| end.turn - point.turn);
         let turn = UnitQuaternion::from_euler_angles(0.0, 0.0, turns.unwrap_or(0.0));
@@ -98,7 +98,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
         motion: Motion::Joints,
     }];
     let mut is_on = false;
-    // The way to a point goes at the speed of the one before it.
+    // The way to a point has the speed of the point before it.
     let mut speed = first.speed.unwrap_or(settings.speed);
     for (i, point) in points.iter().enumerate() {
         let is_last = i + 1 == points.len();
@@ -108,7 +108,7 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
                 let to = |other: &ProgramPoint| (place(other) - place(point)).norm();
                 to(&points[before]).min(to(next))
             }
-            // Reached, not blended: the first and the last.
+            // The first and the last point are not blended.
             _ => 0.0,
         };
         steps.push(Step {
@@ -138,8 +138,8 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
     steps
 }
 
-/// Cuts the steps into parts of at most so many instructions each, where the gun is off; the robot stops there. An error
-/// tells how many instructions lie between two such places where that is too many.
+/// Cuts the steps where the gun is off into parts of at most `most` instructions; the robot stops there. Fails with the
+/// number of instructions if there are more between two such places.
 pub(super) fn split(steps: &mut [Step], most: usize) -> Result<Vec<Range<usize>>, usize> {
     let mut parts: Vec<Range<usize>> = Vec::new();
     let (mut used, mut is_on) = (0, false);

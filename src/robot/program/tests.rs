@@ -16,7 +16,7 @@ use crate::{
 };
 
 fn any_rotation(random: &mut Pcg64) -> UnitQuaternion<f64> {
-    // Every fifth lies in or near a gimbal lock, or at half a turn.
+    // One in five is in gimbal lock, or a half turn.
     let lock = random.random_range(0..10);
     let mut angle = || random.random_range(-3.1..3.1);
     match lock {
@@ -35,7 +35,7 @@ fn any_path(seed: u64) -> Vec<ProgramPoint> {
         at += Vector3::from_fn(|_, _| random.random_range(-0.08..0.08));
         is_gun_on ^= random.random_range(0..4) == 0;
         if i % 9 == 8 {
-            // Twice at one place, as where a gun is opened.
+            // Two points may coincide, as where the gun is opened.
             at = at.map(|x| (x * 100.0_f64).round() / 100.0);
         }
         ProgramPoint {
@@ -65,14 +65,14 @@ fn program<'a>(points: &'a [ProgramPoint], settings: &'a ProgramSettings) -> Pro
     }
 }
 
-/// The text of a program that is short enough for one.
+/// The text of a program that fits into one.
 fn text_of(program: &Program<'_>, format: ProgramFormat) -> String {
     let texts = program.texts(format, "paint").expect("text");
     assert!(texts.parts.is_empty());
     texts.main
 }
 
-/// How far a written speed may be from the wanted one, m/s.
+/// Largest rounding error of a written speed, m/s.
 fn speed_step(format: ProgramFormat) -> f64 {
     match format {
         ProgramFormat::Ls => 0.5e-3,
@@ -98,7 +98,7 @@ fn every_format_reads_back_to_the_path() {
             let read = parse::read(format, &text);
             assert_eq!(read.output, "3");
             assert!(!read.is_gun_on, "the gun is closed at the end");
-            // The approach, every point, and the way back.
+            // The approach, every point, and the move away.
             let mut expected = vec![(points[0].robot_from_nozzle * before, None, false)];
             for (i, point) in points.iter().enumerate() {
                 let came_from = i.saturating_sub(1);
@@ -119,7 +119,7 @@ fn every_format_reads_back_to_the_path() {
                 }
                 assert_eq!(found.is_gun_on, *is_on, "{format:?} {seed}");
             }
-            // Where an output would run ahead of a blend, the robot stops before it switches.
+            // On controllers that run outputs ahead of a blended move, the robot stops before it switches.
             let is_ahead = !matches!(format, ProgramFormat::Krl | ProgramFormat::Rapid);
             for pair in read.moves.windows(2) {
                 let changes = pair[0].is_gun_on != pair[1].is_gun_on;
@@ -298,7 +298,7 @@ fn what_a_controller_would_not_take_is_refused_with_advice() {
             }
         }
     }
-    // Between the first point and the last the gun never closes, so that there is no place to cut.
+    // The gun never closes between the first and the last point, so there is no place to cut.
     let on = |point: &ProgramPoint| ProgramPoint {
         is_gun_on: true,
         ..*point
@@ -345,7 +345,7 @@ fn a_program_is_saved_by_its_ending_and_only_a_program_is_taken_away() {
     assert!(failed.is_err() && !name.exists());
 }
 
-/// 20 000 points of which two in five have the gun on.
+/// 20 000 points, two in five with the gun on.
 fn long_path() -> Vec<ProgramPoint> {
     row().into_iter().cycle().take(20_000).collect()
 }
@@ -381,9 +381,9 @@ fn a_path_that_is_too_long_for_one_program_is_called_in_parts() {
             let lines = text.lines().skip_while(|line| *line != begin).skip(1);
             let num = lines.take_while(|line| *line != end).count();
             assert!(num <= 9999, "{name}: {num}");
-            // The last is what remains; the others are filled but for one stroke.
+            // The last one has the rest; the others are full up to one stroke.
             assert!(num > 9900 || i + 1 == texts.parts.len(), "{name}: {num}");
-            // The robot stands still, with the gun off, where one ends and the next begins.
+            // The robot stands still, with the gun off, where one part ends and the next begins.
             assert!(!read.is_gun_on);
             assert!(!read.moves[0].is_gun_on || i == 0);
             assert!(read.moves[read.moves.len() - 1].is_exact);
@@ -397,12 +397,12 @@ fn a_path_that_is_too_long_for_one_program_is_called_in_parts() {
             assert!(off <= 1e-6, "{format:?} {i}: {off}");
             assert_eq!(found.is_gun_on, i > 0 && points[i - 1].is_gun_on);
         }
-        // Another path has parts of other names.
+        // The parts of another path have other names.
         let other = program(&points[5..], &settings)
             .texts(format, "paint")
             .expect("texts");
         assert_ne!(other.parts[0].0, texts.parts[0].0);
-        // The names of the parts need room.
+        // The names of the parts are longer.
         let name = "p".repeat(format.longest_name());
         let error = program(&points, &settings)
             .texts(format, &name)
@@ -437,7 +437,7 @@ fn a_set_of_programs_is_written_whole_or_not_at_all_and_removed_whole() {
         let parts = long.texts(format, "paint").expect("texts").parts;
         let num = long.save(&path, format).expect("saved");
         assert_eq!((num, listed().len()), (parts.len(), parts.len() + 1));
-        // The next takes the place of all of them, and so does a short one.
+        // The next program replaces all of them, even if it is short.
         let next = program(&points[5..], &settings);
         let num = next.save(&path, format).expect("saved");
         assert_eq!(listed().len(), num + 1);
@@ -449,7 +449,7 @@ fn a_set_of_programs_is_written_whole_or_not_at_all_and_removed_whole() {
         assert_eq!((num, listed().len()), (0, 1));
         assert!(remove_previous_program(&path).expect("removed"));
 
-        // Parts that an interruption left go as well; what is not ours, or another's part, stays.
+        // Parts left by an interruption are removed too; files that are not ours, or parts of another program, stay.
         let left = beside(&path, &parts[0].0);
         std::fs::write(&left, &parts[0].1).expect("written");
         let others = [
@@ -470,7 +470,7 @@ fn a_set_of_programs_is_written_whole_or_not_at_all_and_removed_whole() {
             std::fs::remove_file(other).expect("removed");
         }
 
-        // Where a part or the main program cannot be written nothing is left that a robot could run.
+        // If a part or the main program cannot be written, nothing remains that a robot could run.
         for in_the_way in [beside(&path, &parts[1].0), path.clone()] {
             std::fs::create_dir(&in_the_way).expect("a folder");
             assert!(long.save(&path, format).is_err());
@@ -480,7 +480,7 @@ fn a_set_of_programs_is_written_whole_or_not_at_all_and_removed_whole() {
     }
 }
 
-/// What a check of an arm has found: these joints at the points, and the first and the last of them at its ends too.
+/// A check's result with these joints at the points, and the first and the last of them also at its ends.
 fn reached(arm: Arm, joints: &[Joints]) -> (PlacedArm, PathCheck) {
     let stands = |joints: &Joints| PointCheck {
         joints: Some(*joints),
@@ -504,7 +504,7 @@ fn reached(arm: Arm, joints: &[Joints]) -> (PlacedArm, PathCheck) {
     (placed, check)
 }
 
-/// As many points as an arm has sets of joints.
+/// One point per set of joints.
 fn points_for(joints: &[Joints]) -> Vec<ProgramPoint> {
     row().into_iter().cycle().take(joints.len()).collect()
 }

@@ -1,9 +1,9 @@
-//! Lines of a program, and numbers in them.
+//! Lines of a program, and their numbers.
 
 use super::ProgramFormat;
 use crate::{geometry::rigid::RigidTransform, robot::RobotPose};
 
-/// A program's text as it grows, and how many instructions it has.
+/// The growing text of a program, and its number of instructions.
 #[derive(Debug, Default)]
 pub(super) struct Lines {
     text: String,
@@ -11,19 +11,19 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// One line that is no instruction.
+    /// Adds a line that is not an instruction.
     pub(super) fn add(&mut self, line: impl AsRef<str>) {
         self.text.push_str(line.as_ref());
         self.text.push('\n');
     }
 
-    /// One instruction.
+    /// Adds an instruction.
     pub(super) fn instruct(&mut self, line: impl AsRef<str>) {
         self.num_instructions += 1;
         self.add(line);
     }
 
-    /// Everything of `other` behind this.
+    /// Appends all lines of `other`.
     pub(super) fn append(&mut self, other: &Self) {
         self.text.push_str(&other.text);
         self.num_instructions += other.num_instructions;
@@ -33,7 +33,7 @@ impl Lines {
         self.num_instructions
     }
 
-    /// The text, with the line ends of the controller.
+    /// Returns the text, with the controller's line ends.
     pub(super) fn finish(self, format: ProgramFormat) -> String {
         match format {
             ProgramFormat::UrScript | ProgramFormat::Drl => self.text,
@@ -42,13 +42,13 @@ impl Lines {
     }
 }
 
-/// A letter, then letters, digits and _, all ASCII.
+/// True for a letter followed by letters, digits and _, all ASCII.
 pub(super) fn is_identifier(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_alphabetic())
         && name.bytes().all(|c| c.is_ascii_alphanumeric() || c == b'_')
 }
 
-/// Header lines as comments of at most `width` letters, ASCII only: controllers refuse or garble the rest.
+/// Breaks the header into comments of at most `width` letters. ASCII only: controllers refuse or garble the rest.
 pub(super) fn comments(header: &[String], width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     for text in header {
@@ -74,7 +74,7 @@ pub(super) fn comments(header: &[String], width: usize) -> Vec<String> {
     lines
 }
 
-/// Marks that end a comment or a line somewhere become _ too.
+/// Replaces what is not ASCII, and characters that end a comment or a line in some language.
 fn ascii_of(c: char) -> char {
     match c {
         '°' => 'd',
@@ -85,7 +85,7 @@ fn ascii_of(c: char) -> char {
     }
 }
 
-/// The number, rounded; zero has no minus sign.
+/// Formats a number with fixed decimals; zero has no minus sign.
 pub(super) fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let is_zero = text.bytes().all(|c| matches!(c, b'-' | b'.' | b'0'));
@@ -97,12 +97,12 @@ pub(super) fn fixed(value: f64, decimals: usize) -> String {
     text.to_owned()
 }
 
-/// A rail's position in millimetres.
+/// Formats a rail's position in millimetres.
 pub(super) fn rail_mm(metres: f64) -> String {
     fixed(1000.0 * metres, 3)
 }
 
-/// The pose's numbers in the language's convention: micrometres, and angles to 1e-4° or 1e-6 rad.
+/// Formats a pose in the language's convention: to a micrometre, and 1e-4° or 1e-6 rad.
 pub(super) fn numbers(format: ProgramFormat, pose: &RigidTransform) -> Vec<String> {
     let RobotPose { values, .. } = format.convention().write(pose);
     values

@@ -8,7 +8,7 @@ use super::{
 use crate::geometry::rigid::RigidTransform;
 
 const WIDTH: usize = 98;
-/// The fastest joints of both makers, rad/s.
+/// Joint speed limit of both makers' arms, rad/s.
 const FASTEST_JOINT: f64 = std::f64::consts::PI;
 
 pub(super) fn write_urscript(

@@ -1,4 +1,4 @@
-//! A carried path as a file for a robot, that says what every number is.
+//! A carried path as a file for a robot, with the meaning of every number.
 
 use std::{fmt::Write as _, io::Read as _, path::Path};
 
@@ -12,10 +12,10 @@ use crate::{
     stages::stand_off::StandOffParams,
 };
 
-/// The version of both files.
+/// Version of both file formats.
 const SCHEMA: u32 = 1;
 
-/// What a file of a carried path says.
+/// The content of a file with a carried path.
 #[derive(Clone, Debug)]
 pub struct SprayExport<'a> {
     /// The path.
@@ -26,29 +26,29 @@ pub struct SprayExport<'a> {
     pub scene: &'a str,
     /// The robot's frame.
     pub frame: &'a RobotFrame,
-    /// In whose numbers.
+    /// Convention of the poses.
     pub convention: Convention,
-    /// The band it was held against.
+    /// The band with which it was compared.
     pub params: &'a StandOffParams,
-    /// True if it is the stored path of the part, false for the start that stands for it where none is stored.
+    /// True for the part's stored path, false for the default point of a part without one.
     pub is_stored: bool,
-    /// True if no real camera saw the scene, or none saw the part when it was enrolled.
+    /// True if the scene, or the enrolled part, was simulated.
     pub is_simulated: bool,
-    /// When.
+    /// When the file was made.
     pub at: Timestamp,
 }
 
-/// What kind of file.
+/// Kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SprayFormat {
-    /// A table with a head of comments.
+    /// CSV below a header of comments.
     Csv,
     /// JSON.
     Json,
 }
 
 impl SprayFormat {
-    /// As the name of a file ends; a table unless it ends in `.json`.
+    /// Finds the format by the file's ending: JSON for `.json`, else CSV.
     pub fn of(path: &Path) -> Self {
         let is_json = path
             .extension()
@@ -57,15 +57,15 @@ impl SprayFormat {
     }
 }
 
-/// How each kind of file begins.
+/// Beginnings by which each kind of file is recognised.
 const BEGINNINGS: [&str; 2] = ["# Partsight spray path", "{\n  \"schema\": 1,\n  \"part\""];
 
-/// Takes an earlier export of this name away, so that nobody takes it for that of the next part; true if there was one.
-/// Anything else of that name stays.
+/// Removes an earlier export of this name, so that nobody takes it for that of the next part. Returns true if there was
+/// one. Other files of this name stay.
 pub fn remove_previous_export(path: &Path) -> Result<bool, FileError> {
     let mut beginning = [0; 64];
     let read = open_regular(path).and_then(|mut file| file.read(&mut beginning));
-    // Whatever is wrong with it shows when the next one is written.
+    // If it cannot be read, writing the next export will report the error.
     let Ok(num_read) = read else {
         return Ok(false);
     };
@@ -132,7 +132,7 @@ impl SprayExport<'_> {
         })
     }
 
-    /// The table, and above it in words what it holds.
+    /// Returns the table below a header that explains it.
     pub fn csv(&self) -> String {
         let params = self.params;
         let kind = if self.is_stored {
@@ -202,7 +202,7 @@ impl SprayExport<'_> {
         text
     }
 
-    /// The same as JSON.
+    /// Returns the same content as JSON.
     pub fn json(&self) -> String {
         let params = self.params;
         let points = self.path.points.iter().zip(self.poses()).enumerate();

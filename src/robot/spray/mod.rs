@@ -1,20 +1,20 @@
-//! Where the nozzle has to be for the part as it hangs now: the part's stored path, carried by the found pose.
+//! The nozzle poses for the part as it hangs now: the part's stored path, carried by the found pose.
 //!
-//! The path is stored in part space, so that the pose `camera_from_part` carries it to where the part is now, and the
-//! cell's calibration from there into the robot's base frame. Each point is then held against the part *as the camera
-//! sees it*: how far the nozzle's ray is from the surface, and how flat on it meets it. A part that is bent, another model,
-//! or a pose that is off shows there, since carrying a path changes nothing about its distance to the enrolled surface.
+//! The path is stored in part space. The pose `camera_from_part` carries it to where the part is now, and the cell's
+//! calibration from there into the robot's base frame. Each point is then compared with the part *as the camera sees
+//! it*: how far the surface is along the nozzle's ray, and at which angle the ray meets it. This reveals a bent part,
+//! another model or a wrong pose; the enrolled surface could not, since carrying a path does not change its distance to
+//! it.
 //!
-//! The tool's frame: its origin is the nozzle's mouth, z the way the nozzle points (towards the part), x along the long
-//! side of the fan or, for a round jet, as near as can be to the part's own x axis, y = z × x. A round jet leaves the turn
-//! about z free; this choice turns with the part and
-//! does not spin from point to point.
+//! The tool's frame: the origin is the nozzle's mouth, z the direction of the nozzle (towards the part), x along the
+//! long side of the fan or, for a round jet, as close as possible to the part's own x axis, y = z × x. A round jet
+//! leaves the rotation about z free; this choice turns with the part and does not spin from point to point.
 //!
-//! Source of the band: the paper's section V-B, eq. 14 (10 to 20 cm, normal at the nozzle). It gives no limit for the angle;
-//! ours is [`MOST_TILT`].
+//! Source of the band: the paper's section V-B, eq. 14 (10 to 20 cm, normal at the nozzle). It gives no limit for the
+//! angle; ours is [`MOST_TILT`].
 //!
-//! Known limits: what the camera does not see, because something stands before it or it faces away, cannot be held against
-//! anything; such points say so. Nothing is known here of what the arm can reach, or what it would run into.
+//! Known limits: where the camera does not see the part, because something is in front of it or it faces away, nothing
+//! can be compared; such points are [`BandStatus::NotSeen`]. Reach and collisions of the arm are not checked here.
 
 mod export;
 #[cfg(test)]
@@ -37,26 +37,26 @@ use crate::{
 
 pub use self::export::{SprayExport, SprayFormat, remove_previous_export};
 
-/// Flatter than this to the nozzle, a coat is uneven.
+/// Largest angle between ray and surface normal; beyond it a coat is uneven.
 pub const MOST_TILT: Radians = Radians(std::f64::consts::FRAC_PI_6);
 
-/// A path that has been carried to the part as it hangs now.
+/// A path that was carried to the part as it hangs now.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CarriedPath {
-    /// Its points, in the path's order.
+    /// The points, in the path's order.
     pub points: Vec<CarriedPoint>,
 }
 
-/// One place of the nozzle, camera space.
+/// One pose of the nozzle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CarriedPoint {
-    /// The tool's frame: origin at the mouth, z towards the part.
+    /// Pose of the tool in camera space: origin at the mouth, z towards the part.
     pub camera_from_nozzle: RigidTransform,
-    /// The same before the pose carried it.
+    /// The same in part space, before the pose carried it.
     pub part_from_nozzle: RigidTransform,
-    /// Where the ray meets what the camera saw, if it does.
+    /// Where the ray meets the surface that the camera saw, if it does.
     pub meets: Option<SurfaceHit>,
-    /// What is to be thought of it.
+    /// The point's status against the band.
     pub band: BandStatus,
     /// True if the gun sprays from here to the next point.
     pub is_gun_on: bool,
@@ -69,30 +69,31 @@ pub struct CarriedPoint {
 /// Where a ray meets the part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceHit {
-    /// From the nozzle to the surface.
+    /// Distance from the nozzle to the surface.
     pub distance: Metres,
-    /// Between the ray and the surface's normal, 0..80°.
+    /// Angle between the ray and the surface's normal, 0..80°.
     pub tilt: Radians,
 }
 
-/// A nozzle against its band.
+/// The status of a nozzle against the band.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BandStatus {
-    /// Within the band, and square enough.
+    /// Within the band, and the tilt is small enough.
     Inside,
-    /// Nearer than the band, or in the part.
+    /// Nearer than the band, or inside the part.
     TooNear,
     /// Farther than the band.
     TooFar,
-    /// At the right distance, but too flat on.
+    /// Within the band, but the ray meets the surface at too flat an angle.
     TooFlat,
-    /// The camera saw no surface before the nozzle: past the part, hidden, or facing away.
+    /// The camera saw no surface in front of the nozzle: it points past the part, or the surface is hidden or faces
+    /// away.
     NotSeen,
 }
 
 impl BandStatus {
-    /// One word or two, for tables and drawings.
+    /// A short name for tables and drawings.
     pub fn name(self) -> &'static str {
         match self {
             Self::Inside => "inside",
@@ -105,24 +106,24 @@ impl BandStatus {
 }
 
 impl CarriedPoint {
-    /// The nozzle's mouth, camera space, metres.
+    /// Position of the nozzle's mouth, camera space, metres.
     pub fn mouth(&self) -> Point3<f64> {
         self.camera_from_nozzle.translation.vector.into()
     }
 
-    /// The way it points, camera space, unit length.
+    /// Direction of the nozzle, camera space, unit length.
     pub fn direction(&self) -> Vector3<f64> {
         self.camera_from_nozzle * Vector3::z()
     }
 }
 
 impl CarriedPath {
-    /// Points within the band.
+    /// Number of points within the band.
     pub fn num_inside(&self) -> usize {
         self.count(BandStatus::Inside)
     }
 
-    /// Points of this kind.
+    /// Number of points with this status.
     pub fn count(&self, band: BandStatus) -> usize {
         self.points
             .iter()
@@ -131,7 +132,7 @@ impl CarriedPath {
     }
 }
 
-/// The path over a part that hangs at this pose; `seen` is what the camera saw of the part, camera space.
+/// Carries a path to a part with this pose; `seen` is what the camera saw of the part, camera space.
 pub fn carry(
     path: &SprayPath,
     camera_from_part: &RigidTransform,
@@ -160,7 +161,7 @@ pub fn carry(
     }
 }
 
-/// How a path lies over the part as it was enrolled; for a path that is being stored.
+/// Compares a path that is about to be stored with the part as it was enrolled.
 pub fn against_reference(
     path: &SprayPath,
     reference: &Reference,
@@ -176,8 +177,8 @@ pub fn against_reference(
     bands.collect()
 }
 
-/// The start of a part without a stored path: the nozzle before the point nearest to the part's middle, at the taught
-/// distance on its normal. `None` for a part without normals.
+/// The default for a part without a stored path: one nozzle at the taught distance, on the normal of the point nearest
+/// to the part's middle. `None` if the part has no normals.
 pub fn default_path(reference: &Reference, params: &StandOffParams) -> Option<SprayPath> {
     let cloud = &reference.cloud;
     let (low, high) = cloud.bounds()?;
@@ -202,14 +203,15 @@ pub fn default_path(reference: &Reference, params: &StandOffParams) -> Option<Sp
     }])
 }
 
-/// z along the direction; x along the fan's long side, towards the part's x, or as near to the part's x as can be where the
-/// jet is round. Where x would be along the nozzle or across the fan, the part's y takes its place.
+/// Returns the tool's frame: z along the direction; x along the fan's long side, on the side of the part's x, or for a
+/// round jet as close as possible to the part's x. If that x is along the nozzle or across the fan, the part's y takes
+/// its place.
 fn tool_frame(point: &PathPoint) -> RigidTransform {
     /// Cosine of 20°.
     const ALONG: f64 = 0.94;
     let z = point.direction.into_inner();
     if let Some(fan) = point.fan {
-        /// Cosine of 80°: flatter, and the sign could change from point to point.
+        /// Cosine of 80°: nearer to 90°, the sign could change from point to point.
         const ACROSS: f64 = 0.17;
         let sign = if fan.x.abs() > ACROSS { fan.x } else { fan.y };
         let x = fan.into_inner() * sign.signum();
@@ -223,14 +225,14 @@ fn tool_frame(point: &PathPoint) -> RigidTransform {
     framed(point, z, (near - z * z.dot(&near)).normalize())
 }
 
-/// The frame at the nozzle with these axes, which are at right angles.
+/// The frame at the nozzle with these perpendicular axes.
 fn framed(point: &PathPoint, z: Vector3<f64>, x: Vector3<f64>) -> RigidTransform {
     let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
     let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
     Isometry3::from_parts(Translation3::from(point.nozzle.coords), rotation)
 }
 
-/// Where the ray of a nozzle meets a surface; both in one space.
+/// Returns where the ray of a nozzle meets a surface; both in the same space.
 fn meeting(
     nozzle: &RigidTransform,
     surface: &ReferenceSurface<'_>,
@@ -238,7 +240,7 @@ fn meeting(
 ) -> Option<SurfaceHit> {
     let mouth: Point3<f64> = nozzle.translation.vector.into();
     let ray = Ray {
-        // Micrometres are left of a metre in f32, far below what a nozzle notices.
+        // f32 resolves a metre to micrometres, far finer than a nozzle needs.
         mouth: mouth.cast(),
         direction: (nozzle * Vector3::z()).cast(),
     };

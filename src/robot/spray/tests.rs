@@ -139,7 +139,7 @@ fn the_tools_frame_is_right_handed_and_turns_with_the_part() {
             fan: Some(Unit::new_normalize(fan)),
             ..before(0.0, 0.0, 0.15)
         };
-        // A fan has no front: both signs are one frame.
+        // A fan has no front: both signs give the same frame.
         let x = tool_frame(&point) * Vector3::x();
         assert!((x - Vector3::new(0.6, 0.8, 0.0)).norm() < 1e-9, "{x}");
     }

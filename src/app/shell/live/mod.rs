@@ -1,7 +1,7 @@
-//! Live: a camera is followed, every frame that can be is inspected, and a verdict counts once the part hangs still.
+//! Live: follows a camera and inspects as many of its frames as possible; a verdict counts once the part hangs still.
 //!
-//! The camera's own thread hands over its newest frame, the task's thread inspects it, and the window shows the latest
-//! result. No thread waits for another: frames that come while an inspection runs are dropped.
+//! The camera's thread hands over its newest frame, the task's thread inspects it, and the window shows the latest result. No
+//! thread waits for another: frames that arrive during an inspection are dropped.
 
 mod set_up;
 pub mod state;

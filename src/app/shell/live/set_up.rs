@@ -1,4 +1,4 @@
-//! The window in which the simulated cell is set up.
+//! The dialog that sets up the simulated cell.
 
 use egui::{Button, Context, DragValue, Grid, RichText, Ui, vec2};
 
@@ -16,7 +16,7 @@ use crate::{
     simulate::{Clutter, ObjectKind, PartKind, Side},
 };
 
-/// Noise that can be chosen: times a Kinect's.
+/// Noise levels to choose from, as multiples of a Kinect's.
 fn noises() -> [(String, f64); 3] {
     [
         (text!("live-no-noise"), 0.0),
@@ -24,12 +24,12 @@ fn noises() -> [(String, f64); 3] {
         (text!("live-three-times"), 3.0),
     ]
 }
-/// Seconds that a part of the line takes.
+/// Seconds that each part of the line hangs there.
 const EVERY: f64 = 8.0;
-/// More car models than these are not drawn by anybody.
+/// Largest number of a car model that can be chosen.
 const MAX_MODEL: u64 = 999;
 
-/// Draws it while it is open.
+/// Draws the dialog while it is open.
 pub(in crate::app) fn set_up(
     ctx: &Context,
     state: &State,
@@ -150,7 +150,7 @@ fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: String) {
     }
 }
 
-/// Everything that can hang there; the line at its pace, if it runs.
+/// Returns everything that can hang in the cell; the line keeps its pace if it is running.
 fn scenes(now: CellScene) -> impl Iterator<Item = CellScene> {
     let line = match now {
         CellScene::Line { .. } => now,

@@ -1,4 +1,4 @@
-//! What the window knows of the source that it follows, and what can happen to that.
+//! State of the followed source in the window, and the actions on it.
 
 use std::{
     path::PathBuf,
@@ -24,18 +24,18 @@ use crate::{
     pipeline::live::{LiveParams, MAX_AVERAGED},
 };
 
-/// What is known of the source that is followed.
+/// State of the followed source.
 #[derive(Debug, Default)]
 pub struct LiveState {
-    /// True while a source is followed; else frames are taken one by one, when a person asks.
+    /// True while a source is followed; otherwise frames are captured one by one on demand.
     pub is_on: bool,
-    /// How things stand, once something was told.
+    /// The latest status, once there is one.
     pub status: Option<LiveStatus>,
     /// When a verdict counts, and over how many frames depth is averaged.
     pub params: LiveParams,
-    /// The folder that the source is recorded in, while it is.
+    /// The folder that the source is being recorded into, if it is.
     pub recording: Option<PathBuf>,
-    /// The simulated cell as it is being set up, while its window is open.
+    /// Settings of the simulated cell while its dialog is open.
     pub setup: Option<crate::capture::SimulatedSpec>,
 }
 
@@ -44,16 +44,16 @@ pub struct LiveState {
 pub struct Follower {
     task: Task<LiveAnswer>,
     library_cache: LibraryCache,
-    /// Counts how often following began with another view: within one the 3-D view keeps its camera.
+    /// Incremented when following starts with another view; within one session the 3-D view keeps its camera.
     session: u64,
-    /// The notice that stands while the source is lost.
+    /// The notice shown while the source is lost.
     lost: Option<Notice>,
     /// The parts that hang before the source.
     hung: Arc<Mutex<FollowedParts>>,
 }
 
 impl Follower {
-    /// Before anything is followed.
+    /// Starts without following anything.
     pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
         Self {
             task: Task::new("live", runner),
@@ -64,31 +64,31 @@ impl Follower {
         }
     }
 
-    /// True while nothing is followed and the camera rests.
+    /// True while nothing is followed and the camera is closed.
     pub fn is_idle(&self) -> bool {
         self.task.running().is_none()
     }
 }
 
-/// Something that can happen.
+/// Actions on the followed source.
 #[derive(Clone, Debug)]
 pub enum LiveAction {
-    /// Follow the source, or no longer.
+    /// Start or stop following the source.
     Toggle,
-    /// Take frames from this source from now on.
+    /// Use this source from now on.
     Use(SourceSpec),
-    /// Average depth over so many frames.
+    /// Average depth over this many frames.
     Average(usize),
-    /// Record the source into a folder in this one.
+    /// Record the source into a new folder inside this one.
     Record(PathBuf),
-    /// Choose where to record it, or record it no longer.
+    /// Ask where to record, or stop recording.
     ToggleRecording,
-    /// Open the window that sets up the simulated cell, or close it.
+    /// Open the dialog that sets up the simulated cell with these settings, or close it.
     SetUp(Option<crate::capture::SimulatedSpec>),
 }
 
 impl LiveState {
-    /// Before anything is followed; depth will be averaged over so many frames.
+    /// Starts without following anything; depth will be averaged over `num_frames` frames.
     pub fn averaging(num_frames: usize) -> Self {
         let mut own = Self::default();
         own.params.average = num_frames.clamp(1, MAX_AVERAGED);
@@ -104,7 +104,7 @@ impl Session {
 }
 
 impl Source {
-    /// What can be followed of it; nothing of a single file or a scan.
+    /// The part of the source that can be followed; `None` for a single file or a scan.
     pub fn followed(&self) -> Option<SourceSpec> {
         match self {
             Self::Cell(choice) => Some(SourceSpec::Simulated(choice.followed())),
@@ -148,7 +148,8 @@ pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Eff
     None
 }
 
-/// Another source: it is followed if the one before was, else one frame is captured. A watched folder has none yet.
+/// Handles a change of the source: follows it if the former one was followed, else captures one frame. A watched folder is
+/// followed at once because it has no frame yet.
 pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
     let waits = matches!(&state.session.source, Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(WatchedSpec { .. })));
     if (state.session.is_live() || waits) && state.session.source.followed().is_some() {
@@ -158,7 +159,7 @@ pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
     state.capture()
 }
 
-/// Follows the source; whatever was being inspected is given up.
+/// Starts following the source and cancels a running inspection.
 fn start(state: &mut State) {
     if state.session.source.followed().is_none() {
         let what = match state.session.source {
@@ -174,7 +175,7 @@ fn start(state: &mut State) {
     follow_source(state);
 }
 
-/// Follows the source with the current settings; a source that is followed already is dropped first.
+/// Follows the source with the current settings, replacing a running task.
 fn follow_source(state: &mut State) {
     let Some(spec) = state.session.source.followed() else {
         return;
@@ -195,14 +196,15 @@ fn follow_source(state: &mut State) {
     state.follower.task.start(text!("live-live"), job);
 }
 
-/// Something that verdicts rest on has changed: none of those before counts. Does nothing while nothing is followed.
+/// Starts over after a change of something that verdicts depend on, so that no earlier verdict counts. Does nothing if no
+/// source is followed.
 pub(in crate::app) fn restart_consensus(state: &mut State) {
     if state.session.is_live() {
         follow_source(state);
     }
 }
 
-/// Ends following, if anything is followed, and lets the camera rest: something else comes to the front.
+/// Stops following, if a source is followed, and closes the camera, because something else comes to the front.
 pub(in crate::app) fn give_way(state: &mut State) {
     if state.session.is_live() {
         ended(state);
@@ -212,7 +214,7 @@ pub(in crate::app) fn give_way(state: &mut State) {
     }
 }
 
-/// Says what was recorded.
+/// Ends the recording and reports what was recorded.
 fn end_recording(state: &mut State) {
     state.session.live.recording = None;
     let status = state.session.live.status.as_mut();
@@ -227,7 +229,7 @@ fn end_recording(state: &mut State) {
     }
 }
 
-/// Bytes, for a person.
+/// Formats a number of bytes.
 pub(super) fn megabytes(bytes: u64) -> String {
     format!("{:.1} MB", bytes as f64 / 1e6)
 }
@@ -239,7 +241,7 @@ fn ended(state: &mut State) {
     dismiss_lost_notice(state);
 }
 
-/// Polls the task; returns the event that every workspace receives.
+/// Polls the task; returns the events for all workspaces.
 pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
     let mut counted = Vec::new();
     while let Some(event) = state.follower.task.poll() {
@@ -256,7 +258,7 @@ pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
     counted
 }
 
-/// Takes in what was handed over; a verdict that counts is told every workspace.
+/// Handles an answer of the task; returns an event if a verdict counts.
 fn receive(state: &mut State, answer: LiveAnswer) -> Option<Event> {
     match answer {
         LiveAnswer::Stands(told) if state.session.is_live() => {
@@ -294,7 +296,7 @@ fn receive(state: &mut State, answer: LiveAnswer) -> Option<Event> {
     None
 }
 
-/// What was told last, where it is looked at; other workspaces keep what they have in hand.
+/// Shows the latest inspection if Inspect is in front; other workspaces keep what they show.
 fn show(state: &mut State, inspected: Arc<Inspected>) {
     let is_shown = state
         .session
@@ -315,7 +317,7 @@ fn show(state: &mut State, inspected: Arc<Inspected>) {
     });
 }
 
-/// Says that the source is lost as long as it is.
+/// Shows a notice while the source is lost.
 fn watch_source(state: &mut State, source: &SourceState) {
     match source {
         SourceState::Lost(trouble) => {
@@ -335,7 +337,7 @@ fn watch_source(state: &mut State, source: &SourceState) {
     }
 }
 
-/// Takes the notice away; true if there was one.
+/// Removes the notice about the lost source; true if there was one.
 fn dismiss_lost_notice(state: &mut State) -> bool {
     let Some(lost) = state.follower.lost.take() else {
         return false;
@@ -356,7 +358,7 @@ mod tests {
         simulate::{PartKind, Side},
     };
 
-    /// What the task is at, or will be.
+    /// Title of the running or waiting job.
     fn at_work(state: &State) -> Option<&str> {
         let running = state.follower.task.running();
         running.map(|running| running.title.as_str())
@@ -425,7 +427,7 @@ mod tests {
             state.session.live.status.is_none() && at_work(&state) == Some("Live"),
             "anew"
         );
-        // The view keeps its camera.
+        // The 3-D view keeps its camera.
         assert_eq!(
             (state.follower.session, state.session.live.params.average),
             (before, MAX_AVERAGED)

@@ -1,4 +1,4 @@
-//! How following the source stands, in words: on the verdict card, and in the bar where that is not in front.
+//! Status of following the source as text: on the verdict card, or in the bar while the card is not in front.
 
 use egui::{Button, Label, RichText, Sense, Ui, Vec2};
 
@@ -19,10 +19,10 @@ use crate::{
     pipeline::live::{ConsensusVerdict, LiveVerdict, MotionState},
 };
 
-/// Height of what the card says first, logical pixels: as high whatever it says, so that nothing below moves.
+/// Height of the head of the card, logical pixels: constant, so that nothing below moves.
 const HEIGHT: f32 = 64.0;
 
-/// The head of the verdict card while the source is followed. True if it shall be recorded, or no longer.
+/// Draws the head of the verdict card while the source is followed. True if recording shall start or stop.
 pub(in crate::app) fn card(ui: &mut Ui, session: &Session, theme: &Theme) -> bool {
     let (sign, words) = words(session);
     let small = |text: String| {
@@ -50,7 +50,7 @@ pub(in crate::app) fn card(ui: &mut Ui, session: &Session, theme: &Theme) -> boo
     is_toggled
 }
 
-/// The button that begins and ends a recording, and says what is recorded. True if it was pressed.
+/// Draws the button that starts and stops a recording and shows what was recorded. True if it was pressed.
 fn record(ui: &mut Ui, session: &Session) -> bool {
     let size = Vec2::new(ui.available_width(), space::TARGET);
     if session.live.recording.is_none() {
@@ -76,7 +76,7 @@ fn record(ui: &mut Ui, session: &Session) -> bool {
     response.clicked()
 }
 
-/// The same in one line.
+/// Draws the same in one line.
 pub(in crate::app) fn chip(ui: &mut Ui, session: &Session, theme: &Theme) {
     let (sign, words) = words(session);
     ui.add_space(space::SMALL);
@@ -90,7 +90,7 @@ pub(in crate::app) fn chip(ui: &mut Ui, session: &Session, theme: &Theme) {
     ui.add(Label::new(RichText::new(text).color(theme.weak_text)).truncate());
 }
 
-/// What matters most, and a sign for it.
+/// Returns the most important status, with its mark.
 pub(in crate::app) fn words(session: &Session) -> (Mark, String) {
     let name = match &session.source {
         Source::Camera(spec) if matches!(**spec, SourceSpec::Recording(_)) => text!("live-playing"),
@@ -120,7 +120,7 @@ pub(in crate::app) fn words(session: &Session) -> (Mark, String) {
     (sign, text!("live-is", name = name, what = what))
 }
 
-/// What the verdict rests on.
+/// Describes what the verdict is based on.
 fn evidence_text(status: &LiveStatus) -> String {
     let averaged = |evidence: String| match status.num_averaged {
         0 | 1 => evidence,
@@ -147,7 +147,7 @@ fn evidence_text(status: &LiveStatus) -> String {
     }
 }
 
-/// Rates, latency, and what was dropped.
+/// Formats rates, latency and dropped frames.
 fn figures(status: &LiveStatus) -> String {
     let [captured, inspected] = status
         .rates

@@ -1,4 +1,4 @@
-//! What the task does: takes the newest frame, inspects it, tells how things stand.
+//! The task of Live: takes the newest frame, inspects it and publishes the status.
 
 use std::{
     collections::VecDeque,
@@ -32,19 +32,19 @@ use crate::{
 /// Which source to follow, and how.
 #[derive(Clone, Debug)]
 pub(super) struct LiveStart {
-    /// The source.
+    /// The source to follow.
     pub(super) spec: SourceSpec,
-    /// All parameters.
+    /// All parameters of the inspection.
     pub(super) recipe: Arc<NamedRecipe>,
     /// When a verdict counts.
     pub(super) params: LiveParams,
-    /// What its camera saw without a part.
+    /// The empty cell of the source, if known.
     pub(super) empty_cell: Option<Arc<EmptyCell>>,
-    /// The folder that it is recorded in, if it is.
+    /// The folder to record into, if any.
     pub(super) record: Option<PathBuf>,
-    /// What the next part is traced by.
+    /// Traceability of the next part.
     pub(super) trace: CurrentTrace,
-    /// The part that hangs there: it outlives this, when the same source is followed with other settings.
+    /// The hung part. Outlives the task, so that it is kept when the same source is followed with other settings.
     pub(super) hung: Arc<Mutex<FollowedParts>>,
 }
 
@@ -53,12 +53,12 @@ pub(super) struct LiveStart {
 pub(super) struct FollowedParts {
     source: String,
     rows: HungRows,
-    /// Of the part whose verdict counted last.
+    /// Traceability of the part whose verdict counted last.
     trace: Traceability,
 }
 
 impl FollowedParts {
-    /// Those before this source: before another one nothing is known yet.
+    /// Returns the rows for this source; starts over if it is not the same source as before.
     fn before(&mut self, source: &SourceSpec) -> &mut HungRows {
         let source = source.to_string();
         if self.source != source {
@@ -71,86 +71,86 @@ impl FollowedParts {
     }
 }
 
-/// What the task hands over.
+/// A result of the task.
 #[derive(Clone, Debug)]
 pub enum LiveAnswer {
-    /// How things stand.
+    /// The latest status.
     Stands(Box<LiveStatusUpdate>),
-    /// A verdict that counts, and was not told before.
+    /// A verdict that counts and was not reported before.
     Counts(Arc<Inspected>),
     /// A part left before its verdict counted.
     Left(Box<NewEntry>),
-    /// It is not recorded any more.
+    /// The recording has failed and ended.
     NotRecorded(UserError),
-    /// Something of the source that cannot be read.
+    /// A frame of the source could not be read or inspected.
     Skipped(UserError),
     /// The source has no more frames.
     AtItsEnd,
-    /// The camera rests.
+    /// The camera is closed.
     Rests,
 }
 
-/// How things stand.
+/// The status, with the inspection to show.
 #[derive(Clone, Debug)]
 pub struct LiveStatusUpdate {
-    /// In figures.
+    /// Status in figures.
     pub status: LiveStatus,
-    /// The last frame that everything was made of that the panels draw.
+    /// The last frame whose inspection was prepared for the panels.
     pub inspected: Option<Arc<Inspected>>,
 }
 
-/// How things stand, in figures.
+/// Status of following a source, in figures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveStatus {
-    /// Whether frames come.
+    /// Whether frames arrive.
     pub source: SourceState,
-    /// Whether the scene moves; `None` of a source whose captures stand for themselves.
+    /// Whether the scene moves; `None` for a source whose captures are independent.
     pub stillness: Option<MotionState>,
-    /// What counts.
+    /// The verdict so far.
     pub standing: LiveVerdict,
-    /// Frames a second that come, and of those the ones that were inspected.
+    /// Frames per second that arrive, and that are inspected.
     pub rates: [Option<f64>; 2],
-    /// From a frame's arrival to its verdict, the median of the last ones.
+    /// Median time from a frame's arrival to its verdict, over the last frames.
     pub latency: Option<Duration>,
-    /// Frames inspected since it began.
+    /// Frames inspected since the start.
     pub num_inspected: u64,
-    /// Frames dropped for a newer one since it began.
+    /// Frames dropped for a newer one since the start.
     pub num_dropped: u64,
-    /// Frames that depth is averaged over.
+    /// Number of frames that depth is averaged over.
     pub num_averaged: usize,
-    /// What was recorded so far, while it is.
+    /// What has been recorded so far, while recording.
     pub recorded: Option<Recorded>,
 }
 
-/// Whether frames come.
+/// Whether frames arrive.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SourceState {
-    /// It is being opened.
+    /// The source is being opened.
     Opening,
-    /// They come, or are waited for.
+    /// Frames arrive or are awaited.
     Running,
-    /// Not now; it is looked for again by itself.
+    /// The source is lost; opening it again is tried automatically.
     Lost(UserError),
 }
 
-/// How long one look for a frame takes, before it is looked whether it is still wanted.
+/// Time to wait for a frame before checking for cancellation again.
 const TURN: Duration = Duration::from_millis(50);
-/// Times that the latency is the median of.
+/// Number of latencies that the median is taken of.
 const NUM_LATENCIES: usize = 15;
 
-/// Follows a source until it ends, or something else is asked for.
+/// Follows a source until it ends or the task is cancelled.
 pub(super) fn follow(
     request: &LiveStart,
     library_cache: &LibraryCache,
     context: &TaskContext<LiveAnswer>,
 ) -> Result<LiveAnswer, TaskError> {
-    // It stays open behind this: whoever asks next may follow the same one.
+    // The camera stays open afterwards: the next job may follow the same source.
     let feed = library_cache.camera().feed(&request.spec);
     let feed = feed.map_err(|error| UserError::of(&error))?;
     LiveSession::new(request, library_cache, context).follow(&feed)
 }
 
-/// Lets the camera rest.
+/// Ends the recording and closes the camera.
 pub(super) fn rest(library_cache: &LibraryCache) -> LiveAnswer {
     library_cache.recording().end();
     library_cache.camera().rest();
@@ -161,7 +161,7 @@ struct LiveSession<'a> {
     library_cache: &'a LibraryCache,
     context: &'a TaskContext<LiveAnswer>,
     spec: &'a SourceSpec,
-    /// Where it is recorded; not any more after a failure.
+    /// The folder to record into; `None` after a failure.
     record: Option<&'a Path>,
     recorded: Option<Recorded>,
     recipe: &'a Arc<NamedRecipe>,
@@ -169,20 +169,20 @@ struct LiveSession<'a> {
     trace: &'a CurrentTrace,
     hung: &'a Mutex<FollowedParts>,
     empty_cell: Option<&'a Arc<EmptyCell>>,
-    /// `None` of a source whose captures stand for themselves.
+    /// `None` for a source whose captures are independent.
     watch: Option<LiveTracker>,
     rate: FrameRate,
     latencies: VecDeque<Duration>,
     standing: LiveVerdict,
     stillness: Option<MotionState>,
     num_inspected: u64,
-    /// Frames that the source had dropped before.
+    /// Frames that the source had dropped before the start.
     dropped_before: u64,
     inspected: Option<Arc<Inspected>>,
     told: Option<LiveStatus>,
 }
 
-/// Stages are not told one by one: frames come faster than anybody reads.
+/// Passes cancellation on but no stages: frames come too fast to read them.
 struct SilentContext<'a>(&'a TaskContext<LiveAnswer>);
 
 impl ProgressObserver for SilentContext<'_> {
@@ -253,7 +253,7 @@ impl<'a> LiveSession<'a> {
         }
     }
 
-    /// Records the frame before anything else is done with it, if it is to be.
+    /// Records the frame, if recording, before anything else is done with it.
     fn write(&mut self, captured: &Captured, feed: &Feed) {
         let recording = self.library_cache.recording();
         match recording.write(self.record, captured, self.spec, &feed.status()) {
@@ -267,7 +267,7 @@ impl<'a> LiveSession<'a> {
         }
     }
 
-    /// Names a frame at which the program failed, and goes on to the next.
+    /// Reports a frame at which the program failed; the next one is inspected as usual.
     fn skip(&mut self, name: &str, fault: &Fault) {
         self.standing = LiveVerdict::Open;
         let UserError { what, advice } = UserError::of(fault);
@@ -296,7 +296,7 @@ impl<'a> LiveSession<'a> {
         }
         let mut inspection = pipeline::run(&scene, &fitted, self.recipe, &watching)?;
         let mut followed = None;
-        // Of a source whose captures stand for themselves each is a part of its own.
+        // If captures are independent, each is a hung part of its own.
         let mut role = FrameRole::First;
         if let Some(watch) = &mut self.watch {
             let middle = FinishedInspection::middle(&inspection, &fitted);
@@ -324,7 +324,7 @@ impl<'a> LiveSession<'a> {
         self.latencies.truncate(NUM_LATENCIES);
 
         if role == FrameRole::Nothing && !self.context.is_latest_read() {
-            // The window has not even shown the one before.
+            // The window has not even shown the previous one.
             return Ok(());
         }
         let found = FinishedInspection {
@@ -371,7 +371,7 @@ impl<'a> LiveSession<'a> {
         }
     }
 
-    /// Says how things stand, unless nothing has changed.
+    /// Publishes the status if another frame was inspected or the state of the source has changed.
     fn publish_status(&mut self, feed: &Feed) {
         let feed = feed.status();
         let source = match feed.state {
@@ -380,7 +380,7 @@ impl<'a> LiveSession<'a> {
             _ => SourceState::Running,
         };
         if matches!(source, SourceState::Lost(_)) {
-            // What hangs there when it comes back was not seen to hang still.
+            // After the source returns, a part must be seen hanging still again.
             self.standing = LiveVerdict::Open;
         }
         let mut latencies: Vec<Duration> = self.latencies.iter().copied().collect();
@@ -415,7 +415,7 @@ fn lock(hung: &Mutex<FollowedParts>) -> MutexGuard<'_, FollowedParts> {
     hung.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The camera's time, from whenever it counts.
+/// Time of the camera's clock, from an arbitrary origin.
 fn seconds(captured: &Captured) -> Duration {
     Duration::try_from(captured.taken_at.as_duration()).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! The page on answering robots that ask, and what the bars say of it.
+//! The page about answering robots, and its status in the bars.
 
 use egui::{Button, Label, RichText, Role, Sense, TextEdit, Ui, Vec2, WidgetInfo};
 use jiff::{Timestamp, tz::TimeZone};
@@ -22,10 +22,10 @@ use crate::{
     serve::{ClientEvent, ClientNews, ListenAddress, Listener, PoseKind, Protocol, parse_address},
 };
 
-/// In a narrower part of a bar the chip is its sign alone, logical pixels; and while the bar also says what is at work.
+/// Width of a bar, logical pixels, below which the chip is only its sign; the second while the bar also shows running work.
 const ROOM: [f32; 2] = [180.0, 480.0];
 
-/// In a bar: whether robots are answered, while they are to be.
+/// Draws the status in a bar, while answering is on.
 pub(in crate::app) fn chip(
     ui: &mut Ui,
     robot: &RobotCell,
@@ -83,7 +83,7 @@ pub(super) fn ui(
     numbers(ui, session, theme);
 }
 
-/// Where robots ask, how, and for which pose.
+/// Draws the fields for protocol, address and pose.
 fn fields(ui: &mut Ui, dialog: &mut RobotDialog) {
     ui.horizontal_wrapped(|ui| {
         ui.label(text!("robot-protocol"));
@@ -107,7 +107,7 @@ fn fields(ui: &mut Ui, dialog: &mut RobotDialog) {
     });
 }
 
-/// Where a server would listen by what is typed.
+/// Returns the listener for the typed address.
 fn typed(session: &Session, dialog: &RobotDialog) -> Result<Listener, UserError> {
     let text = dialog.address.trim();
     let address = parse_address(text).map_err(|_no_address| UserError {
@@ -163,7 +163,7 @@ fn buttons(
     });
 }
 
-/// Whether robots are answered, and if not, why.
+/// Draws whether robots are answered, and if not, why.
 fn state(ui: &mut Ui, robot: &RobotCell, session: &Session, theme: &Theme) {
     let answering = robot.answering();
     ui.add_space(space::SMALL);
@@ -190,7 +190,7 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session, theme: &Theme) {
     }
 }
 
-/// Where the server listens, who is connected, and what was answered last.
+/// Draws the address, the connections and the last answer.
 fn figures(ui: &mut Ui, status: &AnsweringStatus, theme: &Theme) {
     row(
         ui,
@@ -213,7 +213,7 @@ fn figures(ui: &mut Ui, status: &AnsweringStatus, theme: &Theme) {
     }
 }
 
-/// What happened to a connection last.
+/// Draws the last event of a connection.
 fn client(ui: &mut Ui, event: &ClientEvent, theme: &Theme) {
     let peer = event.peer.to_string();
     let name = text!("robot-last-client");
@@ -240,12 +240,12 @@ fn client(ui: &mut Ui, event: &ClientEvent, theme: &Theme) {
             };
             told(ui, Mark::Look, &bad, theme);
         }
-        // Of HTTP alone.
+        // Only HTTP has tokens.
         ClientNews::WrongToken => {}
     }
 }
 
-/// When a trigger came and what it was answered, in the words that the robot is told.
+/// Describes the last trigger and its answer in the terms of the protocol.
 fn in_words(last: &LastAnswer) -> String {
     let LastAnswer { at, answer } = last;
     let at = clock(*at);
@@ -263,13 +263,13 @@ fn in_words(last: &LastAnswer) -> String {
     all.join(" · ")
 }
 
-/// The time of day by the local clock.
+/// Formats a moment as local time of day.
 fn clock(at: Timestamp) -> String {
     let at = at.to_zoned(TimeZone::system());
     at.strftime("%H:%M:%S").to_string()
 }
 
-/// By which numbers robots know the parts.
+/// Draws the numbers by which robots know the parts.
 fn numbers(ui: &mut Ui, session: &Session, theme: &Theme) {
     let Some(library) = &session.library else {
         return;

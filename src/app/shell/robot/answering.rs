@@ -1,5 +1,5 @@
-//! Answering robots from the window: the server of `partsight serve`, with the source that the window follows as its
-//! camera, and the window's library, recipe and calibration.
+//! Answers robots from the window: runs the server of `partsight serve` with the source that the window follows as its camera,
+//! and with the window's library, recipe and calibration.
 
 mod work;
 
@@ -25,18 +25,18 @@ use crate::{
     serve::{ListenAddress, Listener, PoseKind, Protocol},
 };
 
-/// The usual port, as of the command.
+/// The default port, as in `partsight serve`.
 const PORT: u16 = 30100;
 
-/// Whether robots are answered, and where.
+/// Whether and where robots are answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct AnswerSetup {
-    /// True if they are.
+    /// Whether robots are answered.
     pub is_on: bool,
-    /// Protocol and address.
+    /// Protocol and address to listen on.
     pub at: ListenAddress,
-    /// Which pose they are told.
+    /// Which pose the robots get.
     pub pose: PoseKind,
 }
 
@@ -58,13 +58,13 @@ impl Default for AnswerSetup {
 pub struct Answering {
     task: Task<AnsweringStatus>,
     run: Option<AnsweringRun>,
-    /// How it stands, once it listens.
+    /// The latest status, once the server listens.
     status: Option<AnsweringStatus>,
-    /// Why it could not go on, and where it listened: there it is not tried again by itself.
+    /// Where and why the server failed. It is not restarted with the same listener.
     failed: Option<(Listener, UserError)>,
 }
 
-/// A server at work.
+/// A running server.
 #[derive(Debug)]
 struct AnsweringRun {
     listener: Listener,
@@ -88,17 +88,17 @@ impl Answering {
         }
     }
 
-    /// How the server stands; `None` unless it listens.
+    /// Status of the server; `None` unless it listens.
     pub fn status(&self) -> Option<&AnsweringStatus> {
         self.status.as_ref()
     }
 
-    /// Why no server listens.
+    /// Why no server listens, if it failed.
     pub fn trouble(&self) -> Option<&UserError> {
         self.failed.as_ref().map(|(_, trouble)| trouble)
     }
 
-    /// True while no server is being started or ended.
+    /// True unless a server is being started or stopped.
     pub(super) fn is_settled(&self) -> bool {
         match &self.run {
             Some(run) => self.status.is_some() && !run.is_ending(),
@@ -106,7 +106,7 @@ impl Answering {
         }
     }
 
-    /// Whether robots are answered, in words and a sign for them; `None` while nobody wants that.
+    /// Status text with its mark; `None` while answering is off.
     pub(in crate::app) fn words(&self, session: &Session) -> Option<(Mark, String)> {
         if !session.answering.is_on {
             return None;
@@ -122,7 +122,7 @@ impl Answering {
         })
     }
 
-    /// Starts the server, ends it, or tells it what has changed, as the session wants it; takes in what it reports.
+    /// Starts, stops or updates the server as the session requires, and reads its reports.
     pub(super) fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.task.poll() {
             match event {
@@ -149,7 +149,7 @@ impl Answering {
             Some(run) if run.listener == listener && !run.is_ending() => {
                 *lock(&run.inputs) = AnswerInputs::of(cx.session, robot);
             }
-            // What it still answers is answered first.
+            // The server first finishes the pending answers; a new one starts once it has ended.
             Some(_) => self.end(),
             None if self.failed.is_none() => self.start(listener, robot, cx),
             None => {}
@@ -190,8 +190,8 @@ impl Answering {
     }
 }
 
-/// Where a server is to listen, and where the camera stands; `None` if there is to be none. Without a calibration no
-/// pose is in the robot's frame.
+/// Returns where a server is to listen, and the robot frame; `None` if there is to be none. Without a calibration no pose can
+/// be given in the robot's frame.
 fn wanted(session: &Session) -> Option<(Listener, Arc<RobotFrame>)> {
     let setup = session.answering;
     let robot = session.robot.as_ref().filter(|_| setup.is_on)?;

@@ -1,4 +1,4 @@
-//! The page on which a person types where the camera sits.
+//! The page for typing the camera's pose.
 
 use egui::{ComboBox, RichText, Ui};
 
@@ -52,7 +52,7 @@ pub(super) fn ui(
     let typed = dialog.typed();
     match &typed {
         Ok(written) => {
-            // Said back as a matrix: whoever slips in order or sign sees it.
+            // Show it as a matrix, which reveals a wrong order or sign.
             pose(ui, transform, &written.pose, Convention::Matrix, theme);
             if let Some(doubt) = CameraPlace::on(dialog.mount, written.pose).unit_doubt() {
                 told(ui, Mark::Look, &UserError::of(&doubt), theme);

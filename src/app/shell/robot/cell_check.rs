@@ -1,6 +1,6 @@
-//! The check of the cell in the window: what its folder holds, and the task that takes baselines and makes checks.
+//! The check of the cell in the window: the contents of its folder, and the task that takes baselines and makes checks.
 //!
-//! Frames come from the source in use; everything else is what `partsight cell` does.
+//! Frames come from the source in use; everything else is as in `partsight cell`.
 
 use std::{
     path::{Path, PathBuf},
@@ -41,62 +41,62 @@ use crate::{
     stages::segment::SegmentParams,
 };
 
-/// Baseline and checks of the cell.
+/// The baseline and the checks of the cell.
 #[derive(Debug)]
 pub struct CellChecks {
-    /// `None`: nothing is kept.
+    /// `None` if nothing can be kept.
     folder: Option<CellCheckFolder>,
     content: CheckFolderContent,
-    /// The last check that was made here, also one that could not be listed.
+    /// The last check made here, even if it could not be added to the list.
     made: Option<CellCheck>,
     task: Task<CheckAnswer>,
-    /// When the shift began at whose start the folder was read, in the operator's view.
+    /// Start of the operator's shift for which the folder was last read.
     shift: Option<Timestamp>,
-    /// What the operator was warned of.
+    /// The warning shown to the operator.
     warning: Option<Notice>,
 }
 
-/// What the folder holds.
+/// Contents of the folder.
 #[derive(Clone, Debug, Default)]
 pub struct CheckFolderContent {
-    /// The baseline, if it can be read.
+    /// The baseline, if it is readable.
     pub baseline: Option<Arc<CellBaseline>>,
-    /// True if there is a baseline, also one that cannot be read.
+    /// True if there is a baseline, even an unreadable one.
     pub has_baseline: bool,
-    /// All checks, the oldest first.
+    /// All checks, oldest first.
     pub checks: Vec<CellCheck>,
-    /// Why baseline or checks cannot be read.
+    /// Why baseline or checks are unreadable.
     pub trouble: Vec<UserError>,
 }
 
-/// What can happen.
+/// Actions of the check of the cell.
 #[derive(Clone, Debug)]
 pub enum CheckAction {
-    /// Take a baseline. Where there is one, this asks first, and takes it the second time.
+    /// Take a baseline. If there is one already, the first time asks for confirmation and the second time takes it.
     TakeBaseline,
-    /// Compare what hangs there with the baseline.
+    /// Compare the current frames with the baseline.
     Check,
-    /// Take no more frames.
+    /// Cancel the running work.
     Cancel,
     /// Write the checks to this table.
     Export(PathBuf),
 }
 
-/// What the task has done.
+/// Result of the task.
 #[derive(Clone, Debug)]
 struct CheckAnswer {
-    /// What the folder holds now.
+    /// The current contents of the folder.
     content: CheckFolderContent,
-    /// The check that was made, if one was.
+    /// The check, if one was made.
     made: Option<CellCheck>,
-    /// Why it is not listed.
+    /// Why the check could not be added to the list.
     trouble: Option<UserError>,
-    /// What a person should know besides.
+    /// Further notices for the user.
     notices: Vec<Notice>,
 }
 
 impl CellChecks {
-    /// With this folder, which is not read yet.
+    /// Starts with a folder that has not been read yet.
     pub(super) fn new(folder: Option<CellCheckFolder>, runner: &TaskRunner) -> Self {
         Self {
             folder,
@@ -108,17 +108,17 @@ impl CellChecks {
         }
     }
 
-    /// True if baseline and checks can be kept somewhere.
+    /// True if there is a folder for baseline and checks.
     pub fn has_folder(&self) -> bool {
         self.folder.is_some()
     }
 
-    /// What the folder held when it was read last.
+    /// The contents of the folder when it was last read.
     pub fn content(&self) -> &CheckFolderContent {
         &self.content
     }
 
-    /// What is being done, if anything.
+    /// The running work, if any.
     pub fn running(&self) -> Option<&Running> {
         self.task.running()
     }
@@ -136,7 +136,7 @@ impl CellChecks {
         self.task.run_waiting()
     }
 
-    /// Reads the folder anew, unless something else is being done with it.
+    /// Reads the folder, unless the task is busy.
     pub(super) fn read(&mut self) {
         if self.task.running().is_some() {
             return;
@@ -147,7 +147,7 @@ impl CellChecks {
         }
     }
 
-    /// Takes a baseline in place of the one before.
+    /// Takes a baseline, which replaces the former one.
     pub(super) fn take_baseline(
         &mut self,
         limits: CellLimits,
@@ -161,7 +161,7 @@ impl CellChecks {
         Ok(())
     }
 
-    /// Compares what hangs there with the baseline.
+    /// Compares the current frames with the baseline.
     pub(super) fn check(&mut self, cx: &ShellContext<'_>) -> Result<(), UserError> {
         let look = Look::of(cx)?;
         if let Some(folder) = self.folder.clone() {
@@ -179,12 +179,12 @@ impl CellChecks {
         }
     }
 
-    /// Gives up what is being done.
+    /// Cancels the running work.
     pub(super) fn cancel(&mut self) {
         self.task.cancel();
     }
 
-    /// Takes in what the task has done; answers what went wrong. At the start of an operator's shift the folder is read.
+    /// Polls the task; returns what went wrong. Reads the folder at the start of an operator's shift.
     pub(super) fn update(&mut self, cx: &mut ShellContext<'_>) -> Option<UserError> {
         self.watch_shift(cx.session);
         match self.task.poll()? {
@@ -209,7 +209,7 @@ impl CellChecks {
         trouble
     }
 
-    /// Reads the folder once in each shift of an operator: a command may have made the check.
+    /// Reads the folder once per shift of an operator, because a command may have made the check.
     fn watch_shift(&mut self, session: &Session) {
         if session.role != UserRole::Operator {
             self.shift = None;
@@ -226,7 +226,7 @@ impl CellChecks {
         }
     }
 
-    /// Warns an operator if the last check found that something moved. A warning that no longer holds is taken away.
+    /// Warns an operator if the last check found that something moved; removes a warning that no longer holds.
     fn warn(&mut self, cx: &mut ShellContext<'_>) {
         let moved = self.latest().filter(|check| check.finding.has_moved());
         let warning = moved.map(|check| {
@@ -252,13 +252,13 @@ impl CellChecks {
     }
 }
 
-/// A moment by the local clock, for a person.
+/// Formats a moment in local time.
 pub(super) fn shown_time(at: Timestamp) -> String {
     let at = at.to_zoned(TimeZone::system());
     at.strftime("%Y-%m-%d %H:%M").to_string()
 }
 
-/// The text, with a word that no camera was read if none was.
+/// Marks a text as simulated if no camera was read.
 pub(super) fn marked(text: String, is_simulated: bool) -> String {
     if is_simulated {
         text!("shell-of-simulator", name = text)
@@ -267,7 +267,7 @@ pub(super) fn marked(text: String, is_simulated: bool) -> String {
     }
 }
 
-/// What is looked at, and how the part is found in it.
+/// The source to look at, and how to find the part in it.
 struct Look {
     source: SceneSource,
     params: SegmentParams,
@@ -283,7 +283,7 @@ impl Look {
         })
     }
 
-    /// What the frames show, and what was odd about them.
+    /// Takes the frames and finds the part in them; also returns notices about problems.
     fn views(
         &self,
         context: &TaskContext<CheckAnswer>,
@@ -323,7 +323,7 @@ impl Look {
     }
 }
 
-/// Where the frames come from: while the simulated cell is not followed, the frame of it in front.
+/// Returns the source of the frames. If the simulated cell is not followed, this is the shown frame of it.
 fn source(session: &Session) -> Result<SceneSource, UserError> {
     match &session.source {
         Source::Camera(spec) => Ok(SceneSource::Camera(spec.clone())),
@@ -347,7 +347,7 @@ fn source(session: &Session) -> Result<SceneSource, UserError> {
     }
 }
 
-/// Frames to take: one from a watched folder, where the next may never come.
+/// Number of frames to take; only one from a watched folder, where the next may never come.
 fn num_frames(spec: &SourceSpec) -> usize {
     match spec {
         SourceSpec::Watched(_) => 1,
@@ -361,7 +361,7 @@ fn num_frames(spec: &SourceSpec) -> usize {
 }
 
 impl CheckAnswer {
-    /// What the folder holds, and nothing else.
+    /// Reads the folder.
     fn of(folder: &CellCheckFolder) -> Self {
         Self {
             content: CheckFolderContent::read(folder),
@@ -400,7 +400,7 @@ fn take_baseline(
     let (taken, notices) = look.views(context)?;
     let baseline = CellBaseline::new(&taken.views, limits, taken.is_simulated, Timestamp::now());
     let baseline = baseline.map_err(|error| in_words(&error))?;
-    // What was given up changes nothing.
+    // A cancelled run saves nothing.
     context.check()?;
     let saved = folder.save(&baseline);
     saved.map_err(|error| UserError::of(&error))?;
@@ -423,7 +423,7 @@ fn check(
     let made = baseline.check(&taken.views, taken.is_simulated, Timestamp::now());
     let made = made.map_err(|error| in_words(&error))?;
     context.check()?;
-    // It is shown also where it cannot be listed.
+    // Show the check even if it cannot be added to the list.
     let trouble = folder.add(&made).err().map(|error| UserError::of(&error));
     Ok(CheckAnswer {
         made: Some(made),
@@ -448,7 +448,7 @@ fn export(folder: &CellCheckFolder, path: &Path) -> Result<CheckAnswer, TaskErro
     })
 }
 
-/// There is nothing to compare with.
+/// The error that there is nothing to compare with.
 pub(super) fn no_baseline() -> UserError {
     UserError {
         what: text!("robot-no-baseline"),

@@ -1,4 +1,4 @@
-//! The page on whether camera and cell still stand where they stood.
+//! The page about whether camera and cell still stand where they stood.
 
 use egui::{Button, DragValue, Grid, Label, RichText, Role, ScrollArea, Ui, WidgetInfo, vec2};
 use jiff::{Timestamp, Zoned, tz::TimeZone};
@@ -29,11 +29,11 @@ use crate::{
 
 /// Height of the list of checks, logical pixels.
 const TABLE: f32 = 170.0;
-/// Height of a row of it, logical pixels.
+/// Height of a row of the list, logical pixels.
 const ROW: f32 = 20.0;
-/// The list and the plot show at most this many checks, the newest; the exported table has them all.
+/// Maximum number of checks in list and plot, the newest; the exported table has them all.
 const MOST_SHOWN: usize = 100;
-/// Checks needed to show how they went on.
+/// Minimum number of checks for a plot.
 const LEAST_DRAWN: usize = 2;
 
 pub(super) fn ui(
@@ -90,7 +90,7 @@ pub(super) fn ui(
     }
 }
 
-/// What there is to compare with.
+/// Draws the baseline and its limits.
 fn baseline(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem, theme: &Theme) {
     let Some(baseline) = &content.baseline else {
         if !content.has_baseline {
@@ -116,13 +116,13 @@ fn baseline(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem, theme:
     }
 }
 
-/// When frames were taken, and how many.
+/// Says when and how many frames were taken.
 fn taken(at: Timestamp, num_frames: usize, is_simulated: bool) -> String {
     let taken = text!("robot-taken-at", time = shown_time(at), count = num_frames);
     marked(taken, is_simulated)
 }
 
-/// What the next baseline allows.
+/// Draws the fields for the limits of the next baseline.
 fn limits(ui: &mut Ui, limits: &mut CellLimits) {
     ui.horizontal(|ui| {
         ui.label(text!("robot-new-baseline-allows"));
@@ -147,7 +147,7 @@ fn limits(ui: &mut Ui, limits: &mut CellLimits) {
     });
 }
 
-/// A number to be dragged or written; true if a person changed it.
+/// Draws a number that can be dragged or typed; true if the user changed it.
 fn number(ui: &mut Ui, field: DragValue<'_>, label: &str) -> bool {
     let response = ui.add_sized(vec2(110.0, space::TARGET), field);
     response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, label));
@@ -193,7 +193,7 @@ fn question(ui: &mut Ui, dialog: &mut RobotDialog, theme: &Theme, caused: &mut V
     });
 }
 
-/// What is being done, and the way out.
+/// Draws the running work and the button that cancels it.
 fn progress(ui: &mut Ui, checks: &CellChecks, theme: &Theme, caused: &mut Vec<RobotAction>) {
     let Some(running) = checks.running() else {
         return;
@@ -217,7 +217,7 @@ fn progress(ui: &mut Ui, checks: &CellChecks, theme: &Theme, caused: &mut Vec<Ro
     });
 }
 
-/// What the last check found, its figures beside what is allowed.
+/// Draws the last check, its figures beside the limits.
 fn finding(ui: &mut Ui, check: &CellCheck, limits: CellLimits, units: UnitSystem, theme: &Theme) {
     heading(ui, theme, &text!("robot-last-check"));
     let sign = match check.finding {
@@ -260,7 +260,7 @@ fn finding(ui: &mut Ui, check: &CellCheck, limits: CellLimits, units: UnitSystem
     figure(text!("robot-readings"), readings);
 }
 
-/// The last checks: those against the baseline in use as curves, and all in a list, the newest first.
+/// Draws the last checks: those against the baseline in use as curves, and all in a list, newest first.
 fn former(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem, theme: &Theme) {
     let checks = &content.checks;
     let shown = checks.len().min(MOST_SHOWN);
@@ -275,7 +275,7 @@ fn former(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem, theme: &
         .max_height(TABLE)
         .auto_shrink([false, true])
         .show(ui, |ui| {
-            // Nothing here is pressed.
+            // Nothing here can be pressed, so rows may be lower.
             ui.spacing_mut().interact_size.y = ROW;
             let grid = Grid::new("checks").num_columns(4).spacing(vec2(20.0, 2.0));
             grid.show(ui, |ui| {
@@ -304,7 +304,7 @@ fn former(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem, theme: &
         });
 }
 
-/// How far the part was from where the baseline saw it, check after check.
+/// Plots the shift of the part against the baseline, over the checks.
 fn drift(
     ui: &mut Ui,
     checks: &[CellCheck],
@@ -333,7 +333,7 @@ fn drift(
         ("z", &*z, theme.reference_series),
     ];
     let written = |metres: f64| units.signed_length(metres);
-    // What is allowed either way.
+    // The limit in both directions.
     let least_span = 2.0 * baseline.limits.shift.0;
     let title = text!("robot-shift-over-time");
     over_time(ui, &at, &title, &curves, (&written, least_span), theme);

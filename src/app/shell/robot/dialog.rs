@@ -1,4 +1,4 @@
-//! The dialog itself: its pages, and what went wrong.
+//! The frame of the dialog: its pages, and the last error.
 
 use egui::{Button, Context, RichText, ScrollArea, Ui, vec2};
 
@@ -21,11 +21,12 @@ use crate::{
 
 /// Width of the dialog, logical pixels.
 const WIDTH: f32 = 640.0;
-/// What of the window's height the pages leave free, for heading, buttons, the edges, and a notice above the dialog.
+/// Part of the window's height that the pages leave free, for heading, buttons, edges, and a notice above the dialog, logical
+/// pixels.
 const MARGIN: f32 = 220.0;
 
 impl RobotCell {
-    /// Draws the dialog while it is open; says what a person caused in it.
+    /// Draws the dialog while it is open; returns the user's actions.
     pub(in crate::app) fn ui(
         &self,
         ctx: &Context,
@@ -71,7 +72,7 @@ impl RobotCell {
         caused
     }
 
-    /// The page in front, and what went wrong last.
+    /// Draws the page in front and the last error.
     fn page(
         &self,
         ui: &mut Ui,
@@ -86,7 +87,7 @@ impl RobotCell {
             RobotPage::FromPairs => {
                 from_pairs::ui(ui, self, session.convention, dialog, theme, caused);
             }
-            // It says itself what went wrong, above its list.
+            // This page shows the error itself, above its list.
             RobotPage::Check => return check_page::ui(ui, self, session, dialog, theme, caused),
             RobotPage::Answer => answer_page::ui(ui, self, session, dialog, theme, caused),
         }
@@ -97,7 +98,7 @@ impl RobotCell {
     }
 }
 
-/// One of several, chosen by a press.
+/// Draws a button that chooses one of several values.
 pub(super) fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: String) {
     let is_chosen = *value == this;
     let button = Button::selectable(is_chosen, text)
@@ -108,7 +109,7 @@ pub(super) fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: St
     }
 }
 
-/// What the camera is fixed to.
+/// Draws the choice of what the camera is fixed to.
 pub(super) fn mounts(ui: &mut Ui, dialog: &mut RobotDialog) {
     ui.horizontal(|ui| {
         for (mount, text) in [
@@ -120,7 +121,7 @@ pub(super) fn mounts(ui: &mut Ui, dialog: &mut RobotDialog) {
     });
 }
 
-/// What a new calibration is called.
+/// Draws the field for the name of a new calibration.
 pub(super) fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
     ui.horizontal(|ui| {
         let label = ui.label(text!("robot-name-of-cell"));
@@ -129,12 +130,12 @@ pub(super) fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
     });
 }
 
-/// The button that uses what stands there.
+/// Draws the button that uses the calibration of the page.
 pub(super) fn use_it(ui: &mut Ui, is_there: bool, theme: &Theme) -> bool {
     widgets::default_button(ui, &text!("robot-use-it"), is_there, theme)
 }
 
-/// Trouble or doubt, its sign before it and what to do below.
+/// Draws an error or a doubt, with a sign before it and the advice below.
 pub(super) fn told(ui: &mut Ui, sign: Mark, trouble: &UserError, theme: &Theme) {
     ui.horizontal_top(|ui| {
         let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(18.0), egui::Sense::hover());

@@ -1,4 +1,4 @@
-//! The page on which the camera's place is calculated from pairs of robot and camera poses.
+//! The page that calculates the camera's pose from pairs of robot and camera poses.
 
 use egui::{Button, Checkbox, Grid, RichText, ScrollArea, Ui, vec2};
 
@@ -65,7 +65,7 @@ pub(super) fn ui(
     ui.add_space(space::SMALL);
     residuals(ui, &found, dialog, theme);
     ui.scope(|ui| {
-        // Nothing here is pressed.
+        // Nothing here can be pressed, so rows may be lower.
         ui.spacing_mut().interact_size.y = ROW;
         figures(ui, &found, theme);
     });
@@ -97,7 +97,7 @@ pub(super) fn ui(
     }
 }
 
-/// How far each pair is off; a pair whose tick is taken away does not count.
+/// Draws the residual of each pair; an unticked pair does not count.
 fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog, theme: &Theme) {
     let solved = &found.solved;
     let weak = |text: String| RichText::new(text).color(theme.weak_text);

@@ -1,4 +1,4 @@
-//! The page on the calibration in use.
+//! The page about the calibration in use.
 
 use egui::{Button, RichText, Ui};
 
@@ -142,7 +142,7 @@ fn figures(ui: &mut Ui, calibration: &CellCalibration, theme: &Theme) {
     }
 }
 
-/// What the camera is fixed to, in full.
+/// Describes what the camera is fixed to.
 fn mount(mount: Mount) -> String {
     match mount {
         Mount::EyeToHand => text!("robot-eye-to-hand"),
@@ -150,7 +150,7 @@ fn mount(mount: Mount) -> String {
     }
 }
 
-/// A transform in the robot's numbers, with what they mean.
+/// Draws a transform in the robot's convention, with the meaning of the numbers.
 pub(super) fn pose(
     ui: &mut Ui,
     name: &str,
@@ -179,7 +179,7 @@ pub(super) fn pose(
     }
 }
 
-/// Where the arm stands at a capture, for a camera on the flange.
+/// Draws the arm's pose at a capture, for a camera on the flange.
 fn arm(
     ui: &mut Ui,
     stored: Option<&RigidTransform>,

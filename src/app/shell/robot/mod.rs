@@ -1,5 +1,5 @@
-//! The robot's cell in the window: which calibration is in use, the dialog in which another one is made, the check of
-//! whether the cell still stands as it was calibrated, and the server that robots ask.
+//! The robot's cell in the window: the calibration in use, the dialog that makes another one, the check of whether the cell
+//! still stands as it was calibrated, and the server that robots ask.
 
 mod answer_page;
 pub mod answering;

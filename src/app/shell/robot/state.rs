@@ -1,4 +1,4 @@
-//! What the window knows of the robot's cell, and what can happen to it.
+//! State of the robot's cell in the window, and its actions.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -33,7 +33,7 @@ use crate::{
     serve::{PoseKind, Protocol, parse_address},
 };
 
-/// The calibration of the robot's cell, its checks, the server that robots ask, and the dialog about them.
+/// The calibration of the robot's cell, the checks of the cell, the server that robots ask, and the dialog for all of them.
 #[derive(Debug)]
 pub struct RobotCell {
     in_use: Option<Arc<CellInUse>>,
@@ -47,21 +47,21 @@ pub struct RobotCell {
 /// A page of the dialog.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RobotPage {
-    /// What is in use.
+    /// The calibration in use.
     #[default]
     InUse,
-    /// Numbers to be typed.
+    /// A calibration typed as numbers.
     ByHand,
     /// Hand-eye calibration.
     FromPairs,
-    /// Whether camera and cell still stand where they stood.
+    /// The check of whether camera and cell still stand where they stood.
     Check,
-    /// Whether robots that ask are answered.
+    /// The server that answers robots.
     Answer,
 }
 
 impl RobotPage {
-    /// All of them, in their order.
+    /// All pages, in their order.
     pub const ALL: [Self; 5] = [
         Self::InUse,
         Self::ByHand,
@@ -70,7 +70,7 @@ impl RobotPage {
         Self::Answer,
     ];
 
-    /// What a person calls it.
+    /// Returns the name shown to the user.
     pub fn title(self) -> String {
         match self {
             Self::InUse => text!("robot-in-use"),
@@ -82,47 +82,47 @@ impl RobotPage {
     }
 }
 
-/// What stands in the dialog.
+/// The contents of the dialog.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotDialog {
     /// The page in front.
     pub page: RobotPage,
-    /// What a new calibration is called.
+    /// Name of a new calibration.
     pub name: String,
-    /// What its camera is fixed to.
+    /// What the camera of a new calibration is fixed to.
     pub mount: Mount,
-    /// In which convention numbers are typed.
+    /// Convention of typed numbers.
     pub convention: Convention,
-    /// The numbers of the camera's place.
+    /// The camera's pose, as typed.
     pub numbers: String,
-    /// The numbers of the arm's pose at a capture.
+    /// The arm's pose at a capture, as typed.
     pub arm: String,
     /// The file of pairs.
     pub pairs: Option<PathBuf>,
-    /// Pairs that do not count.
+    /// Names of the pairs that do not count.
     pub left_out: Vec<String>,
-    /// What came of the pairs.
+    /// The hand-eye calibration from the pairs.
     pub solved: Option<Arc<SolvedPairs>>,
-    /// True if a person wants it used although it must not be.
+    /// True if the user wants the result used despite grave doubts.
     pub insists: bool,
-    /// What the next baseline of the cell allows.
+    /// Limits for the next baseline of the cell.
     pub limits: CellLimits,
-    /// True while a person is asked whether the baseline is to be replaced.
+    /// True while the user is asked whether to replace the baseline.
     pub is_replacing: bool,
-    /// How robots ask.
+    /// Protocol of the server.
     pub protocol: Protocol,
-    /// The port where they do, or address and port, as it is typed.
+    /// Port, or address and port, of the server, as typed.
     pub address: String,
-    /// Which pose they are told.
+    /// Which pose the robots get.
     pub pose: PoseKind,
-    /// What went wrong last.
+    /// The last error.
     pub trouble: Option<UserError>,
 }
 
 impl RobotDialog {
     fn new(session: &Session) -> Self {
         let AnswerSetup { at, pose, .. } = session.answering;
-        // A port alone is one of this computer.
+        // Show only the port if the address is the default one on this computer.
         let port = at.address.port().to_string();
         let address = match parse_address(&port) {
             Ok(own) if own == at.address => port,
@@ -148,17 +148,17 @@ impl RobotDialog {
         }
     }
 
-    /// The numbers typed for the camera's place as a pose.
+    /// Parses the camera's pose.
     pub fn typed(&self) -> Result<WrittenPose, WrittenPoseError> {
         self.read(&self.numbers)
     }
 
-    /// The numbers typed for the arm's pose.
+    /// Parses the arm's pose.
     pub fn typed_arm(&self) -> Result<WrittenPose, WrittenPoseError> {
         self.read(&self.arm)
     }
 
-    /// A convention's name may be typed as well, and counts then.
+    /// Parses numbers in the dialog's convention, unless they begin with the name of another one.
     fn read(&self, numbers: &str) -> Result<WrittenPose, WrittenPoseError> {
         let is_named = numbers.trim_start().starts_with(char::is_alphabetic);
         if is_named {
@@ -168,29 +168,29 @@ impl RobotDialog {
         }
     }
 
-    /// What was calculated, if it may be used.
+    /// The calculated calibration, if it may be used.
     pub fn usable(&self) -> Option<Arc<SolvedPairs>> {
         let may_be = |found: &&Arc<SolvedPairs>| found.solved.is_usable() || self.insists;
         self.solved.as_ref().filter(may_be).cloned()
     }
 }
 
-/// What can happen.
+/// Actions on the robot's cell.
 #[derive(Clone, Debug)]
 pub enum RobotAction {
     /// Open or close the dialog.
     Toggle,
-    /// Close it.
+    /// Close the dialog.
     Close,
-    /// Something in it was changed.
+    /// Replace the contents of the dialog by edited ones.
     Edit(Box<RobotDialog>),
-    /// Use the typed numbers.
+    /// Use the typed calibration.
     UseTyped,
-    /// Use what was calculated.
+    /// Use the calculated calibration.
     UseSolved,
-    /// Store the typed pose of the arm as the one that captures are taken from.
+    /// Store the typed pose of the arm as its pose at every capture.
     StoreArm,
-    /// Have a person choose a file.
+    /// Ask the user to choose a file.
     Ask(RobotFile),
     /// Use the calibration in this file.
     Load(PathBuf),
@@ -198,20 +198,20 @@ pub enum RobotAction {
     Pairs(PathBuf),
     /// Use no calibration.
     Forget,
-    /// Of the check of the cell.
+    /// An action of the check of the cell.
     Check(CheckAction),
-    /// Answer robots there, or no longer.
+    /// Set whether and where robots are answered.
     Answer(AnswerSetup),
 }
 
-/// What a person is asked to choose.
+/// A file that the user is asked to choose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RobotFile {
     /// A calibration of the robot's cell.
     Calibration,
     /// A file of robot and camera poses.
     Pairs,
-    /// The table that the checks of the cell go to.
+    /// The table that the checks of the cell are exported to.
     Checks,
 }
 
@@ -241,7 +241,7 @@ impl RobotFile {
 }
 
 impl RobotCell {
-    /// Without a calibration. Baseline and checks of the cell are kept in this folder, if there is one.
+    /// Starts without a calibration. Baseline and checks of the cell are kept in `checks`, if given.
     pub fn new(checks: Option<CellCheckFolder>, runner: &TaskRunner) -> Self {
         Self {
             in_use: None,
@@ -253,7 +253,7 @@ impl RobotCell {
         }
     }
 
-    /// The calibration in use, if there is one.
+    /// The calibration in use, if any.
     pub fn in_use(&self) -> Option<&Arc<CellInUse>> {
         self.in_use.as_ref()
     }
@@ -263,7 +263,7 @@ impl RobotCell {
         self.dialog.as_ref()
     }
 
-    /// Baseline and checks of the cell.
+    /// The baseline and the checks of the cell.
     pub fn checks(&self) -> &CellChecks {
         &self.checks
     }
@@ -273,14 +273,14 @@ impl RobotCell {
         &self.answering
     }
 
-    /// True while nothing is read, written, calculated or captured, and no server is being started or ended.
+    /// True unless a file is read or written, something is calculated or captured, or a server is being started or stopped.
     pub fn is_idle(&self) -> bool {
         self.task.running().is_none()
             && self.checks.running().is_none()
             && self.answering.is_settled()
     }
 
-    /// Reads the calibration that the window starts with.
+    /// Loads the calibration that the window starts with.
     pub fn load_remembered(&mut self, cx: &mut ShellContext<'_>) {
         if let Some(path) = cx.session.calibration_path() {
             self.load(path);
@@ -346,7 +346,7 @@ impl RobotCell {
         }
     }
 
-    /// Carries out an action of the check of the cell; an error if it cannot begin.
+    /// Carries out an action of the check of the cell; an error if it cannot start.
     fn check(&mut self, action: CheckAction, cx: &ShellContext<'_>) -> Result<(), UserError> {
         match action {
             CheckAction::TakeBaseline => {
@@ -416,7 +416,7 @@ impl RobotCell {
         }
     }
 
-    /// Calculates from the file of pairs, if one was chosen.
+    /// Calculates the calibration from the chosen file of pairs, if any.
     fn solve(&mut self) {
         if let Some(dialog) = &mut self.dialog
             && let Some(pairs) = dialog.pairs.clone()
@@ -429,7 +429,7 @@ impl RobotCell {
         }
     }
 
-    /// Writes a new calibration to where the user's own is.
+    /// Saves a new calibration as the user's own.
     fn save_new(&mut self, camera: CameraPlace, origin: Origin, cx: &mut ShellContext<'_>) {
         let Some(path) = cx.session.usual_cell.clone() else {
             cx.notify(Notice::look(
@@ -449,7 +449,7 @@ impl RobotCell {
         self.save(path, calibration);
     }
 
-    /// Polls the tasks and the file dialog; returns the action that a chosen file causes.
+    /// Polls the tasks and the file dialog; returns the action for a chosen file.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) -> Option<RobotAction> {
         match self.task.poll() {
             Some(TaskEvent::Partial(result) | TaskEvent::Done(result)) => self.receive(result, cx),
@@ -471,7 +471,7 @@ impl RobotCell {
         }
     }
 
-    /// Says what went wrong; where the dialog is open, it says so itself.
+    /// Shows an error in the dialog if it is open, else as a notice.
     fn report(&mut self, error: UserError, cx: &mut ShellContext<'_>) {
         match &mut self.dialog {
             Some(dialog) => dialog.trouble = Some(error),
@@ -545,7 +545,7 @@ mod tests {
             self.apply(RobotAction::Edit(Box::new(dialog)));
         }
 
-        /// Does the work that was asked for; false if none was.
+        /// Runs the waiting work; false if there is none.
         fn work(&mut self) -> bool {
             let has_worked = self.robot.task.run_waiting();
             self.robot.update(&mut self.shell.context());
@@ -553,7 +553,7 @@ mod tests {
             has_worked
         }
 
-        /// Uses the calibration that was sent last.
+        /// Applies the calibrations that were sent.
         fn deliver(&mut self) {
             for message in std::mem::take(&mut self.shell.messages) {
                 if let Message::UseCalibration(cell, robot) = message {
@@ -625,7 +625,7 @@ mod tests {
         assert!(stored.frame(None).is_ok());
     }
 
-    /// Pairs of a camera that stands still and sees a target on the flange.
+    /// Writes pairs of a fixed camera that sees a target on the flange.
     fn write_pairs(path: &Path) {
         let robot_from_camera = from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]);
         let flange_from_target = from_euler_zyx([0.3, 0.2, -0.5, 0.02, -0.03, 0.1]);
@@ -654,7 +654,7 @@ mod tests {
         bench.edit(|dialog| dialog.name = "x".into());
         assert!(!bench.work() && bench.dialog().solved.is_some());
         bench.edit(|dialog| dialog.mount = Mount::EyeInHand);
-        // What was calculated for something else is not there to be used.
+        // The result for the other mount cannot be used any more.
         bench.apply(RobotAction::UseSolved);
         assert!(bench.dialog().solved.is_none());
         assert!(bench.work());

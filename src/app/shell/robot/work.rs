@@ -1,4 +1,4 @@
-//! What the robot's task does: reads and writes calibrations, and calculates them from pairs.
+//! The robot's task: reads and writes calibrations, and calculates them from pairs.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -12,12 +12,12 @@ use crate::{
     },
 };
 
-/// What comes back.
+/// Result of the task.
 #[derive(Clone, Debug)]
 pub enum RobotResult {
-    /// This calibration is in use now; what was there before is kept in the second.
+    /// This calibration is now in use; the second is where the former one was kept, if there was one.
     InUse(Arc<CellInUse>, Option<PathBuf>),
-    /// Where the camera sits by the pairs.
+    /// The hand-eye calibration from the pairs.
     Solved(Arc<SolvedPairs>),
 }
 
@@ -28,45 +28,45 @@ pub struct CellInUse {
     pub path: PathBuf,
     /// The calibration.
     pub calibration: CellCalibration,
-    /// True if somebody edited the file.
+    /// True if the file was edited by hand.
     pub is_edited: bool,
 }
 
 impl CellInUse {
-    /// The robot's frame; `None` while nobody says where the flange is that the camera is on.
+    /// The robot's frame; `None` if the camera is on the flange and the arm's pose is unknown.
     pub fn frame(&self) -> Option<Arc<RobotFrame>> {
         self.calibration.frame(None).ok().map(Arc::new)
     }
 }
 
-/// A hand-eye calibration that waits to be used.
+/// A hand-eye calibration that the user can choose to use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolvedPairs {
-    /// The file of the pairs.
+    /// The file of pairs.
     pub path: PathBuf,
-    /// Names of all pairs, in the file's order.
+    /// Names of all pairs, in file order.
     pub names: Vec<String>,
-    /// Names of those that were left out.
+    /// Names of the pairs left out.
     pub left_out: Vec<String>,
-    /// In which conventions robot and camera poses were read.
+    /// Conventions in which robot and camera poses were read.
     pub conventions: [Convention; 2],
-    /// The result.
+    /// The calculated calibration.
     pub solved: HandEye,
 }
 
-/// Reads the calibration in this file, to be used.
+/// Reads a calibration to be used.
 pub(super) fn load(path: PathBuf) -> Result<RobotResult, UserError> {
     in_use(path, None)
 }
 
-/// Writes a calibration into this file, to be used.
+/// Saves a calibration to be used, keeping the former file.
 pub(super) fn save(path: PathBuf, calibration: &CellCalibration) -> Result<RobotResult, UserError> {
     let former = calibration.save_keeping_former(&path);
     let former = former.map_err(|error| UserError::of(&error))?;
     in_use(path, former)
 }
 
-/// Calculates where the camera sits from this file of pairs, without those of these names.
+/// Calculates the camera's pose from a file of pairs, leaving out the pairs of the given names.
 pub(super) fn solve_pairs(
     path: PathBuf,
     mount: Mount,

@@ -1,4 +1,4 @@
-//! Whose window it is, at the foot of the rail, and what can be done about it.
+//! The button at the foot of the rail that shows the role and switches it.
 
 use egui::{
     Align, Layout, Painter, Popup, Pos2, Rect, RichText, Sense, Stroke, StrokeKind, Ui, pos2, vec2,
@@ -11,7 +11,7 @@ use crate::app::{
     ui::theme::{Theme, font, space},
 };
 
-/// Draws it.
+/// Draws the button with its menu.
 pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let role = state.session.role;
     ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
@@ -80,7 +80,7 @@ fn menu(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     }
 }
 
-/// A padlock: closed for the operator, open for the engineer.
+/// Draws a padlock: closed for the operator, open for the engineer.
 fn lock(painter: &Painter, centre: Pos2, role: UserRole, stroke: Stroke) {
     let at = |x: f32, y: f32| pos2(centre.x + x, centre.y + y);
     let body = Rect::from_min_max(at(-7.0, -1.0), at(7.0, 9.0));

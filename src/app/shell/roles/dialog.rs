@@ -1,4 +1,4 @@
-//! The question on top of the window: a pad of digits, for gloves and for the keyboard.
+//! The dialog that asks for a PIN: a keypad for gloved hands, and keyboard input.
 
 use egui::{Button, Context, Event, Key, RichText, Ui, vec2};
 
@@ -12,10 +12,10 @@ use crate::app::{
     },
 };
 
-/// Sides of a digit's button, logical pixels.
+/// Width and height of a digit's button, logical pixels.
 const DIGIT: [f32; 2] = [76.0, 52.0];
 
-/// Draws it while something is asked.
+/// Draws the dialog while something is asked.
 pub(in crate::app) fn dialog(
     ctx: &Context,
     state: &State,
@@ -88,7 +88,7 @@ pub(in crate::app) fn dialog(
     }
 }
 
-/// The digits written so far as dots, and the buttons to write more.
+/// Draws the digits typed so far as dots, and the keypad.
 fn pad(ui: &mut Ui, digits: &str, theme: &Theme, actions: &mut Vec<Action>) {
     ui.add_space(space::MEDIUM);
     let dots = "●".repeat(digits.len()) + &"·".repeat(MOST_DIGITS - digits.len());
@@ -126,7 +126,7 @@ fn pad(ui: &mut Ui, digits: &str, theme: &Theme, actions: &mut Vec<Action>) {
     }
 }
 
-/// What is written on a keyboard.
+/// Reads digits and keys from the keyboard.
 fn typed(ctx: &Context, actions: &mut Vec<Action>) {
     ctx.input(|input| {
         for event in &input.events {

@@ -1,9 +1,9 @@
-//! Whose window it is: the operator's, who watches verdicts, or the engineer's, who may change what they rest on.
+//! Roles: the operator watches verdicts, the engineer may change what they depend on.
 //!
-//! In the operator's view recipe, thresholds, library and cell cannot be changed by accident: whatever would change them
-//! asks for the engineer's view first. A PIN, if one is set, stands before that, and after a while without a hand on
-//! it the window is the operator's again. This prevents accidents. It is no protection against somebody who means to:
-//! the settings and the library are files that anybody can edit.
+//! The operator's view prevents accidental changes of recipe, thresholds, library and cell: an action that would change them
+//! asks for the engineer's view first. If a PIN is set, it is asked for, and after some time without input the window returns
+//! to the operator's view. This prevents accidents but not sabotage: anybody can edit the files of the settings and the
+//! library.
 
 mod chip;
 mod dialog;
@@ -22,17 +22,17 @@ use super::{
 };
 use crate::app::language::text;
 
-/// Minutes without a hand on the window until it is the operator's again, that can be chosen.
+/// Choices for the minutes without input until the window locks.
 pub const LOCK_AFTER: [u32; 4] = [1, 5, 15, 60];
 
-/// Whose window it is, and what stands between the two.
+/// PIN, lock and open question of the roles.
 #[derive(Debug)]
 pub struct RoleState {
-    /// What the engineer's view asks for, if anything.
+    /// PIN of the engineer's view, if one is set.
     pub pin: Option<Pin>,
-    /// Minutes without a hand on the window until it is the operator's again; only with a PIN.
+    /// Minutes without input until the window returns to the operator's view; only with a PIN.
     pub lock_after: u32,
-    /// What is asked, while it is.
+    /// The open question, if any.
     pub asked: Option<OpenQuestion>,
 }
 
@@ -43,7 +43,7 @@ impl Default for RoleState {
 }
 
 impl RoleState {
-    /// As the window starts.
+    /// Makes the state at the start of the window.
     pub fn starting(pin: Option<Pin>, lock_after: u32) -> Self {
         Self {
             pin,
@@ -52,7 +52,7 @@ impl RoleState {
         }
     }
 
-    /// Whose the window is when it starts: without a PIN whose it was last.
+    /// Role at the start: the operator with a PIN, else the last role.
     pub fn first_role(&self, last: UserRole) -> UserRole {
         match self.pin {
             Some(_) => UserRole::Operator,
@@ -60,7 +60,7 @@ impl RoleState {
         }
     }
 
-    /// Seconds without a hand on this person's window until it locks; `None` if it does not.
+    /// Seconds without input until the window locks in this role; `None` if it does not.
     pub fn lock_timeout(&self, role: UserRole) -> Option<f64> {
         let locks = role == UserRole::Engineer && self.pin.is_some();
         locks.then_some(f64::from(self.lock_after) * 60.0)
@@ -70,11 +70,11 @@ impl RoleState {
 /// A question on top of the window.
 #[derive(Debug)]
 pub struct OpenQuestion {
-    /// What it is about.
+    /// What is asked for.
     pub question: RoleQuestion,
-    /// The digits written so far.
+    /// The digits typed so far.
     pub digits: String,
-    /// What was wrong with the last ones.
+    /// What was wrong with the previous digits.
     pub wrong: Option<String>,
 }
 
@@ -88,41 +88,41 @@ impl OpenQuestion {
     }
 }
 
-/// What is asked.
+/// Kind of a question.
 #[derive(Debug)]
 pub enum RoleQuestion {
-    /// The PIN, or without one a yes, to come into the engineer's view and do this.
+    /// The PIN, or a confirmation if none is set, to enter the engineer's view and then carry out this action.
     MayI(Option<Box<Action>>),
     /// A new PIN.
     NewPin,
-    /// The same once more.
+    /// The new PIN again, to confirm it.
     NewPinAgain(String),
 }
 
-/// Something that can happen.
+/// Actions on the roles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RoleAction {
-    /// Change to the other view; to the engineer's after its PIN.
+    /// Switch to the other role; to the engineer's only after the PIN.
     Switch,
-    /// Nobody has touched the window for long.
+    /// Lock the window after a long time without input.
     Lock,
     /// Ask for a new PIN.
     SetPin,
-    /// Ask for none any more.
+    /// Remove the PIN.
     RemovePin,
-    /// Lock after so many minutes.
+    /// Lock after this many minutes.
     LockAfter(u32),
-    /// A digit of the PIN.
+    /// Add a digit to the PIN.
     Digit(char),
-    /// Take the last digit back.
+    /// Erase the last digit.
     Erase,
-    /// The PIN is written.
+    /// Confirm the digits.
     Enter,
-    /// Do not ask any more.
+    /// Close the dialog.
     Close,
 }
 
-/// The action, unless it needs the engineer's view: that is asked for first.
+/// Returns the action, unless it needs the engineer's view, which is then asked for first.
 pub(in crate::app) fn permitted(state: &mut State, action: Action) -> Option<Action> {
     if state.session.role == UserRole::Engineer || !needs_engineer(&action) {
         return Some(action);
@@ -131,7 +131,7 @@ pub(in crate::app) fn permitted(state: &mut State, action: Action) -> Option<Act
     None
 }
 
-/// Asks for the engineer's view, and does this once it is there.
+/// Asks for the engineer's view; once granted, carries out `then`.
 pub(in crate::app) fn ask_engineer(state: &mut State, then: Action) {
     state.roles.asked = Some(OpenQuestion::about(RoleQuestion::MayI(Some(Box::new(
         then,
@@ -181,14 +181,14 @@ pub(in crate::app) fn apply(state: &mut State, action: RoleAction) -> Option<Eff
 fn switch_to_operator(state: &mut State) {
     state.session.role = UserRole::Operator;
     state.roles.asked = None;
-    // They speak of the engineer's work.
+    // They are about the engineer's work.
     state.notices.clear();
     if !is_operators(state.session.workspace) {
         state.session.workspace = WorkspaceKind::Inspect;
     }
 }
 
-/// What follows from the digits that were written.
+/// Handles the confirmed digits.
 fn enter(state: &mut State) -> Option<Effect> {
     let own = &mut state.roles;
     let OpenQuestion {

@@ -1,4 +1,4 @@
-//! What the operator's view lets through.
+//! What the operator's view permits.
 
 use super::{Action, RoleAction, WorkspaceKind};
 use crate::app::shell::{
@@ -7,7 +7,7 @@ use crate::app::shell::{
     robot::{CheckAction, RobotAction},
 };
 
-/// True for the workspaces in which nothing can be changed that verdicts rest on.
+/// True for workspaces that cannot change anything verdicts depend on.
 pub(in crate::app) fn is_operators(workspace: WorkspaceKind) -> bool {
     match workspace {
         WorkspaceKind::Inspect | WorkspaceKind::History => true,
@@ -18,9 +18,9 @@ pub(in crate::app) fn is_operators(workspace: WorkspaceKind) -> bool {
     }
 }
 
-/// True for what changes recipe, thresholds, library or cell, and for what only the engineer's workspaces do.
+/// True for actions that change recipe, thresholds, library or cell, and for those of the engineer's workspaces.
 ///
-/// Every action is named: a new one has to be thought about.
+/// Lists every action, so that each new one needs a decision.
 pub(super) fn needs_engineer(action: &Action) -> bool {
     match action {
         Action::GoTo(workspace) | Action::Press(workspace, _) => !is_operators(*workspace),
@@ -29,13 +29,13 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
             action,
             RoleAction::SetPin | RoleAction::RemovePin | RoleAction::LockAfter(_)
         ),
-        // Averaged depth is part of what a verdict rests on.
+        // Verdicts depend on the averaging of depth.
         Action::Live(action) => matches!(action, LiveAction::Average(_)),
         Action::Robot(action) => !matches!(
             action,
             RobotAction::Close | RobotAction::Check(CheckAction::Cancel)
         ),
-        // The robot's controller expects one of them.
+        // The robot's controller expects a certain convention.
         Action::UseConvention(_)
         | Action::TakeEmptyCell
         | Action::ForgetEmptyCell

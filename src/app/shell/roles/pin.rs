@@ -1,26 +1,26 @@
-//! The PIN as it is remembered: so that nobody reads it in passing, and no more than that.
+//! The PIN as it is stored: not readable at a glance, but no stronger than that.
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-/// Fewest digits of a PIN.
+/// Minimum number of digits.
 pub(super) const LEAST_DIGITS: usize = 4;
-/// Most digits of a PIN.
+/// Maximum number of digits.
 pub(super) const MOST_DIGITS: usize = 8;
 
-/// A few digits, remembered by a checksum of them and a number of their own.
+/// A PIN stored as a salt and a checksum.
 ///
-/// Ten thousand guesses find it: it keeps hands off, not burglars out.
+/// Ten thousand guesses find it: it prevents accidental access, not an attack.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Pin {
-    /// Makes the same digits look different in each file.
+    /// Makes the checksum of the same digits differ between files.
     salt: u32,
     /// CRC-32 of the salt and the digits.
     check: u32,
 }
 
 impl Pin {
-    /// Of these digits.
+    /// Makes a PIN of these digits.
     pub fn of(digits: &str) -> Self {
         let salt = Timestamp::now().subsec_nanosecond().unsigned_abs();
         Self {
@@ -29,7 +29,7 @@ impl Pin {
         }
     }
 
-    /// True if it is these.
+    /// True if the digits match.
     pub fn is(&self, digits: &str) -> bool {
         check(self.salt, digits) == self.check
     }

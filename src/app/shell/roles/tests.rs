@@ -67,7 +67,7 @@ fn the_pin_lets_in_and_what_was_asked_for_is_done_then() {
     write(&mut state, "2468");
     assert_eq!(state.session.role, UserRole::Engineer);
     assert_eq!(state.session.workspace, WorkspaceKind::Compare);
-    // What is in front when it locks is not for the operator.
+    // Compare is not for the operator.
     apply(&mut state, RoleAction::Lock);
     assert_eq!(state.session.workspace, WorkspaceKind::Inspect);
 }

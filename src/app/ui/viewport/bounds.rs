@@ -1,14 +1,14 @@
-//! The box that a view is fitted to: robust, so that one stray depth pixel does not shrink the part to a dot.
+//! The box that a view is fitted to: robust, so that one stray reading does not shrink the part to a dot.
 
 use glam::{DVec3, Vec3};
 
-/// Points further than this many standard deviations from the mean do not count for the second mean.
+/// Points further than this many standard deviations from the mean are left out of the second mean.
 const TRIM_SIGMAS: f64 = 2.0;
-/// The box reaches this far about the trimmed mean, and never past the points. An even surface spans ±1.73 σ; a
-/// part with a heavy body and a thin frame, such as a door, more.
+/// The box reaches this far around the trimmed mean, but never past the points. An evenly covered surface spans ±1.73 σ; a
+/// part with a heavy body and a thin frame, such as a door, spans more.
 const BOX_SIGMAS: f64 = 4.0;
 
-/// An upright box, world, metres.
+/// An axis-aligned box, world, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointBounds {
     /// Smallest coordinates.
@@ -18,7 +18,7 @@ pub struct PointBounds {
 }
 
 impl PointBounds {
-    /// The middle.
+    /// The centre of the box.
     pub fn centre(&self) -> Vec3 {
         self.low.midpoint(self.high)
     }
@@ -36,7 +36,7 @@ impl PointBounds {
         })
     }
 
-    /// The box about both.
+    /// Returns the box around both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {
@@ -45,7 +45,7 @@ impl PointBounds {
         }
     }
 
-    /// The upright box about this one once its corners have been moved.
+    /// Returns the axis-aligned box around the transformed corners.
     #[must_use]
     pub fn moved(&self, to_from: &glam::Mat4) -> Self {
         let start = Self {
@@ -61,8 +61,8 @@ impl PointBounds {
         })
     }
 
-    /// The box that holds the bulk of the points: mean and standard deviation, once more without what lies beyond
-    /// 2 σ, then ± 4 σ cut at the outermost points. Points that are not finite do not count; `None` without any.
+    /// Returns the box around the bulk of the points: mean and standard deviation, computed again without points beyond 2 σ,
+    /// then ±4 σ, clipped to the outermost points. Ignores non-finite points; `None` without any.
     pub fn robust(points: impl Iterator<Item = Vec3> + Clone) -> Option<Self> {
         let finite = points.filter(|p| p.is_finite());
         let first = RobustExtent::of(finite.clone())?;
@@ -89,7 +89,7 @@ impl RobustExtent {
         let (mut count, mut sum, mut sum_sq) = (0.0, DVec3::ZERO, DVec3::ZERO);
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for point in points {
-            // Sums over hundreds of thousands of points lose digits in f32.
+            // In f32, sums over hundreds of thousands of points would lose digits.
             let p = point.as_dvec3();
             count += 1.0;
             sum += p;

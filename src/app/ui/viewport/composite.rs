@@ -1,11 +1,11 @@
-//! The pass that puts the finished picture of a view into egui's own.
+//! The pass that draws the finished picture of a view into egui's own pass.
 
 use bytemuck::{Pod, Zeroable};
 use eframe::wgpu;
 
 use super::pass::{self, PassSpec};
 
-/// The text of the shader.
+/// Source of the shader.
 pub(super) const SHADER: &str = include_str!("composite.wgsl");
 
 /// `CompositeUniform` in composite.wgsl.
@@ -17,11 +17,11 @@ struct CompositeUniform {
     padding: u32,
 }
 
-/// Bytes of the placement, to be compared with the shader.
+/// Size of the uniform in bytes, to be compared with the shader's.
 #[cfg(test)]
 pub(super) const PLACEMENT_SIZE: usize = size_of::<CompositeUniform>();
 
-/// The pass, for windows of one format.
+/// The pass, for one format of the window.
 pub(super) struct Composite {
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::RenderPipeline,
@@ -35,8 +35,7 @@ pub(super) struct BoundPicture {
 }
 
 impl BoundPicture {
-    /// Says where in the window the picture's top left corner is, physical pixels, and how many of them one of the
-    /// picture's is wide and high.
+    /// Sets the picture's top left corner in the window, physical pixels, and the side of one of its pixels in window pixels.
     pub(super) fn place(&mut self, queue: &wgpu::Queue, origin: [i32; 2], pixel_side: u32) {
         let placement = CompositeUniform {
             origin,

@@ -1,15 +1,15 @@
-// Copies the finished picture into the window, pixel for pixel; a coarse one pixel for square.
+// Copies the finished picture into the window, pixel for pixel; each pixel of a coarse picture covers a square.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
 // The Rust side is `CompositeUniform` in composite.rs.
 struct CompositeUniform {
-    // Of the picture's top left corner in the window, physical pixels.
+    // Position of the picture's top left corner in the window, physical pixels.
     origin: vec2<i32>,
-    // Pixels of the window along the side of a pixel of the picture.
+    // Side of a pixel of the picture, in pixels of the window.
     pixel_side: i32,
     padding: u32,
 }
-// True if the window wants linear values: the picture holds sRGB ones.
+// True if the window takes linear values; the picture holds sRGB.
 override is_linear: bool;
 @group(0) @binding(1) var<uniform> placement: CompositeUniform;
 

@@ -1,48 +1,48 @@
-//! How much is drawn while the eye moves: all points and all pixels on a device that keeps up, a share of them on one
+//! How much is drawn while the camera moves: everything on a device that keeps up, a share of the points and pixels on one
 //! that does not.
 //!
-//! While the view moves, every frame is followed by another at once, so that the time from a picture to the next frame
-//! is what the picture took, however long that is; a hand that pauses is not taken for a slow device. The picture of a
-//! view at rest is always drawn in full.
+//! While the view moves, every frame requests the next one at once, so the time from a picture to the next frame is the cost
+//! of that picture, however long it is; a pause of the hand is not taken for a slow device. A view at rest is always drawn in
+//! full.
 
 use super::points::NUM_SAMPLES;
 
-/// Frames further apart than this, seconds, are not fluent any more: less is drawn.
+/// Frame time, seconds, above which motion is not fluid and less is drawn.
 const SLOW: f32 = 1.0 / 22.0;
-/// Frames closer than this leave room for more.
+/// Frame time, seconds, below which more can be drawn.
 const QUICK: f32 = 1.0 / 40.0;
 /// A view that has not moved for this long, seconds, is at rest.
 const REST: f64 = 0.2;
 
-/// Pixels of the window along the side of a pixel of the picture: where points are left out the device is slow, and a
-/// coarser picture costs a quarter.
+/// Side of a pixel of the picture, in pixels of the window: 2 while points are left out, because a picture with a quarter of
+/// the pixels is cheaper on a slow device.
 pub(super) fn pixel_side(num_samples: usize) -> u32 {
     if num_samples < NUM_SAMPLES { 2 } else { 1 }
 }
 
-/// When the frame after this one is needed.
+/// When the next frame is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum NextRepaint {
-    /// At once: the view moves, and what this frame costs shows in when the next begins.
+    /// At once: the view moves, and the start of the next frame shows what this one cost.
     AtOnce,
-    /// In so many seconds the view is at rest, if nothing more happens.
+    /// In this many seconds, when the view will be at rest unless it moves again.
     Within(f64),
-    /// When something happens.
+    /// On the next event.
     Whenever,
 }
 
-/// Watches one view.
+/// Adapts the detail of one view to the speed of the device.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MovingDetail {
     /// Samples drawn while moving, 1..=[`NUM_SAMPLES`].
     num_samples: usize,
     /// When the view last moved, seconds of egui's clock.
     last_move: Option<f64>,
-    /// When a picture of the moving view was drawn, if that was in the last frame.
+    /// When the last frame drew a picture of the moving view, if it did.
     drawn: Option<f64>,
     /// Samples drawn in the last frame.
     shown: usize,
-    /// Quick frames in a row.
+    /// Consecutive quick frames.
     num_quick: u32,
 }
 
@@ -59,7 +59,7 @@ impl Default for MovingDetail {
 }
 
 impl MovingDetail {
-    /// The samples to draw in a frame at `now`, and what is to follow it.
+    /// Returns the samples to draw in a frame at `now`, and when the next frame is needed.
     pub(super) fn frame(&mut self, has_moved: bool, now: f64) -> (usize, NextRepaint) {
         if let Some(drawn) = self.drawn.take() {
             self.learn((now - drawn) as f32);
@@ -95,7 +95,7 @@ impl MovingDetail {
             self.num_quick = 0;
         } else if seconds < QUICK {
             self.num_quick += 1;
-            // Slowly up, quickly down: no flicker between two shares.
+            // Increase slowly, decrease fast: no flicker between two shares.
             if self.num_quick >= 20 {
                 self.num_samples = (self.num_samples + 1).min(NUM_SAMPLES);
                 self.num_quick = 0;
@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn a_slow_device_draws_less_while_moving_and_all_at_rest() {
-        // However slow: a frame that takes longer than a pause of the hand is a slow frame all the same.
+        // A frame that takes longer than a pause of the hand still counts as slow.
         for seconds in [0.1, 0.265, 1.0] {
             let mut detail = MovingDetail::default();
             let mut now = 0.0;
@@ -149,7 +149,7 @@ mod tests {
         for i in 0..30 {
             let now = f64::from(i) * 0.15;
             assert_eq!(detail.frame(true, now).0, NUM_SAMPLES);
-            // The frame that was asked for at once comes at once.
+            // A frame requested at once comes at once.
             detail.frame(false, now + 0.016);
         }
     }

@@ -6,44 +6,44 @@ use glam::{Mat4, Vec2, Vec3};
 use super::style::{Role, ViewColours};
 use crate::app::ui::theme::font;
 
-/// What is drawn.
+/// The shape that a drag draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DrawnShape {
-    /// An upright rectangle, from corner to corner.
+    /// An upright rectangle between two corners.
     Box,
-    /// A polygon along the pointer's way, closed by a straight line.
+    /// A polygon along the pointer's path, closed by a straight line.
     Lasso,
-    /// The pointer's way itself, straight or not.
+    /// The pointer's path itself, straight or not.
     Way,
 }
 
-/// An outline while it is drawn.
+/// An outline being drawn.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing {
-    /// The pointer's way, logical pixels on the screen; empty once the drawing was given up.
+    /// The pointer's path, logical pixels on the screen; empty once the drawing was cancelled.
     trail: Vec<Pos2>,
-    /// True from the press that began it to the release, given up or not.
+    /// True from the press that began it until the release, cancelled or not.
     is_held: bool,
 }
 
-/// Where a view shows a point, in shares of its width and height from the top left; `None` behind the eye.
+/// Projects a point to shares of the view's width and height from the top left; `None` behind the eye.
 pub fn seen_at(clip_from_world: &Mat4, point: Vec3) -> Option<Vec2> {
     let clip = *clip_from_world * point.extend(1.0);
-    // Beyond the near plane, as the view draws it; false for NaN as well.
+    // Beyond the near plane, as the view draws it; also false for NaN.
     let is_before_eye = clip.w > clip.z;
     is_before_eye.then(|| (Vec2::new(clip.x, -clip.y) / clip.w + 1.0) / 2.0)
 }
 
-/// Corners of a lasso are this far apart, logical pixels.
+/// Minimum distance between corners of a lasso, logical pixels.
 const LEAST_STEP: f32 = 1.0;
-/// An outline less wide than this in any direction was not meant, logical pixels.
+/// Minimum width in any direction, logical pixels; a narrower outline is ignored as accidental.
 const LEAST_WIDTH: f32 = 3.0;
 
 impl Drawing {
-    /// Follows a left drag over `response` while there is a shape to draw. At the end: the corners in shares of its
-    /// width and height, from the top left; nothing if the outline was not meant.
+    /// Follows a left drag over `response` while there is a shape to draw. When it ends, returns the corners as shares of the
+    /// response's width and height from the top left, or nothing if the outline was accidental.
     ///
-    /// Escape and a second finger give the drawing up. The rest of the drag then does nothing.
+    /// Escape or a second finger cancels the drawing. The rest of the drag then does nothing.
     pub fn follow(
         &mut self,
         ui: &Ui,
@@ -56,7 +56,7 @@ impl Drawing {
             && !ui.input(|input| input.modifiers.shift);
         if is_begun {
             self.is_held = true;
-            // Where the button went down: the pointer has moved since.
+            // Start where the button went down: the pointer has moved since.
             let origin = ui.input(|input| input.pointer.press_origin());
             self.trail = origin.map(|at| rect.clamp(at)).into_iter().collect();
         }
@@ -68,7 +68,7 @@ impl Drawing {
         if is_given_up || shape.is_none() {
             self.trail.clear();
         }
-        // Every place that was passed: a slow window draws a few frames a second.
+        // Take every position passed: a slow window draws only a few frames per second.
         let passed = ui.input(|input| {
             let moves = input.events.iter().filter_map(|event| match event {
                 Event::PointerMoved(at) => Some(*at),
@@ -99,12 +99,12 @@ impl Drawing {
         })
     }
 
-    /// True while the left drag is the drawing's.
+    /// True while a left drag belongs to the drawing.
     pub(super) fn is_held(&self) -> bool {
         self.is_held
     }
 
-    /// The corners as far as they are drawn, logical pixels on the screen; none while nothing is drawn.
+    /// The corners drawn so far, logical pixels on the screen; none while nothing is drawn.
     pub fn corners(&self, shape: DrawnShape) -> Vec<Pos2> {
         match (shape, self.trail.as_slice()) {
             (DrawnShape::Box, [first, .., last]) => {
@@ -116,7 +116,7 @@ impl Drawing {
     }
 }
 
-/// The corners of a box in their order.
+/// Corners of a box, clockwise from the top left.
 pub fn box_corners(rect: Rect) -> [Pos2; 4] {
     [
         rect.left_top(),
@@ -126,7 +126,7 @@ pub fn box_corners(rect: Rect) -> [Pos2; 4] {
     ]
 }
 
-/// False for what encloses next to nothing: a click that slipped, a line.
+/// Returns false for an outline that encloses almost nothing, such as a slipped click or a line.
 fn is_meant(corners: &[Pos2]) -> bool {
     let Some(first) = corners.first() else {
         return false;
@@ -143,7 +143,7 @@ fn is_meant(corners: &[Pos2]) -> bool {
     length >= LEAST_WIDTH && high - low >= LEAST_WIDTH
 }
 
-/// Draws an outline, and beside it what it is going to do.
+/// Draws an outline with a label that says what it will do.
 pub fn outline(painter: &Painter, corners: &[Pos2], words: &str, colours: &ViewColours) {
     let [_, _, ..] = corners else {
         return;
@@ -156,7 +156,7 @@ pub fn outline(painter: &Painter, corners: &[Pos2], words: &str, colours: &ViewC
         ));
     }
     let galley = painter.layout_no_wrap(words.to_owned(), font::small(), bright);
-    // Above it, but within what it is drawn over.
+    // Place the label above the outline, but inside the clip rectangle.
     let above = Rect::from_points(corners).left_top() - vec2(-3.0, galley.size().y + 6.0);
     let room = painter.clip_rect().shrink(4.0);
     let room = Rect::from_min_max(room.min, (room.max - galley.size()).max(room.min));
@@ -182,7 +182,7 @@ mod tests {
         assert!(!of(&[[0.0, 0.0], [100.0, 100.0]]));
         assert!(!of(&[[0.0, 0.0], [50.0, 51.0], [100.0, 100.0]]));
         assert!(of(&[[0.0, 0.0], [50.0, 55.0], [100.0, 100.0]]));
-        // Its halves run opposite ways around: no area, but for the sign.
+        // Its halves run in opposite directions, so their signed areas cancel.
         assert!(of(&[[0.0, 0.0], [100.0, 4.0], [100.0, 0.0], [0.0, 4.0]]));
     }
 }

@@ -3,8 +3,8 @@
 @group(1) @binding(0) var colour: texture_2d<f32>;
 @group(1) @binding(1) var closeness: texture_2d<f32>;
 
-// Neighbours on two rings, as x and y in logical pixels and weight: the near ring draws edges, the far one gives broad
-// shapes. Written out, because sines for each pixel cost more than all the rest.
+// Neighbours on two rings: x and y in logical pixels, and weight. The near ring shades edges, the far one broad shapes. Listed
+// as constants because computing sines per pixel costs more than all the rest.
 const NUM_NEIGHBOURS: i32 = 12;
 const NEIGHBOURS = array(
     vec3(1.06, 1.06, 0.150),
@@ -21,17 +21,17 @@ const NEIGHBOURS = array(
     vec3(3.54, -3.54, 0.050),
 );
 
-// Shade per share of the depth: by eye, on a simulated Kinect frame.
+// Shade per share of the depth; tuned by eye on a simulated Kinect frame.
 const GAIN: f32 = 85.0;
-// A neighbour this far in front (as a share of its depth: 20 mm at 1 m) counts no more than one further still:
-// an edge is an edge. Below the first value it is the sensor's noise.
+// Range of depth differences that count, as a share of the neighbour's depth. Below it is sensor noise; above it (20 mm at 1
+// m) a neighbour further in front counts no more, so that all edges look alike.
 const STEP_RANGE: vec2<f32> = vec2(0.003, 0.02);
 
-// Towards the light, in the view: x right, y down, z away. From the upper left, over the viewer's shoulder.
+// Direction towards the light in the view (x right, y down, z away): from the upper left, over the viewer's shoulder.
 const LIGHT: vec3<f32> = vec3(-0.42, -0.58, -0.70);
 // Brightness of a surface that faces away from the light.
 const AMBIENT: f32 = 0.5;
-// One that faces the light, or is turned from it by up to 37°, has full brightness: colours on a scale stay readable.
+// Cosine up to which a surface has full brightness (turned by 37° from the light): colours of a scale stay readable.
 const FULL_LIGHT: f32 = 0.8;
 
 @vertex
@@ -48,7 +48,7 @@ fn fragment_main(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
         return vec4(view.background.rgb, 1.0);
     }
     let flat_colour = textureLoad(colour, pixel, 0);
-    // The fourth says how much of the shading the point takes.
+    // The fourth component is the share of the shading that the point takes.
     let strength = view.eye_dome * flat_colour.a;
     if strength <= 0.0 {
         return vec4(flat_colour.rgb, 1.0);
@@ -64,7 +64,7 @@ fn fragment_main(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
         let step = round(neighbour.xy * view.pixels_per_point);
         let theirs = textureLoad(closeness, pixel + vec2<i32>(step), 0).r;
         if theirs > 0.0 {
-            // near / z: the ratio is that of the depths, and the near plane drops out.
+            // A ratio of near / z is a ratio of depths; the near plane cancels.
             let front = theirs * closer_by - 1.0;
             behind += neighbour.z * clamp(front - STEP_RANGE.x, 0.0, STEP_RANGE.y);
             if abs(front) < STEP_RANGE.y {
@@ -78,7 +78,7 @@ fn fragment_main(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     return vec4(flat_colour.rgb * occlusion * light, 1.0);
 }
 
-// For a plane n · p = 1, 1 / z is n.x u + n.y v + n.z with (u, v) the place in the picture: the slope is the normal.
+// For a plane n · p = 1, 1 / z is n.x u + n.y v + n.z with image coordinates (u, v): the slope gives the normal.
 fn brightness(at: vec2<f32>, own: f32, moments: vec3<f32>, products: vec2<f32>) -> f32 {
     let determinant = moments.x * moments.z - moments.y * moments.y;
     let slope = vec2(

@@ -1,4 +1,4 @@
-//! The lines that many views share: axes, the depth camera's frustum, the nozzle with its stand-off.
+//! Lines that many views share: axes, the depth camera's frustum, the nozzle with its stand-off.
 
 use glam::Vec3;
 
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{geometry::depth_frame::Intrinsics, units::Metres};
 
-/// The three axes of a space, each of the given length; move the set to where the space stands.
+/// Makes the three axes of a frame, each of the given length; place them with [`LineSet::at`].
 pub fn axes(length: Metres) -> LineSet {
     let arm = |direction: Vec3, role| {
         Line::new([Vec3::ZERO, direction * length.0 as f32], role).with_width(3.0)
@@ -20,7 +20,7 @@ pub fn axes(length: Metres) -> LineSet {
     ])
 }
 
-/// The depth camera at the origin and the edges of its picture out to `depth`.
+/// Makes the frustum of the depth camera at the origin, with its picture's edges at `depth`.
 pub fn frustum(intrinsics: &Intrinsics, depth: Metres) -> LineSet {
     let corner = |u: f64, v: f64| {
         let p = intrinsics.point_at(u, v, depth.0);
@@ -46,8 +46,8 @@ pub fn frustum(intrinsics: &Intrinsics, depth: Metres) -> LineSet {
     LineSet::new(lines)
 }
 
-/// The spray nozzle as a cone of 24 sides, its mouth at `mouth` and pointing along `direction`, with the stand-off to
-/// the surface point `surface` in dashes.
+/// Makes the spray nozzle as a cone of 24 sides with its tip at `mouth`, pointing along `direction`, and a dashed line for the
+/// stand-off to the surface point `surface`.
 pub fn nozzle(mouth: Vec3, direction: Vec3, surface: Vec3) -> LineSet {
     const SIDES: usize = 24;
     /// Length and half width of the drawn cone, metres: about a spray gun's air cap.

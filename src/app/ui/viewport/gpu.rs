@@ -1,4 +1,4 @@
-//! The graphics device as the views of one window share it: pipelines, uploaded sets, and what went wrong.
+//! The graphics device shared by the views of a window: pipelines, uploaded sets, and the error of the device.
 
 use std::{
     collections::HashMap,
@@ -25,32 +25,32 @@ use crate::error::{Advice, lock};
 /// Why a view cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ViewError {
-    /// There is nothing to draw with.
+    /// No graphics device was found.
     #[error("no graphics device was found ({reason})")]
     NoDevice {
-        /// What the system said.
+        /// Message of the system.
         reason: String,
     },
-    /// The device went away, for example with a driver update or a sleeping laptop.
+    /// The device was lost, for example after a driver update or when a laptop slept.
     #[error("the graphics device was lost ({reason})")]
     DeviceLost {
-        /// What the system said.
+        /// Message of the system.
         reason: String,
     },
-    /// The device refused something, for example for want of memory.
+    /// The device reported an error, for example for lack of memory.
     #[error("the graphics device reported an error ({reason})")]
     DeviceError {
-        /// What the device said.
+        /// Message of the device.
         reason: String,
     },
-    /// A picture larger than the device can draw was asked for.
+    /// The requested picture is larger than the device can draw, or empty.
     #[error(
         "a picture of {width} × {height} pixels was asked for, the device draws 1 × 1 to {most} × {most}"
     )]
     PictureSize {
-        /// Width asked for, pixels.
+        /// Requested width, pixels.
         width: u32,
-        /// Height asked for, pixels.
+        /// Requested height, pixels.
         height: u32,
         /// Largest side, pixels.
         most: u32,
@@ -74,8 +74,7 @@ impl Advice for ViewError {
 
 /// A handle on the device for any number of views. Cloning is cheap and shares everything.
 ///
-/// Make one for the window with [`ViewportGpu::of_window`], or one without any window with
-/// [`ViewportGpu::headless`].
+/// Make one for the window with [`ViewportGpu::of_window`], or one without a window with [`ViewportGpu::headless`].
 #[derive(Clone)]
 pub struct ViewportGpu(Arc<Shared>);
 
@@ -89,7 +88,7 @@ struct Shared {
     num_uploads: AtomicU64,
 }
 
-/// The passes, made once per device.
+/// The pipelines and layouts of all passes, made once per device.
 pub(super) struct Pipelines {
     pub(super) uniform: wgpu::BindGroupLayout,
     pub(super) targets: TargetLayouts,
@@ -102,7 +101,7 @@ pub(super) struct Pipelines {
 }
 
 impl ViewportGpu {
-    /// The device that egui draws the window with. Call once, at start: `CreationContext::wgpu_render_state`.
+    /// Uses the device that egui draws the window with. Call once, at start, with `CreationContext::wgpu_render_state`.
     pub fn of_window(render_state: &RenderState) -> Self {
         let RenderState {
             device,
@@ -113,7 +112,7 @@ impl ViewportGpu {
         Self::new(device.clone(), queue.clone(), *target_format)
     }
 
-    /// A device of its own, for pictures without a window.
+    /// Opens a device of its own, for pictures without a window.
     pub fn headless() -> Result<Self, ViewError> {
         let no_device = |reason: String| ViewError::NoDevice { reason };
         let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
@@ -141,19 +140,19 @@ impl ViewportGpu {
         }))
     }
 
-    /// The first thing that went wrong with the device, if anything did. Views then show it in words.
+    /// The first error of the device, or its loss. Views then show it as text.
     pub fn trouble(&self) -> Option<ViewError> {
         lock(&self.0.trouble).clone()
     }
 
-    /// True once the device is gone.
+    /// Returns true once the device is lost.
     pub fn is_lost(&self) -> bool {
-        // It tells of its loss only when it is asked.
+        // The device reports its loss only when polled.
         let _ = self.0.device.poll(wgpu::PollType::Poll);
         matches!(self.trouble(), Some(ViewError::DeviceLost { .. }))
     }
 
-    /// How often a set was uploaded so far.
+    /// Number of sets uploaded so far.
     pub fn num_uploads(&self) -> u64 {
         self.0.num_uploads.load(Ordering::Relaxed)
     }
@@ -170,7 +169,7 @@ impl ViewportGpu {
         &self.0.pipelines
     }
 
-    /// The set on the GPU, uploaded unless some view already holds it.
+    /// Returns the set on the GPU, uploading it unless a view already holds it.
     pub(super) fn points(&self, set: &PointSet) -> Arc<GpuPoints> {
         held(&self.0.points, set.generation(), || {
             let Shared {
@@ -184,7 +183,7 @@ impl ViewportGpu {
         })
     }
 
-    /// As [`Self::points`].
+    /// Like [`Self::points`], for lines.
     pub(super) fn lines(&self, set: &LineSet) -> Arc<GpuLines> {
         held(&self.0.lines, set.generation(), || {
             self.0.num_uploads.fetch_add(1, Ordering::Relaxed);
@@ -212,11 +211,11 @@ impl Pipelines {
     }
 }
 
-/// Keeps the first trouble. Without this wgpu panics on any error of the device.
+/// Records the first error of the device. Without these callbacks wgpu panics on any error.
 fn listen(device: &wgpu::Device, trouble: &Arc<Mutex<Option<ViewError>>>) {
     let on_lost = Arc::clone(trouble);
     device.set_device_lost_callback(move |_, reason| {
-        // Whatever else was wrong follows from this. Nobody asks about a device that was let go of on purpose.
+        // A loss explains all earlier errors. A device dropped on purpose also lands here, but then nobody asks.
         *lock(&on_lost) = Some(ViewError::DeviceLost { reason });
     });
     let on_error = Arc::clone(trouble);
@@ -227,7 +226,7 @@ fn listen(device: &wgpu::Device, trouble: &Arc<Mutex<Option<ViewError>>>) {
     }));
 }
 
-/// The entry of this number, made if nobody holds it any more; entries that nobody holds are forgotten.
+/// Returns the entry of this number, making it if nobody holds it any more; drops entries that nobody holds.
 fn held<T>(all: &Mutex<HashMap<u64, Weak<T>>>, number: u64, make: impl FnOnce() -> T) -> Arc<T> {
     let mut all = lock(all);
     if let Some(found) = all.get(&number).and_then(Weak::upgrade) {

@@ -1,4 +1,4 @@
-//! The colour scale in the corner of a view: the same stops as the shader's, with the values at ends and middle.
+//! The colour scale in the corner of a view: the shader's stops, with the values at the ends and the middle.
 
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Vec2};
 
@@ -11,10 +11,10 @@ use crate::{app::language::text, units::Metres};
 
 const BAR: Vec2 = Vec2::new(168.0, 8.0);
 const MARGIN: f32 = 14.0;
-/// Room for a row of controls at the top.
+/// Height of a row of controls at the top.
 const CONTROLS: f32 = 48.0;
 
-/// Draws the scale that the view's points are coloured by, if it is one.
+/// Draws the scale that colours the view's points, if a scale does.
 pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewStyle) {
     let fits = rect.width() > BAR.x + 4.0 * MARGIN && rect.height() > 100.0;
     if style.legend == Legend::Hidden || !fits {

@@ -1,7 +1,7 @@
-//! Lines on the GPU: a buffer of segments per line set, uploaded once, and the pass that draws them.
+//! Lines on the GPU: each line set is uploaded once as a buffer of segments; this pass draws them.
 //!
-//! A segment is one instance, widened on the screen to its width in pixels, with a smooth edge. It is compared with
-//! the depth of the points: where a surface hides it, it is drawn faintly, so that axes inside a part can be found.
+//! A segment is one instance, widened on the screen to its width in pixels, with a smooth edge. It is compared with the depth
+//! of the points and drawn faintly where a surface hides it, so that axes inside a part can be found.
 //!
 //! Known limits: lines do not hide one another, and the dashes of a polyline start anew at each corner.
 
@@ -15,7 +15,7 @@ use super::{
     targets::COLOUR_FORMAT,
 };
 
-/// The text of the shader.
+/// Source of the shader.
 pub(super) const SHADER: &str = concat!(include_str!("view.wgsl"), include_str!("lines.wgsl"));
 
 /// `DASHED` in lines.wgsl.
@@ -38,14 +38,14 @@ pub(super) struct LinesUniform {
     pub(super) clip_from_set: Mat4,
 }
 
-/// The segments of one set.
+/// The uploaded segments of one set.
 pub(super) struct GpuLines {
     buffer: wgpu::Buffer,
     num_segments: u32,
 }
 
 impl GpuLines {
-    /// Copies a set to the GPU, without segments that have an end that is not finite.
+    /// Copies a set to the GPU, skipping segments with a non-finite end.
     pub(super) fn upload(device: &wgpu::Device, set: &LineSet) -> Self {
         let segments: Vec<GpuSegment> = set
             .lines()
@@ -78,7 +78,7 @@ impl GpuLines {
         }
     }
 
-    /// Draws all segments with the pipeline and groups already set.
+    /// Draws all segments; pipeline and bind groups must be set.
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         if self.num_segments > 0 {
             pass.set_vertex_buffer(0, self.buffer.slice(..));
@@ -87,7 +87,7 @@ impl GpuLines {
     }
 }
 
-/// The pass that draws lines.
+/// Makes the pipeline that draws lines.
 pub(super) fn pipeline(
     device: &wgpu::Device,
     layouts: &[&wgpu::BindGroupLayout],

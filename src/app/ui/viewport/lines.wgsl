@@ -1,4 +1,4 @@
-// Lines of a width in pixels: one instance a segment, widened on the screen, smooth at the edge, faint where hidden.
+// Lines of a width in pixels: one instance per segment, widened on the screen, smooth at the edge, faint where hidden.
 
 // The Rust side is `LinesUniform` in lines.rs.
 struct Lines {
@@ -20,7 +20,7 @@ struct GpuSegment {
 
 struct Corner {
     @builtin(position) clip: vec4<f32>,
-    // Physical pixels along the segment from its start, and across it.
+    // Position in physical pixels along the segment from its start, and across it.
     @location(0) at: vec2<f32>,
     @location(1) @interpolate(flat) length: f32,
     @location(2) @interpolate(flat) half_width: f32,
@@ -31,7 +31,7 @@ const DASHED: u32 = 256u;
 // Logical pixels from dash to dash.
 const DASH_PERIOD: f32 = 14.0;
 const DASH_SHARE: f32 = 0.57;
-// A line on a surface is not hidden by it: it may lie this share of its depth behind.
+// A line may lie this share of its depth behind a surface without being hidden, so that lines on a surface show.
 const ON_SURFACE: f32 = 0.012;
 
 @vertex
@@ -44,7 +44,7 @@ fn vertex_main(@builtin(vertex_index) index: u32, segment: GpuSegment) -> Corner
     if start.w <= view.near && end.w <= view.near {
         return corner;
     }
-    // An end behind the eye is brought forward to the near plane.
+    // Clip an end behind the eye to the near plane.
     if start.w < view.near {
         start = mix(start, end, (view.near - start.w) / (end.w - start.w));
     } else if end.w < view.near {
@@ -67,7 +67,7 @@ fn vertex_main(@builtin(vertex_index) index: u32, segment: GpuSegment) -> Corner
     let is_end = f32(index >> 1u);
     corner.at = vec2(mix(-reach, length + reach, is_end), side * reach);
     let pixel = a + along * corner.at.x + across * corner.at.y;
-    // near / w is even along the screen, so w can be 1 from here on.
+    // near / w is linear on the screen, so w can be 1 from here on.
     let depth = mix(start.z / start.w, end.z / end.w, is_end);
     corner.clip = vec4(pixel / half_size, depth, 1.0);
     return corner;

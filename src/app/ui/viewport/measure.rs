@@ -1,4 +1,4 @@
-//! Measuring the distance between two picked points, and its components along the axes of the view's space.
+//! Measures the distance between two picked points, and its components along the axes of the world.
 
 use egui::{Align2, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2 as ScreenVec};
 use glam::Vec3;
@@ -10,14 +10,14 @@ use super::{
 };
 use crate::{app::language::text, units::Metres};
 
-/// Up to two points, and what lies between them.
+/// Up to two picked points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measurement {
     points: [Option<Vec3>; 2],
 }
 
 impl Measurement {
-    /// Takes the next point; a third one begins anew.
+    /// Adds a point; a third one starts over.
     pub fn add(&mut self, point: Vec3) {
         self.points = match self.points {
             [Some(first), None] => [Some(first), Some(point)],
@@ -25,7 +25,7 @@ impl Measurement {
         };
     }
 
-    /// The distance, once both points are there.
+    /// The distance, once both points are set.
     pub fn distance(&self) -> Option<Metres> {
         let [Some(a), Some(b)] = self.points else {
             return None;
@@ -33,7 +33,7 @@ impl Measurement {
         Some(Metres(f64::from(a.distance(b))))
     }
 
-    /// From the first point to the second: the distance, and its components below it.
+    /// Formats the distance from the first point to the second, with its components on a second line.
     fn words(&self) -> Option<String> {
         let [Some(a), Some(b)] = self.points else {
             return None;
@@ -41,7 +41,7 @@ impl Measurement {
         let axes = [("X", b.x - a.x), ("Y", b.y - a.y), ("Z", b.z - a.z)];
         let along = axes.map(|(axis, metres)| {
             let mm = Metres(f64::from(metres)).mm();
-            // No sign before what is shown as zero.
+            // No sign on a value shown as zero.
             let mm = if mm.abs() < 0.05 { 0.0 } else { mm };
             format!("Δ{axis} {mm:+.1}")
                 .replace("+0.0", "0.0")
@@ -50,7 +50,7 @@ impl Measurement {
         Some(format!("{}\n{} mm", self.distance()?, along.join("  ")))
     }
 
-    /// What a person is to do next; nothing once there is a distance.
+    /// Tells the user which point to pick next; nothing once both are set.
     pub(super) fn next_step(&self) -> Option<String> {
         match self.points {
             [None, _] => Some(text!("view-measure-first")),
@@ -80,7 +80,7 @@ impl Measurement {
     }
 }
 
-/// Where a plate of words stands relative to its point.
+/// Position of a text plate relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     /// Centred on it.
@@ -89,7 +89,7 @@ pub(super) enum Anchor {
     Right,
 }
 
-/// Words on a plate of the background's colour, so that they can be read on any points.
+/// Draws text on a plate of the background colour, so that it is readable over any points.
 pub(super) fn plate(painter: &Painter, at: Pos2, text: &str, style: &ViewStyle, anchor: Anchor) {
     let colours = &style.colours;
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.0), colours.text);
@@ -112,7 +112,7 @@ pub(super) fn plate(painter: &Painter, at: Pos2, text: &str, style: &ViewStyle, 
     ));
 }
 
-/// Where a world point is seen in the window, if it lies inside the view.
+/// Projects a world point to the window, if it lies inside the view.
 pub(super) fn on_screen(point: Vec3, rect: Rect, camera: &ViewCamera) -> Option<Pos2> {
     let seen = camera.screen_from_world(point, vec2(rect.size()))?;
     let at = rect.min + ScreenVec::new(seen.x, seen.y);

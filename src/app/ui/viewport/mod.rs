@@ -1,4 +1,4 @@
-//! The 3-D view: point clouds, lines and words, turned and measured by hand.
+//! The 3-D view: point clouds, lines and labels, moved and measured with the mouse.
 //!
 //! ```text
 //! ViewScene   what is shown: PointSet, LineSet, TextLabel   scene, furniture   (data, made by the caller)
@@ -9,22 +9,22 @@
 //! Viewport::ui ─► ViewportResponse: picked, drawn             widget, navigation, picking, drawing, measure, legend
 //!     │
 //!     ▼
-//! points ─► eye dome ─► lines ─► picture ─► window           renderer and one file a pass, each with its .wgsl
+//! points ─► eye dome ─► lines ─► picture ─► window           renderer and one file per pass, each with its .wgsl
 //! ```
 //!
-//! A view at rest costs one copy of its finished picture: it is drawn anew only when camera, scene, style or size
-//! differ, and points are uploaded only when a set not seen before comes.
+//! A view at rest costs one copy of its finished picture: it is redrawn only when camera, scene, style or size change, and
+//! points are uploaded only for a set not seen before.
 //!
 //! | with | does |
 //! | --- | --- |
-//! | left drag, arrow keys | turn; with a box or lasso as the tool a left drag draws it |
-//! | right, middle or Shift + left drag, Shift + arrow keys, two fingers | shift |
-//! | wheel, pinch, + and − | zoom, to the cursor |
+//! | left drag, arrow keys | rotate; with a box or lasso as the tool a left drag draws it |
+//! | right, middle or Shift + left drag, Shift + arrow keys, two fingers | pan |
+//! | wheel, pinch, + and − | zoom at the cursor |
 //! | F, Shift + F | fit the part, fit everything |
 //! | Z, Y, X | look along that axis: front, top, side |
 //! | M, Esc | measure between two clicked points, stop measuring |
 //!
-//! Keys go to the view that has the focus, or to the one under the pointer while nothing has it.
+//! Keys go to the focused view, or to the one under the pointer if nothing has the focus.
 
 pub mod bounds;
 pub mod camera;

@@ -1,4 +1,4 @@
-//! Turns pointer, wheel, pinch and keys over a view into moves of its camera.
+//! Turns pointer, wheel, pinch and key input over a view into camera motion.
 
 use egui::{EventFilter, Key, Modifiers, PointerButton, Response, Ui};
 use glam::Vec2;
@@ -9,16 +9,16 @@ use super::{
     scene::ViewScene,
 };
 
-/// One press of an arrow key turns by this, radians: 24 presses a full turn.
+/// Rotation per press of an arrow key, radians: 24 presses make a full turn.
 const TURN_PER_PRESS: f32 = std::f32::consts::TAU / 24.0;
-/// One press of an arrow key with Shift shifts by this, logical pixels.
+/// Shift per press of Shift and an arrow key, logical pixels.
 const PAN_PER_PRESS: f32 = 40.0;
-/// One press of + comes nearer by this factor.
+/// Zoom factor per press of + or −.
 const ZOOM_PER_PRESS: f32 = 1.2;
-/// Zoom per logical pixel that the wheel scrolls, as a power of e: one notch of about 50 is a factor 1.28.
+/// Zoom exponent (base e) per logical pixel scrolled: one notch of about 50 pixels zooms by 1.28.
 const ZOOM_PER_SCROLL: f32 = 0.005;
 
-/// Does the fit that the camera was asked for, once there is something to fit to.
+/// Performs the fit that the camera was asked for, once there is something to fit to.
 pub(super) fn fit_if_pending(camera: &mut ViewCamera, scene: &ViewScene, size: ViewSize) {
     let bounds = match camera.pending_fit() {
         Some(FitRequest::Focus) => scene.focus(),
@@ -30,7 +30,7 @@ pub(super) fn fit_if_pending(camera: &mut ViewCamera, scene: &ViewScene, size: V
     }
 }
 
-/// Moves the camera by what happened over the view since the last frame; a drag that draws does not.
+/// Moves the camera by the input since the last frame, except for a drag that draws.
 pub(super) fn navigate(
     ui: &Ui,
     response: &Response,
@@ -47,7 +47,7 @@ pub(super) fn navigate(
     }
 }
 
-/// A view hears keys while it has the focus, or while nothing has it and the pointer is over the view.
+/// Returns true if the view takes keys: it has the focus, or nothing has it and the pointer is over the view.
 pub(super) fn is_listening(ui: &Ui, response: &Response) -> bool {
     response.has_focus()
         || (response.contains_pointer() && ui.memory(egui::Memory::focused).is_none())
@@ -55,7 +55,7 @@ pub(super) fn is_listening(ui: &Ui, response: &Response) -> bool {
 
 fn drag(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) {
     let moved = vec2(response.drag_delta());
-    // Two fingers pan with the pinch in `zoom`.
+    // `zoom` handles two-finger panning together with the pinch.
     if ui.input(egui::InputState::multi_touch).is_some() {
         return;
     }
@@ -87,7 +87,7 @@ fn zoom(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) {
 
 fn keys(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) {
     if response.has_focus() {
-        // The arrows are ours; Tab still leaves the view.
+        // The view uses the arrow keys and Escape; Tab still leaves it.
         let arrows = EventFilter {
             tab: false,
             horizontal_arrows: true,
@@ -129,7 +129,7 @@ fn keys(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) {
     }
 }
 
-/// egui's vector as glam's.
+/// Converts egui's vector to glam's.
 pub(super) fn vec2(v: egui::Vec2) -> Vec2 {
     Vec2::new(v.x, v.y)
 }

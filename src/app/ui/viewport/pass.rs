@@ -1,4 +1,4 @@
-//! What the passes of the view have in common: making a pipeline, a layout and a bind group in a few words.
+//! Helpers for the passes of the view: making a pipeline, a layout, a bind group or a uniform buffer.
 
 use eframe::wgpu;
 
@@ -6,7 +6,7 @@ use eframe::wgpu;
 pub(super) struct PassSpec<'a> {
     pub(super) label: &'a str,
     pub(super) source: &'a str,
-    /// What the shader declares as `override`, by name.
+    /// Values for the shader's `override` declarations, by name.
     pub(super) constants: &'a [(&'a str, f64)],
     pub(super) layouts: &'a [&'a wgpu::BindGroupLayout],
     /// The per-instance buffer, if any.
@@ -58,7 +58,7 @@ pub(super) fn pipeline(device: &wgpu::Device, spec: &PassSpec<'_>) -> wgpu::Rend
     })
 }
 
-/// A bind group layout of uniforms and pictures, numbered from 0.
+/// Makes a bind group layout of uniforms and textures, numbered from 0.
 pub(super) fn layout(
     device: &wgpu::Device,
     label: &str,
@@ -109,21 +109,21 @@ pub(super) const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
     min_binding_size: None,
 };
 
-/// A binding for a picture that is read texel by texel.
+/// A binding for a float texture that is read texel by texel.
 pub(super) const PICTURE: wgpu::BindingType = wgpu::BindingType::Texture {
     sample_type: wgpu::TextureSampleType::Float { filterable: false },
     view_dimension: wgpu::TextureViewDimension::D2,
     multisampled: false,
 };
 
-/// A binding for a table of whole numbers that is read texel by texel.
+/// A binding for an integer texture that is read texel by texel.
 pub(super) const TABLE: wgpu::BindingType = wgpu::BindingType::Texture {
     sample_type: wgpu::TextureSampleType::Uint,
     view_dimension: wgpu::TextureViewDimension::D2,
     multisampled: false,
 };
 
-/// A uniform buffer with the group that binds it alone.
+/// A uniform buffer and the bind group that holds it alone.
 pub(super) struct Uniform {
     buffer: wgpu::Buffer,
     pub(super) group: wgpu::BindGroup,

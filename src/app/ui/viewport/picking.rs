@@ -1,7 +1,7 @@
-//! Finds the point under the cursor: a walk over all points, done only on a click.
+//! Finds the point under the cursor by going through all points on a click.
 //!
-//! Of the points within a few pixels of the cursor those in front count, and of these the one nearest to the cursor.
-//! A walk over a million points takes about 10 ms, once a click; an index would cost memory all the time.
+//! Of the points within a few pixels of the cursor, only the frontmost surface counts, and of its points the one nearest to
+//! the cursor is picked. A million points take about 10 ms, once per click; an index would cost memory all the time.
 
 use glam::{Vec2, Vec3};
 
@@ -10,19 +10,19 @@ use super::{
     scene::ViewScene,
 };
 
-/// How far from the cursor a point may be, logical pixels: about the width of a fingertip's error with a mouse.
+/// Maximum distance from the cursor, logical pixels: about the aiming error with a mouse.
 const REACH: f32 = 10.0;
-/// Points this share of the depth behind the foremost still count as the same surface.
+/// Points up to this share of the depth behind the foremost count as the same surface.
 const SURFACE_DEPTH: f32 = 0.02;
 
-/// A point of the scene, as picked.
+/// A picked point of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PickedPoint {
-    /// Which of the scene's point sets.
+    /// Index of the point set in the scene.
     pub set: usize,
-    /// Which of its points.
+    /// Index of the point in its set.
     pub index: usize,
-    /// Where it is, world, metres.
+    /// Position, world, metres.
     pub position: Vec3,
 }
 
@@ -32,7 +32,7 @@ struct PickHit {
     off_cursor_sq: f32,
 }
 
-/// The visible point nearest to the cursor, if any is near; `is_shown` tells which roles are drawn at all.
+/// Returns the visible point nearest to the cursor, if one is near; `is_shown` tells which roles are drawn.
 pub(super) fn pick(
     camera: &ViewCamera,
     scene: &ViewScene,
@@ -47,7 +47,7 @@ pub(super) fn pick(
         for (index, position) in set.positions().iter().enumerate() {
             let position = Vec3::from(*position);
             let clip = clip_from_set * position.extend(1.0);
-            // False for NaN as well.
+            // Also false for NaN.
             let is_before_eye = clip.w > camera.near();
             if !is_before_eye {
                 continue;
@@ -88,7 +88,7 @@ mod tests {
     const SIZE: ViewSize = Vec2::new(800.0, 600.0);
 
     fn scene() -> ViewScene {
-        // A wall at 2 m behind a part at 1.5 m, with a reading missing.
+        // A wall at 2 m behind a part at 1.5 m, with one missing reading.
         let grid = |z: f32| {
             (-20..20)
                 .flat_map(move |y| (-20..20).map(move |x| [x as f32 * 0.02, y as f32 * 0.02, z]))

@@ -1,13 +1,13 @@
-//! Points on the GPU: a table of them per point set, uploaded once, and the pass that draws it as discs.
+//! Points on the GPU: each point set is uploaded once as a table; this pass draws it as discs.
 //!
-//! Each point is a camera-facing triangle about a disc that the shader cuts out: half the work of a quad, and less
-//! than an instance each, which drivers handle one by one. The shader looks the point up by the number of the corner.
-//! The table is a texture because every backend lets a vertex shader read one. A point takes 16 bytes, with its role
-//! and deviation beside the position, so that another colouring is another uniform and no upload.
+//! Each point is a camera-facing triangle around a disc that the shader cuts out: half the work of a quad, and cheaper than an
+//! instance per point, which drivers handle one by one. The shader finds the point from the vertex index. The table is a
+//! texture because every backend lets a vertex shader read one. A point takes 16 bytes: its position, its role and its
+//! deviation, so that another colouring needs only another pipeline and no upload.
 //!
-//! The table holds the points in [`NUM_SAMPLES`] random samples, one after the other, each in the set's own order:
-//! drawing the first few samples draws an even share of the cloud, which keeps a slow device fluent while the eye
-//! moves, and nothing is chosen or sorted in a frame. Within a sample neighbours stay neighbours, as caches like it.
+//! The table holds the points in [`NUM_SAMPLES`] random samples, one after the other, each in the set's own order. Drawing the
+//! first few samples draws an even share of the cloud without choosing or sorting anything in a frame, which keeps a slow
+//! device fluid while the camera moves. Within a sample neighbours stay neighbours, which suits the caches.
 
 use bytemuck::{Pod, Zeroable};
 use eframe::wgpu;
@@ -20,22 +20,22 @@ use super::{
     targets::{CLOSENESS_FORMAT, COLOUR_FORMAT, DEPTH_FORMAT},
 };
 
-/// The text of the shader.
+/// Source of the shader.
 pub(super) const SHADER: &str = concat!(include_str!("view.wgsl"), include_str!("points.wgsl"));
 
-/// Into how many random samples a set is divided.
+/// Number of random samples that a set is divided into.
 pub(super) const NUM_SAMPLES: usize = 8;
 
-/// Points in one row of a table; `ROW` in points.wgsl.
+/// Points per row of a table; `ROW` in points.wgsl.
 const ROW: usize = 2048;
 
-/// Most points of one table: 2048 rows, 64 MiB, which every device allows.
+/// Maximum number of points per table: 2048 rows, 64 MiB, which every device allows.
 const POINTS_PER_TABLE: usize = 2048 * ROW;
 
 /// The upper 24 bits of [`GpuPoint::role_and_deviation`] for a point without deviation; `NO_DEVIATION` in points.wgsl.
 const NO_DEVIATION: i32 = -(1 << 23);
 
-/// One texel of the table; taken apart by `point_at` in points.wgsl.
+/// One texel of the table; decoded by `point_at` in points.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 struct GpuPoint {
@@ -54,7 +54,7 @@ pub(super) struct PointsUniform {
     pub(super) padding: [f32; 2],
 }
 
-/// The points of a set as its tables take them: to be copied and nothing else.
+/// The points of a set in the layout of the GPU tables, ready to copy.
 #[derive(Clone, Debug)]
 pub(super) struct PackedPoints {
     tables: Vec<PackedTable>,
@@ -62,13 +62,13 @@ pub(super) struct PackedPoints {
 
 #[derive(Clone, Debug)]
 struct PackedTable {
-    /// Whole rows, the last one filled up.
+    /// Whole rows; the last one is padded.
     texels: Vec<GpuPoint>,
     sample_ends: [u32; NUM_SAMPLES],
 }
 
 impl PackedPoints {
-    /// Goes through every point, leaving out those that are not finite.
+    /// Packs all finite points of the set.
     pub(super) fn of(set: &PointSet) -> Self {
         let num_points = set.positions().len();
         let starts = (0..num_points).step_by(POINTS_PER_TABLE);
@@ -87,19 +87,19 @@ impl PackedPoints {
     }
 }
 
-/// The points of one set.
+/// The uploaded points of one set.
 pub(super) struct GpuPoints {
     tables: Vec<Table>,
 }
 
 struct Table {
     group: wgpu::BindGroup,
-    /// Where each sample ends, points from the start of the table.
+    /// End of each sample, in points from the start of the table.
     sample_ends: [u32; NUM_SAMPLES],
 }
 
 impl GpuPoints {
-    /// Copies a set to the GPU.
+    /// Copies a packed set to the GPU.
     pub(super) fn upload(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -119,7 +119,7 @@ impl GpuPoints {
         }
     }
 
-    /// Draws the first `num_samples` samples with the pipeline and the groups before the table's already set.
+    /// Draws the first `num_samples` samples; the pipeline and bind groups 0 and 1 must be set.
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, num_samples: usize) {
         for table in &self.tables {
             let num_points = table.sample_ends[num_samples.clamp(1, NUM_SAMPLES) - 1];
@@ -164,7 +164,7 @@ fn upload_table(
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// The finite points of a range, sample after sample, and where each sample ends.
+/// Returns the finite points of a range, sample after sample, and where each sample ends.
 fn in_samples(
     set: &PointSet,
     range: std::ops::Range<usize>,
@@ -190,7 +190,7 @@ fn in_samples(
     (points, ends)
 }
 
-/// A number that has nothing to do with rows and columns: the top bits of a multiplicative hash (Knuth, The Art of
+/// Assigns a point to a sample independently of rows and columns: the top bits of a multiplicative hash (Knuth, The Art of
 /// Computer Programming 3, section 6.4) after one fold.
 fn sample_of(index: usize) -> usize {
     let mixed = (index as u32).wrapping_mul(0x9e37_79b1);
@@ -199,7 +199,7 @@ fn sample_of(index: usize) -> usize {
 }
 
 fn gpu_point(set: &PointSet, index: usize) -> GpuPoint {
-    // 24 bits of micrometres reach ± 8.3 m.
+    // 24 bits of micrometres reach ±8.3 m.
     let micrometres = set.deviation(index).map_or(NO_DEVIATION, |d| {
         ((d * 1e6) as i32).clamp(NO_DEVIATION + 1, -NO_DEVIATION - 1)
     });
@@ -209,7 +209,7 @@ fn gpu_point(set: &PointSet, index: usize) -> GpuPoint {
     }
 }
 
-/// The pass that draws points, coloured in one way.
+/// Makes the pipeline that draws points with one colouring.
 pub(super) fn pipeline(
     device: &wgpu::Device,
     layouts: &[&wgpu::BindGroupLayout],

@@ -1,21 +1,21 @@
-// Points as camera-facing discs: three corners a point, cut round in the fragment shader.
+// Points as camera-facing discs: three vertices per point, cut round in the fragment shader.
 
 // The Rust side is `PointsUniform` in points.rs.
 struct Points {
     clip_from_set: mat4x4<f32>,
-    // Height above the camera's level = dot(height_from_set, vec4(position, 1)).
+    // Height above the camera = dot(height_from_set, vec4(position, 1)).
     height_from_set: vec4<f32>,
-    // Diameter, physical pixels, and what is to be added to it, metres: one of them is 0.
+    // Diameter in physical pixels and in metres, added together; one of them is 0.
     diameter: f32,
     diameter_in_metres: f32,
     padding: vec2<f32>,
 }
 
-// `Colouring` in style.rs: a pipeline each. A branch on a uniform has software Vulkan (Mesa 22) compile the shader anew for
-// every picture, and keep each.
+// `Colouring` in style.rs, one pipeline each. With a branch on a uniform, software Vulkan (Mesa 22) would recompile the shader
+// for every picture and keep each copy.
 override colouring: u32;
 
-// Background planes are flat: on them shading shows little but noise.
+// Share of the shading that background planes take: they are flat, and shading shows little but noise on them.
 const BACKGROUND_SHADING: f32 = 0.3;
 
 @group(1) @binding(0) var<uniform> points: Points;
@@ -27,16 +27,16 @@ const BY_DEVIATION: u32 = 2u;
 const FIRST_PLANE: u32 = 2u;
 const LAST_PLANE: u32 = 5u;
 
-// The value of the upper 24 bits that says "no deviation".
+// The value of the upper 24 bits for a point without deviation.
 const NO_DEVIATION: i32 = -8388608;
 
-// Diameters on the screen, physical pixels: below the first a point flickers, above the last it hides the others.
+// Limits of the diameter on the screen, physical pixels: smaller points flicker, larger ones hide the others.
 const DIAMETER_RANGE: vec2<f32> = vec2(1.5, 64.0);
 
-// Share of the background mixed into points that the scale does not speak of.
+// Share of the background mixed into points that the scale does not apply to.
 const DIMMED: f32 = 0.4;
 
-// One texel a point, in rows. The Rust side is `GpuPoint` in points.rs.
+// One texel per point, in rows. The Rust side is `GpuPoint` in points.rs.
 @group(2) @binding(0) var texels: texture_2d<u32>;
 
 // `ROW` in points.rs.
@@ -55,14 +55,14 @@ fn point_at(index: u32) -> Point {
     return Point(bitcast<vec3<f32>>(texel.xyz), role, bitcast<i32>(texel.w) >> 8u);
 }
 
-// The smallest even triangle about a disc of radius 1.
+// The smallest equilateral triangle around a disc of radius 1.
 const CORNERS = array(vec2(0.0, 2.0), vec2(-1.7320508, -1.0), vec2(1.7320508, -1.0));
 
 struct Corner {
     @builtin(position) clip: vec4<f32>,
-    // From the middle of the disc; its edge is at 1.
+    // Offset from the centre of the disc, whose edge is at 1.
     @location(0) offset: vec2<f32>,
-    // The fourth is how much of the shading the point takes.
+    // The fourth component is the share of the shading that the point takes.
     @location(1) @interpolate(flat) colour: vec4<f32>,
 }
 
@@ -77,7 +77,7 @@ fn vertex_main(@builtin(vertex_index) index: u32) -> Corner {
     var corner: Corner;
     corner.offset = offset;
     if diameter <= 0.0 || clip.w <= view.near {
-        // Beyond the far side of clip space: nothing is drawn.
+        // Outside clip space, so that nothing is drawn.
         corner.clip = vec4(0.0, 0.0, 2.0, 1.0);
         return corner;
     }
@@ -136,7 +136,7 @@ fn deviation_colour(share: f32) -> vec3<f32> {
 
 struct Pixel {
     @location(0) colour: vec4<f32>,
-    // near / z, for the passes that follow: 0 where there is nothing.
+    // near / z for the passes that follow, 0 where there is nothing.
     @location(1) closeness: f32,
 }
 

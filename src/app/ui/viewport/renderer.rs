@@ -1,4 +1,4 @@
-//! Draws one view into its own picture, and only when something that can be seen has changed.
+//! Draws one view into its own picture, and only when something visible has changed.
 //!
 //! ```text
 //! points ─► colour, near / z ─► eye dome ─► picture ◄─ lines          composite: picture ─► window
@@ -23,21 +23,21 @@ use super::{
     uniform::ViewUniform,
 };
 
-/// What is to be drawn.
+/// The inputs of one picture.
 #[derive(Clone)]
 pub(super) struct Frame {
     pub(super) camera: ViewCamera,
     pub(super) scene: ViewScene,
     pub(super) style: ViewStyle,
-    /// Logical pixels.
+    /// Size of the view, logical pixels.
     pub(super) size: ViewSize,
-    /// Of the picture, pixels.
+    /// Size of the picture, pixels.
     pub(super) target: [u32; 2],
     /// How many of the [`NUM_SAMPLES`] random samples of each point set are drawn.
     pub(super) num_samples: usize,
 }
 
-/// Everything that the picture depends on; equal keys, equal pictures.
+/// Everything that the picture depends on: equal keys mean equal pictures.
 #[derive(Clone, Debug, PartialEq)]
 struct PictureKey {
     view: ViewUniform,
@@ -47,7 +47,7 @@ struct PictureKey {
     num_samples: usize,
 }
 
-/// The GPU side of one view.
+/// The GPU resources of one view.
 #[derive(Default)]
 pub(super) struct ViewRenderer {
     drawn: Option<PictureKey>,
@@ -65,7 +65,7 @@ struct GpuBuffers {
 }
 
 impl ViewRenderer {
-    /// Records the drawing of the frame, unless the picture already shows it; true if it did.
+    /// Records the drawing of the frame and returns true, unless the picture already shows it.
     pub(super) fn draw(
         &mut self,
         gpu: &ViewportGpu,
@@ -87,7 +87,7 @@ impl ViewRenderer {
         true
     }
 
-    /// Says where in the window the picture goes, and how many of its pixels one of the picture is wide.
+    /// Sets where in the window the picture goes, and how many window pixels one of its pixels is wide.
     pub(super) fn place(&mut self, gpu: &ViewportGpu, origin: [i32; 2], pixel_side: u32) {
         if let Some(held) = &mut self.held {
             held.bound.place(gpu.queue(), origin, pixel_side);
@@ -106,7 +106,7 @@ impl ViewRenderer {
         self.held.as_ref().map(|held| &held.targets.picture_texture)
     }
 
-    /// How often the picture was drawn anew.
+    /// Number of times the picture was redrawn.
     pub(super) fn num_pictures(&self) -> u64 {
         self.num_pictures
     }
@@ -145,7 +145,7 @@ impl ViewRenderer {
         if self.drawn.as_ref().is_some_and(|drawn| same(key, drawn)) {
             return;
         }
-        // The new ones first: those that stay must not be let go of in between.
+        // Get the new ones before dropping the old, so that sets in both are not freed in between.
         self.points = frame
             .scene
             .points
@@ -218,7 +218,7 @@ impl ViewRenderer {
     }
 }
 
-/// Begins a pass that clears all it draws to: colours to nothing, depth to infinitely far.
+/// Begins a pass that clears its targets: colours to transparent, depth to infinity.
 fn begin<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     label: &str,
@@ -266,7 +266,7 @@ impl PictureKey {
         } = frame;
         let clip_from_world = camera.clip_from_world(*size);
         let pixels_per_point = target[1] as f32 / size.y.max(1.0);
-        // Fewer points are drawn larger, but not so much that they cover as much as before: filling costs as well.
+        // Draw fewer points larger, but not large enough to cover the same area: filling costs time too.
         let growth = (NUM_SAMPLES as f32 / *num_samples as f32).powf(0.25);
         let (diameter, diameter_in_metres) = match style.point_size {
             PointSize::Pixels(pixels) => (pixels * pixels_per_point * growth, 0.0),
@@ -300,12 +300,12 @@ impl PictureKey {
     }
 }
 
-/// Up is −y, so a height is minus the second row of the transform.
+/// Up is −y, so the height is the negated second row of the transform.
 fn height_from(world_from_set: &Mat4) -> Vec4 {
     -world_from_set.row(1)
 }
 
-/// Height above the camera's level at the ends of the height scale, metres.
+/// Height above the camera at the low and the high end of the height scale, metres.
 pub(super) fn height_range(scene: &ViewScene) -> [f32; 2] {
     let height = |point: Vec3| -point.y;
     scene.focus().map_or([0.0, 1.0], |bounds| {

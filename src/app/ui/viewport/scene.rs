@@ -1,8 +1,8 @@
 //! What a view shows: point sets, lines and labels, as plain data that is cheap to clone.
 //!
-//! A [`PointSet`] or [`LineSet`] is made once, off the UI thread if it is large, and never changes; each has a number
-//! of its own (its generation), by which the GPU's copy is known. To show other points, make another set; to show the
-//! same points elsewhere, change `world_from_set` and nothing is uploaded again.
+//! A [`PointSet`] or [`LineSet`] is made once, off the UI thread if it is large, and never changes; its generation number
+//! identifies its copy on the GPU. To show other points, make another set; to move the same points, change `world_from_set`,
+//! which uploads nothing.
 
 use std::sync::{
     Arc,
@@ -18,18 +18,18 @@ use super::{
 };
 use crate::{geometry::rigid::RigidTransform, stages::segment::PointLabel};
 
-/// A number that no other set of this run has.
+/// Returns a number that no other set of this process has.
 fn next_generation() -> u64 {
     static NEXT: AtomicU64 = AtomicU64::new(1);
     NEXT.fetch_add(1, Ordering::Relaxed)
 }
 
-/// Points with what they can be coloured by. Cloning shares the data.
+/// Points and the data that they can be coloured by. Cloning shares the data.
 #[derive(Clone, Debug)]
 pub struct PointSet {
-    /// Where the set stands: maps its own coordinates (camera or part) to the view's world, the camera space.
+    /// Transform from the set's own frame (camera or part) to the view's world, the camera frame.
     pub world_from_set: Mat4,
-    /// The colouring of this set where it differs from the view's.
+    /// Overrides the view's colouring for this set.
     pub colouring: Option<Colouring>,
     positions: Arc<[[f32; 3]]>,
     labels: Labels,
@@ -47,7 +47,7 @@ enum Labels {
 }
 
 impl PointSet {
-    /// Points that all play one role. Those with a coordinate that is not finite are never shown.
+    /// Makes a set of points with one role. Points with a non-finite coordinate are never shown.
     pub fn new(positions: impl Into<Arc<[[f32; 3]]>>, role: Role) -> Self {
         let positions = positions.into();
         let bounds = PointBounds::robust(positions.iter().map(|p| Vec3::from(*p)));
@@ -64,7 +64,7 @@ impl PointSet {
         }
     }
 
-    /// A scene with what segmentation took each point for; both lists are in the same order.
+    /// Makes a set from a segmented scene; `positions` and `labels` are in the same order.
     pub fn segmented(positions: impl Into<Arc<[[f32; 3]]>>, labels: &[PointLabel]) -> Self {
         let mut set = Self::new(positions, Role::Rest);
         assert_eq!(labels.len(), set.positions.len(), "one label per point");
@@ -76,8 +76,8 @@ impl PointSet {
         set
     }
 
-    /// Adds the signed deviation of each point from the reference, metres, in the order of the positions. NaN where
-    /// there is none: such a point keeps the colour of its role, dimmed.
+    /// Adds the signed deviation of each point from the reference, metres, in the order of the positions. Points with NaN have
+    /// none and keep the colour of their role, dimmed.
     #[must_use]
     pub fn with_deviations(mut self, deviations: impl Into<Arc<[f32]>>) -> Self {
         let deviations = deviations.into();
@@ -92,15 +92,14 @@ impl PointSet {
         self
     }
 
-    /// Arranges the points as the GPU takes them, as the last step of making the set off the UI thread: showing it is
-    /// then a copy.
+    /// Packs the points for the GPU, as the last step of making the set off the UI thread: showing it is then only a copy.
     #[must_use]
     pub fn packed(mut self) -> Self {
         self.packed = Some(Arc::new(PackedPoints::of(&self)));
         self
     }
 
-    /// The points as the GPU takes them, arranged now if nobody has yet.
+    /// Returns the points packed for the GPU, packing them now if [`Self::packed`] was not called.
     pub(super) fn to_upload(&self) -> Arc<PackedPoints> {
         match &self.packed {
             Some(packed) => Arc::clone(packed),
@@ -108,14 +107,14 @@ impl PointSet {
         }
     }
 
-    /// Colours the set in its own way, whatever the view's colouring.
+    /// Sets a colouring of its own, whatever the view's.
     #[must_use]
     pub fn coloured(mut self, colouring: Colouring) -> Self {
         self.colouring = Some(colouring);
         self
     }
 
-    /// Positions in the set's own coordinates, metres.
+    /// Positions in the set's own frame, metres.
     pub fn positions(&self) -> &[[f32; 3]] {
         &self.positions
     }
@@ -136,13 +135,13 @@ impl PointSet {
             .filter(|d| d.is_finite())
     }
 
-    /// The number by which the GPU's copy is known.
+    /// Identifies the copy on the GPU.
     pub(super) fn generation(&self) -> u64 {
         self.generation
     }
 }
 
-/// A rigid transform as the GPU takes it.
+/// Converts a rigid transform for the GPU.
 pub fn mat4(transform: &RigidTransform) -> Mat4 {
     let matrix = transform.to_homogeneous().cast::<f32>();
     Mat4::from_cols_slice(matrix.as_slice())
@@ -160,9 +159,9 @@ pub enum Stroke {
 /// A polyline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Corners, metres, in the set's own coordinates. A closed line repeats its first corner.
+    /// Vertices, metres, in the set's own frame. A closed line repeats the first.
     pub points: Vec<Vec3>,
-    /// Decides its colour.
+    /// Decides the colour.
     pub role: Role,
     /// Width, logical pixels.
     pub width: f32,
@@ -171,7 +170,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// A solid line of two pixels.
+    /// Makes a solid line two pixels wide.
     pub fn new(points: impl Into<Vec<Vec3>>, role: Role) -> Self {
         Self {
             points: points.into(),
@@ -181,14 +180,14 @@ impl Line {
         }
     }
 
-    /// The same, in dashes.
+    /// Makes the line dashed.
     #[must_use]
     pub fn dashed(mut self) -> Self {
         self.stroke = Stroke::Dashed;
         self
     }
 
-    /// The same, of another width, logical pixels.
+    /// Sets the width, logical pixels.
     #[must_use]
     pub fn with_width(mut self, width: f32) -> Self {
         self.width = width;
@@ -196,17 +195,17 @@ impl Line {
     }
 }
 
-/// Lines that stand and move together. Cloning shares the data.
+/// Lines that share a frame. Cloning shares the data.
 #[derive(Clone, Debug)]
 pub struct LineSet {
-    /// Maps the lines' coordinates to the view's world, the camera space.
+    /// Transform from the lines' frame to the view's world, the camera frame.
     pub world_from_set: Mat4,
     lines: Arc<[Line]>,
     generation: u64,
 }
 
 impl LineSet {
-    /// Lines in world coordinates.
+    /// Makes a set of lines in world coordinates.
     pub fn new(lines: impl Into<Arc<[Line]>>) -> Self {
         Self {
             world_from_set: Mat4::IDENTITY,
@@ -215,51 +214,51 @@ impl LineSet {
         }
     }
 
-    /// Stands the lines elsewhere.
+    /// Sets the transform from the lines' frame to the world.
     #[must_use]
     pub fn at(mut self, world_from_set: &RigidTransform) -> Self {
         self.world_from_set = mat4(world_from_set);
         self
     }
 
-    /// The lines.
+    /// The polylines of the set.
     pub fn lines(&self) -> &[Line] {
         &self.lines
     }
 
-    /// The number by which the GPU's copy is known.
+    /// Identifies the copy on the GPU.
     pub(super) fn generation(&self) -> u64 {
         self.generation
     }
 }
 
-/// Words at a point of the world.
+/// A text at a point of the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextLabel {
-    /// Where, world, metres.
+    /// Position, world, metres.
     pub at: Vec3,
-    /// The words.
+    /// What is written there.
     pub text: String,
 }
 
 /// Everything that one view shows.
 #[derive(Clone, Debug, Default)]
 pub struct ViewScene {
-    /// Points.
+    /// Point sets, each with its own transform.
     pub points: Vec<PointSet>,
-    /// Lines.
+    /// Line sets, each with its own transform.
     pub lines: Vec<LineSet>,
-    /// Words, drawn over everything else.
+    /// Texts, drawn over everything else.
     pub labels: Vec<TextLabel>,
 }
 
 impl ViewScene {
-    /// The box about all points, stray ones left out; `None` without any.
+    /// Returns the box around all points except outliers; `None` without any.
     pub fn bounds(&self) -> Option<PointBounds> {
         self.union(|set| set.bounds)
     }
 
-    /// The box about the part where there is one, else about everything.
+    /// Returns the box around the part if there is one, else around everything.
     pub fn focus(&self) -> Option<PointBounds> {
         self.union(|set| set.focus).or_else(|| self.bounds())
     }

@@ -1,4 +1,4 @@
-//! A picture of a scene, drawn off screen and read back. Works without a window.
+//! Draws a scene off screen and reads the picture back. Works without a window.
 
 use std::{fmt, sync::mpsc};
 
@@ -14,25 +14,25 @@ use super::{
     style::ViewStyle,
 };
 
-/// A view as it was at one moment, to be drawn later and on any thread. Cheap to clone.
+/// A snapshot of a view, to be drawn later on any thread. Cheap to clone.
 #[derive(Clone)]
 pub struct ViewShot {
-    /// What draws it.
+    /// Device that draws it.
     pub gpu: ViewportGpu,
-    /// From where.
+    /// Camera at that moment.
     pub camera: ViewCamera,
-    /// What.
+    /// Scene at that moment.
     pub scene: ViewScene,
-    /// How.
+    /// Style at that moment.
     pub style: ViewStyle,
     /// Width and height, physical pixels.
     pub size: [u32; 2],
-    /// Scales widths and point sizes.
+    /// Factor on line widths and point sizes.
     pub pixels_per_point: f32,
 }
 
 impl ViewShot {
-    /// Draws it, as [`screenshot`] does.
+    /// Draws it with [`screenshot`].
     pub fn take(&self) -> Result<RgbaImage, ViewError> {
         let Self {
             gpu,
@@ -55,10 +55,10 @@ impl fmt::Debug for ViewShot {
     }
 }
 
-/// Draws points and lines of a scene; labels and the colour scale belong to the window and are not in it.
+/// Draws the points and lines of a scene, without labels and colour scale, which belong to the window.
 ///
-/// `size` in physical pixels; `pixels_per_point` scales widths and point sizes, 1 for a plain screen. A fit still
-/// pending in `camera` is done first. Blocks until the picture is there.
+/// `size` is in physical pixels; `pixels_per_point` scales line widths and point sizes, 1 for a plain screen. A pending fit of
+/// `camera` is done first. Blocks until the picture is ready.
 pub fn screenshot(
     gpu: &ViewportGpu,
     camera: &ViewCamera,

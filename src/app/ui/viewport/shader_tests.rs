@@ -1,4 +1,4 @@
-//! Every shader is parsed and validated without a GPU, and its structs compared in size with those of Rust.
+//! Parses and validates every shader without a GPU, and compares the sizes of its structs with those in Rust.
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
@@ -64,7 +64,8 @@ fn uniforms_have_the_size_that_rust_writes() {
     );
 }
 
-/// True if a value depends on a uniform, and on nothing that differs from one corner or pixel to the next.
+/// `Some(true)` if a value depends on a uniform, `Some(false)` if it is constant, `None` if it varies between vertices or
+/// pixels.
 fn is_of_uniforms(
     module: &naga::Module,
     function: &naga::Function,
@@ -72,7 +73,7 @@ fn is_of_uniforms(
 ) -> Option<bool> {
     use naga::Expression as E;
     let of = |value| is_of_uniforms(module, function, value);
-    // `None` where it varies; of several, any that varies does.
+    // `None` if any of the values varies.
     let all = |values: &[naga::Handle<naga::Expression>]| {
         values
             .iter()
@@ -150,7 +151,7 @@ fn deciders(block: &naga::Block, found: &mut Vec<naga::Handle<naga::Expression>>
 
 #[test]
 fn no_branch_hangs_on_a_uniform_alone() {
-    // Mesa 22's software Vulkan compiles such a shader anew for every picture and keeps each: 45 MB a minute.
+    // Mesa 22's software Vulkan recompiles such a shader for every picture and keeps each copy: 45 MB a minute.
     let all = [
         ("points", points::SHADER, 5),
         ("lines", lines::SHADER, 5),

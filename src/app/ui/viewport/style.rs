@@ -5,34 +5,34 @@ use egui::Color32;
 use crate::app::language::text;
 use crate::{stages::segment::PointLabel, units::Metres};
 
-/// Colours of a scale, evenly spaced from its low end to its high end.
+/// Number of colours of a scale, evenly spaced from its low end to its high end.
 pub const SCALE_STOPS: usize = 7;
 
 /// What a point or line stands for. Decides its colour; stored per point as one byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Role {
-    /// Neither background nor part.
+    /// Any other surface: neither background nor part.
     Rest,
     /// The part.
     Part,
-    /// First background plane, as a rule the wall.
+    /// First background plane, usually the wall.
     Plane0,
-    /// Second background plane, as a rule the floor.
+    /// Second background plane, usually the floor.
     Plane1,
     /// Third background plane.
     Plane2,
     /// Any further background plane.
     Plane3,
-    /// An enrolled part that something is compared with.
+    /// An enrolled part that the scene is compared with.
     Reference,
-    /// A cloud on its way to the reference.
+    /// A cloud being aligned to the reference.
     Moving,
-    /// The x axis of a space.
+    /// The x axis of a coordinate frame.
     AxisX,
-    /// The y axis of a space.
+    /// The y axis of a coordinate frame.
     AxisY,
-    /// The z axis of a space.
+    /// The z axis of a coordinate frame.
     AxisZ,
     /// The depth camera.
     Frustum,
@@ -42,14 +42,14 @@ pub enum Role {
     Nozzle,
     /// A measured distance.
     Measure,
-    /// Surface that no shot of a scan shows.
+    /// Surface that no shot of a scan has seen.
     Unseen,
-    /// Surface that one shot of a scan alone shows.
+    /// Surface that only one shot of a scan has seen.
     SeenOnce,
 }
 
 impl Role {
-    /// Every role, in the order of their numbers.
+    /// All roles, in the order of their discriminants.
     pub const ALL: [Self; 17] = [
         Self::Rest,
         Self::Part,
@@ -70,7 +70,7 @@ impl Role {
         Self::SeenOnce,
     ];
 
-    /// The role of a point that segmentation labelled.
+    /// Returns the role for a segmentation label.
     pub fn of(label: PointLabel) -> Self {
         match label {
             PointLabel::NoReading | PointLabel::Rest => Self::Rest,
@@ -83,26 +83,26 @@ impl Role {
     }
 }
 
-/// What decides the colour of a point. Changing it uploads nothing.
+/// What decides the colour of a point. Changing it uploads nothing to the GPU.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Colouring {
-    /// Its role: part, background planes, rest.
+    /// The role: part, background planes, rest.
     #[default]
     Segment,
-    /// How high it lies; background planes keep their own colour.
+    /// The height; background planes keep their own colour.
     Height,
-    /// Its signed deviation from the reference; points without one keep the colour of their role, dimmed.
+    /// The signed deviation from the reference; points without one keep the colour of their role, dimmed.
     Deviation,
-    /// Nothing: one colour for all, so that only the shading tells the shape.
+    /// One colour for all points, with background planes dimmed; only the shading shows the shape.
     Plain,
 }
 
 impl Colouring {
-    /// Every colouring, in the order of their numbers.
+    /// All colourings, in the order of their discriminants.
     pub const ALL: [Self; 4] = [Self::Segment, Self::Height, Self::Deviation, Self::Plain];
 
-    /// What a person calls it.
+    /// Returns the name shown to the user.
     pub fn title(self) -> String {
         match self {
             Self::Segment => text!("view-segments"),
@@ -116,65 +116,65 @@ impl Colouring {
 /// The diameter of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PointSize {
-    /// The same on the screen at any distance, logical pixels, 1..20.
+    /// Constant on the screen at any distance, logical pixels, 1..20.
     Pixels(f32),
-    /// The same in the world, so that near points are larger; at least a pixel and a half.
+    /// Constant in the world, so near points look larger; at least 1.5 pixels on the screen.
     Metres(Metres),
 }
 
-/// Whether the colour scale is drawn in the corner of the view.
+/// Whether and where the colour scale is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Legend {
-    /// While points are coloured by a scale.
+    /// In the corner, while points are coloured by a scale.
     #[default]
     Shown,
-    /// As above, but further down: a row of controls stands at the top.
+    /// Like `Shown`, but lower: a row of controls is at the top.
     BelowControls,
     /// Never, for views too small for it.
     Hidden,
 }
 
-/// What the deviations of points are, for the words beside their scale.
+/// What the deviations of a point set measure; selects the scale's colours and labels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ScaleWords {
     /// Distances from the reference.
     #[default]
     Deviation,
-    /// Thicknesses of a film, a thousand times as large: a set keeps whole micrometres.
+    /// Film thicknesses, stored times 1000 because a set keeps whole micrometres.
     Film {
-        /// In the middle of the scale.
+        /// Thickness at the middle of the scale.
         target: Metres,
-        /// From there to its ends.
+        /// Difference from the middle to either end.
         range: Metres,
     },
 }
 
-/// Everything about the look of a view. Cheap to make anew each frame; the view is drawn again only when it differs.
+/// Everything about the look of a view. Cheap to build every frame; the view is redrawn only when it differs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewStyle {
     /// Colours of the theme.
     pub colours: ViewColours,
-    /// What decides the colour of a point, for sets that do not say so themselves.
+    /// Colouring of the point sets that do not set their own.
     pub colouring: Colouring,
-    /// Diameter of a point, to be multiplied by its role's weight.
+    /// Base diameter of a point, multiplied by its role's weight.
     pub point_size: PointSize,
     /// Strength of the eye-dome lighting, 0 (off) to 2. Raising it deepens edges and noise alike.
     pub eye_dome: f32,
-    /// Deviation at the ends of the scale, above 0. Beyond it the end colour stays.
+    /// Deviation at the ends of the scale, above 0. Larger ones get the end colour.
     pub deviation_range: Metres,
-    /// What deviations are.
+    /// What the deviations measure.
     pub scale_words: ScaleWords,
-    /// Whether the colour scale is drawn.
+    /// Whether and where the colour scale is drawn.
     pub legend: Legend,
 }
 
 impl ViewStyle {
-    /// The usual look in the colours of a theme.
+    /// Returns the default style with the given colours.
     pub fn new(colours: ViewColours) -> Self {
         Self {
             colours,
             colouring: Colouring::default(),
-            // The spacing of a depth camera's points on a part: closed surfaces at any zoom.
+            // About the point spacing of a depth camera on a part: surfaces look closed at any zoom.
             point_size: PointSize::Metres(Metres::from_mm(4.0)),
             eye_dome: 1.0,
             deviation_range: Metres::from_mm(5.0),
@@ -187,33 +187,33 @@ impl ViewStyle {
 /// The look of one role.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoleColour {
-    /// Its colour.
+    /// Colour of points and lines of the role.
     pub colour: Color32,
-    /// Factor on the diameter of its points; 0 hides them. For lines, their opacity.
+    /// Factor on the diameter of points; 0 hides them. For lines, the opacity.
     pub weight: f32,
 }
 
 /// The colours of a view, by role.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewColours {
-    /// Behind everything.
+    /// Background of the view.
     pub background: Color32,
     /// Text on the view.
     pub text: Color32,
     /// Less important text on the view.
     pub weak_text: Color32,
-    /// One per [`Role`], in the order of their numbers.
+    /// One per [`Role`], in the order of their discriminants.
     pub roles: [RoleColour; Role::ALL.len()],
-    /// From low to high.
+    /// Height scale, from low to high.
     pub height_scale: [Color32; SCALE_STOPS],
-    /// Diverging: from below the reference over 0 in the middle to above it.
+    /// Diverging deviation scale: below the reference, zero in the middle, above the reference.
     pub deviation_scale: [Color32; SCALE_STOPS],
-    /// Diverging: from a film that is too thin over the right one in the middle to one that is too thick.
+    /// Diverging film scale: too thin, right in the middle, too thick.
     pub film_scale: [Color32; SCALE_STOPS],
 }
 
 impl ViewColours {
-    /// For a dark window.
+    /// Returns the colours for a dark window.
     pub fn dark() -> Self {
         let role = |rgb: u32, weight: f32| RoleColour {
             colour: hex(rgb),
@@ -257,7 +257,7 @@ impl ViewColours {
         }
     }
 
-    /// For a light window.
+    /// Returns the colours for a light window.
     pub fn light() -> Self {
         let role = |rgb: u32, weight: f32| RoleColour {
             colour: hex(rgb),
@@ -301,7 +301,7 @@ impl ViewColours {
         }
     }
 
-    /// The colours of deviations.
+    /// Returns the scale for what the deviations measure.
     pub(super) fn deviations(&self, words: ScaleWords) -> &[Color32; SCALE_STOPS] {
         match words {
             ScaleWords::Deviation => &self.deviation_scale,
@@ -309,13 +309,13 @@ impl ViewColours {
         }
     }
 
-    /// The look of a role.
+    /// Returns the look of a role.
     pub fn role(&self, role: Role) -> RoleColour {
         self.roles[role as usize]
     }
 }
 
-/// A colour written as red, green, blue.
+/// Makes a colour from `0xRRGGBB`.
 fn hex(rgb: u32) -> Color32 {
     let [_, red, green, blue] = rgb.to_be_bytes();
     Color32::from_rgb(red, green, blue)

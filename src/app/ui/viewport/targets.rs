@@ -1,27 +1,27 @@
-//! The pictures that one view is drawn into before egui shows the result.
+//! The textures that one view is drawn into before egui shows the result.
 
 use eframe::wgpu;
 
 use super::pass;
 
-/// Colours as egui has them: sRGB values, stored as they are.
+/// Colours as in egui: sRGB values, stored unconverted.
 pub(super) const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-/// near / z as a colour: not every backend lets a shader read a depth buffer.
+/// near / z as a colour target: not every backend lets a shader read a depth buffer.
 pub(super) const CLOSENESS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
-/// The depth test's own.
+/// Format of the depth test's buffer.
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// All of one size.
+/// The render targets of one view, all of one size.
 pub(super) struct Targets {
     /// Width and height, physical pixels, at least 1.
     pub(super) size: [u32; 2],
-    /// Points, not yet shaded.
+    /// Colours of the points, not yet shaded.
     pub(super) colour: wgpu::TextureView,
     /// near / z of the points, 0 where there are none.
     pub(super) closeness: wgpu::TextureView,
-    /// The depth test's own.
+    /// Buffer of the depth test.
     pub(super) depth: wgpu::TextureView,
-    /// The finished picture, and how it is read back.
+    /// The finished picture, and its texture to read it back.
     pub(super) picture: wgpu::TextureView,
     pub(super) picture_texture: wgpu::Texture,
     /// Binds `colour` and `closeness`.
@@ -30,7 +30,7 @@ pub(super) struct Targets {
     pub(super) closeness_group: wgpu::BindGroup,
 }
 
-/// The layouts of the groups in [`Targets`].
+/// Layouts of the bind groups in [`Targets`].
 pub(super) struct TargetLayouts {
     pub(super) unshaded: wgpu::BindGroupLayout,
     pub(super) closeness: wgpu::BindGroupLayout,

@@ -1,4 +1,4 @@
-//! What the shaders of one view share: sizes, ranges and the colours of the theme.
+//! Values shared by all shaders of one view: sizes, ranges and the colours of the theme.
 
 use bytemuck::{Pod, Zeroable};
 use egui::Color32;
@@ -8,7 +8,7 @@ use super::{
     style::{Role, SCALE_STOPS, ViewStyle},
 };
 
-/// Opacity of a line behind a surface: it can be found, and is not mistaken for one in front.
+/// Opacity of a line behind a surface: visible, but not mistaken for one in front.
 const HIDDEN_LINE_OPACITY: f32 = 0.4;
 
 /// `View` in view.wgsl, which explains the fields.
@@ -31,7 +31,7 @@ pub(super) struct ViewUniform {
 }
 
 impl ViewUniform {
-    /// `size` in logical pixels, `target` in physical ones, `height_range` in metres above the camera's level.
+    /// `size` in logical pixels, `target` in physical ones, `height_range` in metres above the camera.
     pub(super) fn new(
         camera: &ViewCamera,
         style: &ViewStyle,

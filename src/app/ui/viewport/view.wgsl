@@ -1,20 +1,20 @@
-// What all shaders of one view share. The Rust side is `ViewUniform` in uniform.rs.
+// Declarations shared by all shaders of one view. The Rust side is `ViewUniform` in uniform.rs.
 
 const SCALE_STOPS: i32 = 7;
 const NUM_ROLES: u32 = 17u;
 
 struct View {
-    // Of the target, physical pixels.
+    // Size of the target, physical pixels.
     size: vec2<f32>,
     // Height at the low and the high end of the height scale, metres.
     height_range: vec2<f32>,
-    // Physical pixels in a logical one.
+    // Physical pixels per logical pixel.
     pixels_per_point: f32,
-    // Physical pixels that a metre covers at one metre from the eye.
+    // Focal length: physical pixels per metre at a distance of one metre.
     focal: f32,
-    // The near plane, metres; the depth is near / z.
+    // Distance of the near plane, metres; the depth is near / z.
     near: f32,
-    // 0 is off.
+    // Strength of the eye-dome lighting, 0 is off.
     eye_dome: f32,
     // Deviation at the ends of the deviation scale, metres.
     deviation_range: f32,

@@ -1,4 +1,4 @@
-//! The view as a widget: input in, picture out.
+//! The view as a widget: handles input and shows the picture.
 
 use std::sync::{Arc, Mutex};
 
@@ -34,19 +34,19 @@ use crate::{
 /// What a click or a left drag on the view does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ViewTool {
-    /// A click picks a point, a drag turns.
+    /// A click picks a point, a drag rotates.
     #[default]
     Look,
-    /// A click sets an end of a measured distance, a drag turns.
+    /// A click sets one end of a measured distance, a drag rotates.
     Measure,
-    /// A drag draws this; a click does nothing.
+    /// A drag draws this shape; a click does nothing.
     Draw(DrawnShape),
 }
 
 /// One 3-D view in the window.
 ///
-/// It keeps what belongs to the view alone; camera, scene and style come with each frame, so that two views are linked
-/// by giving both the same [`ViewCamera`]. Its resources on the GPU go when it is dropped.
+/// It keeps only the state of the view itself; camera, scene and style are passed in each frame. Giving two views the same
+/// [`ViewCamera`] links them. Dropping the view frees its GPU resources.
 pub struct Viewport {
     gpu: Result<ViewportGpu, ViewError>,
     renderer: Arc<Mutex<ViewRenderer>>,
@@ -60,19 +60,19 @@ pub struct Viewport {
     pub measure: Measurement,
 }
 
-/// What happened in a view in this frame.
+/// What happened in a view during this frame.
 #[derive(Clone, Debug)]
 pub struct ViewportResponse {
-    /// egui's own, for focus, hover and context menus.
+    /// egui's own response, for focus, hover and context menus.
     pub response: Response,
-    /// A point was clicked.
+    /// The point that was clicked.
     pub picked: Option<PickedPoint>,
-    /// An outline was drawn: its corners in shares of the view's width and height, from the top left.
+    /// The outline that was drawn: its corners as shares of the view's width and height, from the top left.
     pub drawn: Option<Vec<Vec2>>,
 }
 
 impl Viewport {
-    /// A view drawn by `gpu`; with an error, the view says it in words instead.
+    /// Makes a view drawn by `gpu`; with an error, the view shows the error text instead.
     pub fn new(gpu: Result<ViewportGpu, ViewError>) -> Self {
         Self {
             gpu,
@@ -85,8 +85,7 @@ impl Viewport {
         }
     }
 
-    /// Shows the scene in all the room that is left in `ui`. `label` names the view for a screen reader and must
-    /// differ between views.
+    /// Shows the scene in all the room left in `ui`. `label` names the view for a screen reader and must differ between views.
     pub fn ui(
         &mut self,
         ui: &mut Ui,
@@ -141,23 +140,22 @@ impl Viewport {
         }
     }
 
-    /// How often the picture was drawn anew since the view was made: it stands still while nothing changes.
+    /// Number of times the picture was redrawn; it stays constant while nothing changes.
     pub fn num_pictures(&self) -> u64 {
         lock(&self.renderer).num_pictures()
     }
 
-    /// How often a set was copied to the device, for any of the views that share it.
+    /// Number of sets uploaded to the device, over all views that share it.
     pub fn num_uploads(&self) -> u64 {
         self.gpu.as_ref().map_or(0, ViewportGpu::num_uploads)
     }
 
-    /// Share of the points that was drawn in the last frame, 0..1: less than all only while a slow device follows a
-    /// moving eye.
+    /// Share of the points drawn in the last frame, 0..1; below 1 only while a slow device follows a moving camera.
     pub fn detail(&self) -> f32 {
         self.detail.share()
     }
 
-    /// The view as it is with these, to be drawn anywhere else; `size` in logical pixels.
+    /// Captures the view with this camera, scene and style, to be drawn elsewhere; `size` in logical pixels.
     pub fn shot(
         &self,
         camera: &ViewCamera,
@@ -247,7 +245,7 @@ impl Viewport {
                 scene: scene.clone(),
                 style: style.clone(),
                 size: vec2(rect.size()),
-                // Both are set in `prepare`, where the window's scale is known for certain.
+                // Both are set in `prepare`, which knows the window's actual scale.
                 target: [0, 0],
                 num_samples,
             },
@@ -290,7 +288,7 @@ fn describe(ui: &Ui, response: &Response, label: &str) {
     });
 }
 
-/// Says in place of the view why there is none.
+/// Shows the error in place of the view.
 fn say(ui: &mut Ui, rect: Rect, error: &ViewError, style: &ViewStyle) {
     let colours = &style.colours;
     ui.painter().rect_filled(rect, 0.0, colours.background);
@@ -298,7 +296,7 @@ fn say(ui: &mut Ui, rect: Rect, error: &ViewError, style: &ViewStyle) {
     let layout = Layout::top_down(Align::Center);
     ui.scope_builder(UiBuilder::new().max_rect(inside).layout(layout), |ui| {
         ui.add_space((inside.height() / 2.0 - 40.0).max(0.0));
-        // Selectable text would take the drags away from the view.
+        // Selectable text would take the drags from the view.
         let mut say = |text: RichText| ui.add(Label::new(text).selectable(false));
         say(RichText::new(text!("view-no-view"))
             .size(20.0)
@@ -308,7 +306,7 @@ fn say(ui: &mut Ui, rect: Rect, error: &ViewError, style: &ViewStyle) {
     });
 }
 
-/// One frame of a view on its way into egui's pass.
+/// One frame of a view, passed to egui's paint callback.
 struct PaintView {
     gpu: ViewportGpu,
     renderer: Arc<Mutex<ViewRenderer>>,
@@ -325,7 +323,7 @@ impl CallbackTrait for PaintView {
         encoder: &mut wgpu::CommandEncoder,
         _resources: &mut CallbackResources,
     ) -> Vec<wgpu::CommandBuffer> {
-        // Rounded as egui rounds, so that a texel is a pixel; but not cut at the window's edge.
+        // Round as egui does, so that a texel is a pixel, but do not clip at the window's edge.
         let pixel = |points: f32| (points * screen.pixels_per_point).round() as i32;
         let origin = [pixel(self.rect.min.x), pixel(self.rect.min.y)];
         let end = [pixel(self.rect.max.x), pixel(self.rect.max.y)];

@@ -1,4 +1,4 @@
-//! A client that asks and waits for the whole answer.
+//! A client that sends requests and waits for complete answers.
 
 use std::{
     io::{self, Read as _, Write as _},
@@ -10,20 +10,20 @@ use std::{
 /// Longer than any answer takes.
 const PATIENCE: Duration = Duration::from_mins(1);
 
-/// Where an answer ends.
+/// How the end of an answer is recognised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Framing {
-    /// At the end of a line.
+    /// A line end.
     Line,
-    /// After so many bytes.
+    /// A fixed number of bytes.
     Bytes(usize),
-    /// As its head says.
+    /// The length in its header.
     #[cfg(feature = "plant")]
     Http,
 }
 
 impl Framing {
-    /// True once these bytes are a whole answer.
+    /// Returns whether these bytes are a complete answer.
     fn is_whole(self, answer: &[u8]) -> bool {
         match self {
             Self::Line => answer.ends_with(b"\n"),
@@ -33,7 +33,7 @@ impl Framing {
         }
     }
 
-    /// True if a whole answer is one to what was asked. Other protocols close the connection if it is not.
+    /// Returns whether a complete answer is a success. Protocols other than HTTP close the connection on failure.
     fn is_success(self, answer: &[u8]) -> bool {
         match self {
             Self::Line | Self::Bytes(_) => !answer.is_empty(),
@@ -43,7 +43,7 @@ impl Framing {
     }
 }
 
-/// Bytes of an answer over HTTP, once its head is there.
+/// Returns the number of bytes of an HTTP answer, once its header is complete.
 #[cfg(feature = "plant")]
 fn http_length(answer: &[u8]) -> Option<usize> {
     let end = b"\r\n\r\n";
@@ -57,17 +57,17 @@ fn http_length(answer: &[u8]) -> Option<usize> {
     Some(head + end.len() + lengths.next().unwrap_or(0))
 }
 
-/// A connection over which one request is asked after the other.
+/// A connection for one request after the other.
 pub(super) struct Client {
     stream: TcpStream,
     framing: Framing,
     answer: Vec<u8>,
-    /// Who answers, if it is nobody but a thread.
+    /// The thread that answers, if there is no server.
     peer: Option<JoinHandle<()>>,
 }
 
 impl Client {
-    /// To a server.
+    /// Connects to a server.
     pub(super) fn connect(address: SocketAddr, framing: Framing) -> io::Result<Self> {
         let stream = TcpStream::connect(address)?;
         stream.set_nodelay(true)?;
@@ -81,7 +81,7 @@ impl Client {
         })
     }
 
-    /// To a thread that reads so many bytes and writes so many, again and again, and does nothing else.
+    /// Connects to a thread that only reads and writes these numbers of bytes.
     pub(super) fn connect_bare(request_bytes: usize, answer_bytes: usize) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let mut client = Self::connect(listener.local_addr()?, Framing::Bytes(answer_bytes))?;
@@ -96,7 +96,7 @@ impl Client {
         Ok(client)
     }
 
-    /// Asks, and waits for the whole answer. How many bytes it has.
+    /// Sends a request and waits for the complete answer. Returns its number of bytes.
     pub(super) fn ask(&mut self, request: &[u8]) -> io::Result<usize> {
         self.stream.write_all(request)?;
         self.answer.clear();
@@ -117,7 +117,7 @@ impl Client {
 
 impl Drop for Client {
     fn drop(&mut self) {
-        // Whoever answers may have hung up.
+        // The peer may have closed the connection already.
         let _ = self.stream.shutdown(Shutdown::Both);
         if let Some(peer) = self.peer.take() {
             let _ = peer.join();
@@ -125,7 +125,8 @@ impl Drop for Client {
     }
 }
 
-/// Answers a second over several connections at once, each of which asks so many times. Each has asked once before.
+/// Returns the number of answers per second over several connections at once, each sending `num_each` requests after a
+/// first uncounted one.
 pub(super) fn busy_rate(
     connect: impl Fn() -> io::Result<Client>,
     num_connections: usize,

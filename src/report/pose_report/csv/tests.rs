@@ -11,7 +11,7 @@ fn rows(path: &Path) -> Vec<Vec<String>> {
     text.lines().map(cells).collect()
 }
 
-/// The cells of a line, read as RFC 4180 has it.
+/// Splits a line into cells according to RFC 4180.
 fn cells(line: &str) -> Vec<String> {
     let mut cells = vec![String::new()];
     let mut is_quoted = false;
@@ -69,7 +69,7 @@ fn rows_share_one_line_of_names_and_numbers_come_back() {
         let read: f64 = cell(1, &name).parse().expect("a number");
         assert_eq!(read.to_bits(), value.value.to_bits(), "{name}");
     }
-    // Of what is refused there is no number at all.
+    // A refused part has no pose numbers at all.
     assert_eq!(cell(2, "accepted"), "false");
     for row in [2, 3] {
         for (column, value) in rows[0].iter().zip(&rows[row]) {
@@ -170,9 +170,9 @@ fn whichever_call_fails_a_table_has_whole_rows_alone() {
 
     let report = door().report(Some(&robot()), Convention::Kuka);
     let table = |folder: &Path| folder.join("poses.csv");
-    // A new table, one that grows, and one whose last row a killed program left without its end.
+    // A new table, a growing one, and one with an incomplete last row of a killed program.
     for (number, begin) in ["", "whole", "half"].into_iter().enumerate() {
-        // The process that is to be killed knows which of them by its folder alone.
+        // The process to be killed identifies its case by the folder alone.
         let is_mine = |folder: &Path| folder.join(number.to_string()).exists();
         Writer {
             test: "report::pose_report::csv::tests::whichever_call_fails_a_table_has_whole_rows_alone",

@@ -1,4 +1,4 @@
-//! The right column: the picture of the scene and the figures; and the foot of the page.
+//! The right column with the picture of the scene and the figures, and the foot of the page.
 
 use super::{
     Anchor, Area, BLACK, BODY, GREY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RED, RULE, SMALL,
@@ -10,7 +10,7 @@ use crate::report::pose_report::{
 
 const LINE: f32 = 12.0;
 
-/// The picture, and below it what the pose comes to.
+/// Draws the picture, and the figures of the pose below it.
 pub(super) fn column(
     sheet: &mut Sheet<'_>,
     report: &PoseReport,
@@ -33,8 +33,8 @@ pub(super) fn column(
     }
 }
 
-/// Where there is no pose: that there is none, what the part is like, and a large picture to see why. No numbers that
-/// anybody could type into a robot.
+/// Draws the page without a pose: a note that there is none, the most similar parts, and a large picture of the scene.
+/// It has no numbers that somebody could type into a robot.
 pub(super) fn without_pose(
     sheet: &mut Sheet<'_>,
     report: &PoseReport,
@@ -81,7 +81,7 @@ pub(super) fn without_pose(
     }
 }
 
-/// The view of the scene with its caption; answers with the caption's line.
+/// Draws the view of the scene with its caption. Returns the caption's baseline.
 fn scene(sheet: &mut Sheet<'_>, pictures: &PdfPictures<'_>, area: Area) -> f32 {
     let stage = pictures.stages.first();
     let shown = pictures
@@ -98,7 +98,7 @@ fn scene(sheet: &mut Sheet<'_>, pictures: &PdfPictures<'_>, area: Area) -> f32 {
     y
 }
 
-/// Rows of a name and a figure, going down.
+/// Rows of a name and a figure, from top to bottom.
 struct Rows<'s, 'p> {
     sheet: &'s mut Sheet<'p>,
     area: Area,
@@ -184,7 +184,7 @@ impl Rows<'_, '_> {
     }
 }
 
-/// By what the inspection can be found again; answers with where the foot begins.
+/// Draws the facts that identify the inspection. Returns where the foot begins.
 pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
     let bottom = PAGE[1] - 34.0;
     let trace: Vec<String> = report
@@ -224,7 +224,7 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
         [
             (
                 "Recipe",
-                // The name may be long, and is cut where there is no room.
+                // The name comes last, since a long text is cut where there is no room.
                 format!("{}, {}{changed}", recipe.identity, recipe.name),
             ),
             (
@@ -277,7 +277,7 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
     y - 26.0
 }
 
-/// Where the report does not name it.
+/// Describes the source if the report does not name it.
 fn source_of(report: &PoseReport) -> String {
     match report.seen_by {
         SeenBy::NotKnown => "a file",
@@ -286,7 +286,7 @@ fn source_of(report: &PoseReport) -> String {
     .into()
 }
 
-/// With a capital letter and a full stop.
+/// Adds a capital letter and a full stop.
 pub(super) fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(char::to_uppercase);

@@ -1,4 +1,4 @@
-//! The left column: the pose in numbers.
+//! The left column with the pose in numbers.
 
 use super::{
     AMBER, Anchor, Area, BLACK, BODY, GREY, HEADING, RULE, SMALL, STRONG, Sheet, Weight, style,
@@ -11,7 +11,7 @@ use crate::{
 
 const LINE: f32 = 12.5;
 
-/// Everything that the pose is.
+/// Draws all numbers of the pose.
 pub(super) fn column(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Area) {
     let y = robot(sheet, report, pose, area);
     let robot = &report.robot;
@@ -27,7 +27,7 @@ pub(super) fn column(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBloc
     );
 }
 
-/// The pose in the convention, in each frame that it is known in; answers with the line below.
+/// Draws the pose in the convention, in each frame in which it is known. Returns the next baseline.
 fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Area) -> f32 {
     let robot = &report.robot;
     let in_robot: Vec<&TransformBlock> = [&robot.robot_from_part, &robot.robot_offset]
@@ -55,7 +55,7 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
     }
     y += 6.0;
     if let Some(why) = robot.unavailable {
-        // Before the numbers: nobody reads what stands below them.
+        // Before the numbers, where it cannot be overlooked.
         let text = format!("In the camera's frame, not in the robot's: {why}.");
         let at = [area.left, y + 7.0];
         y = sheet.paragraph(&text, at, area.width, style(8.5, Weight::Bold, AMBER), 3) - 4.0;
@@ -100,7 +100,7 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
     y
 }
 
-/// A row for each number, a column for each transform; answers with the last line.
+/// Draws a row for each number and a column for each transform. Returns the last baseline.
 fn table(sheet: &mut Sheet<'_>, shown: &[&TransformBlock], area: Area) -> f32 {
     let wide = (area.width - 56.0) / shown.len().max(1) as f32;
     let right = |column: usize| area.left + 56.0 + (column + 1) as f32 * wide;
@@ -144,7 +144,7 @@ fn table(sheet: &mut Sheet<'_>, shown: &[&TransformBlock], area: Area) -> f32 {
     y
 }
 
-/// The pose before the camera; without its matrix where that stands above.
+/// Draws the pose in the camera frame, without the matrix if that is shown above.
 fn camera(sheet: &mut Sheet<'_>, pose: &PoseBlock, is_shown: bool, area: Area) {
     let block = &pose.camera_from_part;
     let mut y = area.top;
@@ -204,7 +204,7 @@ fn camera(sheet: &mut Sheet<'_>, pose: &PoseBlock, is_shown: bool, area: Area) {
     );
 }
 
-/// The 16 numbers in their rows; answers with the last line.
+/// Draws the 4×4 matrix. Returns the last baseline.
 fn matrix(sheet: &mut Sheet<'_>, block: &TransformBlock, area: Area) -> f32 {
     let mut y = area.top;
     for row in block.matrix.values.chunks(4) {

@@ -4,7 +4,7 @@ use crate::{
     robot::{Convention, RobotFrame},
 };
 
-/// Every text of the page with where it is.
+/// Returns every text of the page with its area.
 fn texts(report: &PoseReport, pictures: &PdfPictures<'_>) -> Vec<(String, Area)> {
     let mut document = Document::new();
     let settings = PageSettings::from_wh(PAGE[0], PAGE[1]).expect("A4");
@@ -23,7 +23,7 @@ fn said(report: &PoseReport, pictures: &PdfPictures<'_>) -> String {
     texts.join("\n")
 }
 
-/// Nothing off the page, and no text on another.
+/// Checks that nothing is off the page and no texts overlap.
 fn is_tidy(report: &PoseReport, pictures: &PdfPictures<'_>, what: &str) {
     let texts = texts(report, pictures);
     for (i, (text, area)) in texts.iter().enumerate() {
@@ -56,7 +56,7 @@ fn every_kind_of_report_fits_on_the_page() {
         ("empty", empty()),
     ];
     for (what, inspected) in named {
-        // Of the same shape, and quickly drawn.
+        // Stages of the same shape that are drawn quickly.
         let mut stages = inspected.pictures();
         for Picture { image, .. } in &mut stages {
             *image = RgbImage::new(image.width().div_ceil(20), image.height().div_ceil(20));

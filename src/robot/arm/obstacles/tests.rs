@@ -12,7 +12,7 @@ fn capsule(body: Body, from: [f64; 3], to: [f64; 3], radius: f64) -> Capsule {
     }
 }
 
-/// A box of 400 × 200 × 200 mm, 1 m ahead and turned about z by a right angle.
+/// A box of 400 × 200 × 200 mm, 1 m ahead and turned about z by 90°.
 fn one_box(name: &str) -> CellBox {
     let text = BoxText {
         name: name.into(),
@@ -30,19 +30,19 @@ fn a_body_is_too_near_within_its_radius_and_the_clearance() {
         ..Obstacles::default()
     };
     let obstacles = boxed(["post", "post"]);
-    // Its face is at 900 mm: 50 + 20 mm before it.
+    // Its face is at 900 mm; the gun hits it from 50 + 20 mm in front of it.
     for (x, is_hit) in [(0.829, false), (0.831, true), (1.0, true), (1.171, false)] {
         let gun = [capsule(Body::Gun, [x, -1.0, 0.0], [x, 1.0, 0.0], 0.05)];
         assert_eq!(obstacles.pairs(&gun).next().is_some(), is_hit, "{x}");
         let wanted = is_hit.then(|| (Body::Gun, Obstacle::Box("post".into())));
         assert_eq!(worst(obstacles.pairs(&gun)), wanted);
     }
-    // Along y it reaches to 200 mm.
+    // Along y the box reaches to 200 mm.
     for (y, is_hit) in [(0.271, false), (0.269, true)] {
         let gun = [capsule(Body::Gun, [0.0, y, 0.0], [2.0, y, 0.0], 0.05)];
         assert_eq!(obstacles.pairs(&gun).next().is_some(), is_hit, "{y}");
     }
-    // The worst is named, in whatever order: the wrist is as near but thinner.
+    // The worst pair is reported, in any order: the wrist is as near but thinner.
     let bodies = [
         capsule(Body::Wrist, [0.85, 0.0, 0.0], [0.85, 0.0, 0.0], 0.04),
         capsule(Body::Forearm, [0.85, 0.0, 0.0], [0.85, 0.0, 0.0], 0.05),
@@ -69,7 +69,7 @@ fn a_floor_is_below_everything() {
     }
 }
 
-/// A sheet of points every 10 mm, 2 m ahead of the robot and square to its x axis.
+/// A sheet of points every 10 mm, 2 m ahead of the robot and perpendicular to its x axis.
 fn sheet() -> Obstacles {
     let side = |i: u16| 0.01 * f32::from(i) - 0.3;
     let points = (0..=60).flat_map(|i| (0..=60).map(move |k| [side(i), side(k)]));

@@ -23,7 +23,7 @@ fn plan(reached: Vec<RangeInclusive<usize>>, speed: f64) -> Plan {
     }
 }
 
-/// The fastest that the rail moves from one point to the next, m/s.
+/// Greatest speed of the rail from one point to the next, m/s.
 fn fastest(run: &[f64]) -> f64 {
     let speeds = run.windows(2).map(|pair| (pair[1] - pair[0]).abs() / 0.1);
     speeds.fold(0.0, f64::max)
@@ -93,9 +93,9 @@ fn it_speeds_up_and_slows_down_within_its_acceleration() {
     assert!(hardest(&ramped) <= 1.0 + 1e-6, "{ramped:?}");
     assert!(ramped[..20].iter().all(|at| *at <= 0.2 + 1e-9));
     assert!(ramped[40..].iter().all(|at| *at >= 0.8 - 1e-9));
-    // One that knows of no limit is at its speed at once.
+    // Without a limit the rail is at full speed at once.
     assert!(hardest(&run(None)) > 1.0);
-    // From one end to the other, speeding up on all of the first half, it is between 0.2 and 0.8 m for 2.1 s at 0.12 m/s².
+    // From one end to the other, accelerating over the first half, it is between 0.2 and 0.8 m for 2.1 s at 0.12 m/s².
     let is_too_hard = |limit: f64| hardest(&run(Some(limit))) > limit + 1e-6;
     assert!(is_too_hard(0.1) && !is_too_hard(0.2));
 }
@@ -119,7 +119,7 @@ fn what_cannot_be_reached_in_time_is_one_jump_and_not_a_row_of_missed_points() {
 
 #[test]
 fn a_slow_rail_passes_more_points_than_are_looked_at() {
-    // At 4 mm/s 0.6 m take 1500 points.
+    // At 4 mm/s, 0.6 m take 1500 points.
     let mut all = vec![0..=2; 500];
     all.extend(vec![0..=10; 1600]);
     all.extend(vec![8..=10; 500]);
@@ -133,7 +133,7 @@ fn a_slow_rail_passes_more_points_than_are_looked_at() {
 fn wherever_a_run_reaches_every_point_one_is_found() {
     let mut random = Pcg64::seed_from_u64(6);
     for _ in 0..200 {
-        // A run at 1 m/s between any positions, and what reaches around it.
+        // A run at 1 m/s between any positions, and around it the positions that reach each point.
         let mut hidden = vec![random.random_range(0..11)];
         let mut within = vec![hidden[0]..=hidden[0]];
         while within.len() < 60 {
@@ -168,7 +168,8 @@ fn wherever_a_run_reaches_every_point_one_is_found() {
 
 #[test]
 fn one_configuration_along_the_path_is_better_than_less_way() {
-    // The first reaches from the left and then from the right, the second in turn but never throughout.
+    // The first configuration reaches from the left and then from the right, the second alternates but never reaches
+    // all along.
     let mut plan = plan(vec![0..=10; 40], 1.0);
     for (i, here) in plan.reached.iter_mut().enumerate() {
         for (position, found) in here.iter_mut().enumerate() {

@@ -6,18 +6,18 @@ use rand_pcg::Pcg64;
 use super::*;
 use crate::robot::arm::acceleration::check_accelerations;
 
-/// Before and behind a point, seconds.
+/// The module's window before and behind a point, seconds.
 const WINDOW: f64 = 0.05;
 
-/// An arm that works ahead of itself: reaching over its own back it would turn joint 1 to its limit.
+/// An arm that works ahead of itself: reaching over its own back would turn joint 1 to its limit.
 fn facing(name: &str) -> PlacedArm {
     let mut placed = with_gun(name);
     placed.arm.limits[0] = [-1.0, 1.0];
     placed
 }
 
-/// Places ahead of the arm, from a place in its y-z plane to the next at an even speed, a point every `step` metres and at
-/// every corner.
+/// Points ahead of the arm, from corner to corner in its y-z plane at constant speed, every `step` metres and at each
+/// corner.
 fn polygon(arm: &PlacedArm, corners: &[[f64; 2]], step: f64, speed: f64) -> Vec<ArmPoint> {
     let point = ArmPoint {
         speed,
@@ -39,12 +39,12 @@ fn polygon(arm: &PlacedArm, corners: &[[f64; 2]], step: f64, speed: f64) -> Vec<
     points
 }
 
-/// Across, and then up.
+/// Across, then up.
 const CORNER: [[f64; 2]; 3] = [[-0.2, 0.0], [0.0, 0.0], [0.0, 0.2]];
 
-/// By how much the speed of each joint changes in the corner at 0.3 m/s, rad/s.
+/// Change of each joint's speed in the corner at 0.3 m/s, rad/s.
 fn change_in_corner(arm: &PlacedArm) -> Joints {
-    // 2.5 mm before and behind it.
+    // 2.5 mm before and behind the corner.
     let points = polygon(arm, &CORNER, 0.0025, 0.3);
     let middle = points.len() / 2;
     let found = check(arm, &points);
@@ -75,7 +75,7 @@ fn a_corner_is_too_hard_for_a_joint_however_far_apart_the_points_are() {
         .max_by(|a, b| wanted[*a].total_cmp(&wanted[*b]))
         .expect("six");
     assert!(wanted[worst] > 1.0, "{wanted:?}");
-    // 2 to 330 ms apart.
+    // Points 2 to 330 ms apart.
     for step in [0.0005, 0.002, 0.007, 0.014, 0.016, 0.025, 0.1] {
         let points = polygon(&placed, &CORNER, step, 0.3);
         let checked = |share: f64, points: &[ArmPoint]| {
@@ -98,7 +98,7 @@ fn a_corner_is_too_hard_for_a_joint_however_far_apart_the_points_are() {
         assert_eq!(*joint, worst + 1, "{step}");
         assert!((acceleration / wanted[worst] - 1.0).abs() < 0.15, "{step}");
         assert!((limit / wanted[worst] - 0.8).abs() < 1e-9, "{step}");
-        // Only around the corner.
+        // The problem is only around the corner.
         for (checked, point) in found.points.iter().zip(&points) {
             let at = point.robot_from_nozzle.translation.vector
                 - points[0].robot_from_nozzle.translation.vector;
@@ -106,12 +106,12 @@ fn a_corner_is_too_hard_for_a_joint_however_far_apart_the_points_are() {
             let is_near = (way - 0.2).abs() < WINDOW * 0.3;
             assert!(is_near || checked.problem.is_none(), "{step}: {way}");
         }
-        // The advice helps.
+        // The advice helps: a lower speed has no problem.
         let slower = polygon(&placed, &CORNER, step, 0.15);
         let none = accelerations(&checked(0.8, &slower));
         assert!(none.is_empty(), "{step}: {none:?}");
     }
-    // A round corner does, too.
+    // So does a round corner.
     let round = (0..=18).map(|k| f64::from(k) * FRAC_PI_2 / 18.0);
     let round = round.map(|angle| [-0.1 + 0.1 * angle.sin(), 0.1 - 0.1 * angle.cos()]);
     let corners: Vec<[f64; 2]> = std::iter::once(CORNER[0])
@@ -130,13 +130,13 @@ fn points_that_are_close_together_or_at_one_place_are_no_jerk() {
     // Every joint turns evenly over tenths of a second.
     placed.arm.accelerations = Some([1.5; 6]);
     let mut points = polygon(&placed, &[[-0.05, 0.0], [0.05, 0.0]], 0.0002, 0.25);
-    // A hundredth of a millimetre off, which neighbours would make out to be 60 rad/s².
+    // An error of 0.01 mm, which differences of neighbouring points would turn into 60 rad/s².
     let mut random = Pcg64::seed_from_u64(7);
     for point in &mut points {
         let at = &mut point.robot_from_nozzle.translation.vector;
         *at = at.map(|x| x + random.random_range(-1e-5..1e-5));
     }
-    // The gun is switched where the nozzle is.
+    // The gun is switched on the spot.
     points.insert(250, points[250]);
     points.insert(120, points[120]);
     let none = accelerations(&check(&placed, &points));
@@ -172,7 +172,7 @@ fn an_arm_without_limits_is_checked_as_before() {
     assert_eq!(found.num_reached(), points.len());
 }
 
-/// What is said of a rail that stands, and then runs at 0.3 m/s, where its points are `step` seconds apart.
+/// Problems of a rail that stands still and then moves at 0.3 m/s, with points `step` seconds apart.
 fn of_rail(limit: f64, step: f64, rail_at: impl Fn(f64) -> f64) -> Vec<Option<PointProblem>> {
     let mut placed = with_gun("irb2600");
     placed.arm.rail = Some(Rail {

@@ -6,7 +6,7 @@ use nalgebra::Point3;
 
 use super::*;
 
-/// The same arm among boxes: name, middle and edge, metres.
+/// The same arm among boxes, each given by name, middle and edge in metres.
 pub(super) fn among(placed: &PlacedArm, boxes: &[(&str, Point3<f64>, f64)]) -> PlacedArm {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("boxes.toml");
@@ -25,13 +25,13 @@ pub(super) fn among(placed: &PlacedArm, boxes: &[(&str, Point3<f64>, f64)]) -> P
     }
 }
 
-/// Where the axis of the gun ends with these joints, farther from the wrist than that is wide.
+/// End of the gun's axis with these joints; it is farther from the wrist than the gun is wide.
 fn end_of_gun(placed: &PlacedArm, joints: &Joints) -> Point3<f64> {
     let [gun, ..] = Solver::new(placed, 0.0).bodies(joints);
     gun.axis.to
 }
 
-/// The elbow with these joints.
+/// Position of the elbow with these joints.
 pub(super) fn elbow(placed: &PlacedArm, joints: &Joints) -> Point3<f64> {
     let [.., upper_arm] = Solver::new(placed, 0.0).bodies(joints);
     upper_arm.axis.to
@@ -93,7 +93,7 @@ fn what_lies_between_two_points_is_run_into_on_the_way() {
     let found = check(&among(&placed, &[("post", half_way, 0.02)]), &points);
     assert_eq!(found.points[0].problem, None);
     assert_eq!(found.points[1].problem, Some(gun_at("post")));
-    // A second behind both is none.
+    // A box behind both points is not hit.
     let aside = begins - Vector3::new(0.0, 0.25, 0.0);
     let found = check(&among(&placed, &[("post", aside, 0.02)]), &points);
     assert_eq!(found.num_reached(), 2, "{found:?}");
@@ -120,7 +120,7 @@ fn a_free_configuration_is_preferred_to_one_that_collides() {
     let folds = |joints: &Joints| blocked.arm.configuration(joints);
     assert_ne!(folds(&joints), folds(&former));
 
-    // With none left the point is reached, but says what is in the way.
+    // If none is left, the point is reached, but with a collision.
     let mut bound = with_gun("irb2600");
     bound.arm.limits[0] = [-1.0, 1.0];
     let only = check(&bound, &points).points[30].joints.expect("reached");

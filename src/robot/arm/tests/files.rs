@@ -1,4 +1,4 @@
-//! Arms of files and rails as options.
+//! Arms from files, and rails as options.
 
 use nalgebra::Unit;
 
@@ -52,7 +52,7 @@ fn a_rail_is_read_from_files_and_options() {
         acceleration: None,
     };
     assert_eq!(found, Some(wanted));
-    // The same as an option has it, and one that moves.
+    // The same rail as an option, and one that moves.
     assert_eq!("y,-2000,1500".parse::<Rail>().expect("a rail"), wanted);
     let moving = Rail {
         direction: Unit::new_normalize(-Vector3::x()),

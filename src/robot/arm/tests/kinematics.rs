@@ -1,4 +1,4 @@
-//! The inverse kinematics against products of matrices.
+//! Compares the inverse kinematics with products of matrices.
 
 use nalgebra::{Matrix4, Point3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -6,7 +6,7 @@ use rand_pcg::Pcg64;
 
 use super::*;
 
-/// The chain of links as the makers' drawings give it: the shift to each joint, its axis, and the turn of the flange.
+/// The chain of links from the makers' drawings: the shift to each joint, its axis, and the turn of the flange.
 struct Chain {
     name: &'static str,
     joints: [([f64; 3], [f64; 3]); 6],
@@ -95,7 +95,7 @@ fn chains() -> [Chain; 5] {
 }
 
 impl Chain {
-    /// Products of 4×4 matrices, link after link.
+    /// The product of 4×4 matrices, link by link.
     fn forward(&self, angles: &Joints) -> Matrix4<f64> {
         let shift = |[x, y, z]: [f64; 3]| Matrix4::new_translation(&Vector3::new(x, y, z));
         let mut at = shift([0.0, 0.0, -self.base_height]);
@@ -106,7 +106,7 @@ impl Chain {
         at * shift(origin) * Matrix4::from_euler_angles(r, p, y)
     }
 
-    /// Where a joint is, from 1.
+    /// Position of a joint, counted from 1.
     fn joint(&self, angles: &Joints, number: usize) -> Point3<f64> {
         let mut at = Matrix4::new_translation(&Vector3::new(0.0, 0.0, -self.base_height));
         let mut place = Point3::origin();
@@ -167,7 +167,7 @@ fn every_solution_reproduces_its_pose_and_one_is_the_one_it_came_from() {
             let mut all = found.iter().flat_map(|found| solver.within_limits(found));
             num_back += usize::from(all.any(|found| is_same(&found)));
         }
-        // Random joints are hardly ever singular.
+        // Random joints are rarely singular.
         assert!(num_back >= 198, "{}: {num_back}", chain.name);
     }
 }

@@ -5,11 +5,11 @@ use super::{
     *,
 };
 
-/// Farther apart than the arm reaches to both sides of any place, with its gun, metres.
+/// Longer than the reach to both sides of any place, with the gun, metres.
 const LENGTH: f64 = 4.5;
 const NUM: usize = 180;
 
-/// An arm on a rail along y with this top speed, m/s, before a row of points that no place reaches all of.
+/// An arm on a rail along y with this top speed, m/s, and a row of points that it cannot reach from any single place.
 fn cell(speed: Option<f64>) -> (PlacedArm, Vec<ArmPoint>) {
     let mut placed = with_gun("irb2600");
     placed.arm.rail = Some(Rail {
@@ -22,7 +22,7 @@ fn cell(speed: Option<f64>) -> (PlacedArm, Vec<ArmPoint>) {
     (placed, points)
 }
 
-/// Seconds from one point to the next: the row is run at 0.3 m/s.
+/// Seconds between points: the row is run at 0.3 m/s.
 const STEP_TIME: f64 = LENGTH / NUM as f64 / 0.3;
 
 #[test]
@@ -47,7 +47,7 @@ fn a_rail_that_moves_reaches_a_path_longer_than_the_arm() {
     let problems: Vec<_> = found.points.iter().map(|point| &point.problem).collect();
     assert_eq!(found.num_reached(), NUM, "{problems:?}");
     for (checked, point) in found.points.iter().zip(&points) {
-        // The arm is there, with its rail where it says.
+        // The joints and the rail's position give the point.
         let solver = Solver::new(&moving, checked.rail);
         let at = solver.forward(&checked.joints.expect("reached"));
         let off = at.expect("finite").to_homogeneous() - point.robot_from_nozzle.to_homogeneous();
@@ -63,7 +63,7 @@ fn a_rail_that_moves_reaches_a_path_longer_than_the_arm() {
         "{low} {high}"
     );
     assert_eq!(check(&moving, &points), found);
-    // Wherever it stood, a rail that moves may begin elsewhere.
+    // The position given for a standing rail has no effect on one that moves.
     let params = CheckParams {
         rail: 2.5,
         ..CheckParams::default()
@@ -89,7 +89,7 @@ fn a_rail_that_is_too_slow_says_so_and_never_moves_faster_than_it_can() {
         );
     }
 
-    // Two places that are farther apart than the arm reaches, and no time between them.
+    // Two points farther apart than the arm reaches, with no time in between.
     let ends = [points[0], points[NUM - 1]].map(|point| ArmPoint {
         speed: 10.0,
         ..point

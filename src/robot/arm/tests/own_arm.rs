@@ -1,4 +1,4 @@
-//! Gun, wrist and forearm against the arm that carries them.
+//! Collisions of gun, wrist and forearm with the arm that carries them.
 
 use super::*;
 
@@ -9,7 +9,7 @@ fn in_radians(degrees: [f64; 6]) -> Joints {
 #[test]
 fn a_wrist_that_is_folded_into_the_upper_arm_is_named() {
     let mut placed = placed("irb2600");
-    // The forearm hangs down beside the upper arm, which is upright: the wrist is 171 mm ahead of joint 2 and 85 mm below it.
+    // The forearm hangs down beside the upright upper arm: the wrist is 171 mm ahead of joint 2 and 85 mm below it.
     let folded = in_radians([0.0, 0.0, 86.0, 0.0, 17.0, 0.0]);
     let wanted = PointProblem::Collision {
         body: Body::Wrist,
@@ -17,7 +17,7 @@ fn a_wrist_that_is_folded_into_the_upper_arm_is_named() {
     };
     let collision = Solver::new(&placed, 0.0).collision(&folded);
     assert_eq!(collision, Some(wanted.clone()));
-    // So does the check of a path for which the arm has to fold so.
+    // So does the check of a path that forces the arm to fold like this.
     placed.arm.limits[0] = [-0.2, 0.2];
     placed.arm.limits[1] = [-0.1, 0.1];
     placed.arm.limits[2] = [1.4, 1.6];
@@ -31,7 +31,7 @@ fn a_wrist_that_is_folded_into_the_upper_arm_is_named() {
     assert_eq!(found.points[0].problem, Some(wanted.clone()));
     assert_eq!(found.num_collisions(), 1);
     assert_eq!(wanted.describe(), "the wrist is too near to the upper arm");
-    // 191 mm are left between the axes, of which both bodies take some: a thinner arm is clear.
+    // The axes are 191 mm apart, minus the radii of both bodies: a thinner arm is clear.
     placed.arm.radii = [0.08, 0.08, 0.08];
     assert_eq!(check(&placed, &[point]).num_collisions(), 0);
     placed.obstacles.clearance = 0.04;
@@ -50,9 +50,9 @@ fn a_gun_that_is_swung_into_the_base_column_is_named() {
     };
     assert_eq!(wanted.describe(), "the gun is too near to the base column");
     let solver = Solver::new(&placed, 0.0);
-    // Leaned far forward, folded under itself, the gun level and through joint 1 at the height of the foot.
+    // Leaning far forward and folded under itself, with the gun level and through joint 1 at the height of the foot.
     let inwards = [0.0, 80.0, 60.0, 0.0, 50.0, 0.0];
-    // Whichever way joint 1 turns, the column is in the middle.
+    // For every angle of joint 1 the column is in the middle.
     for turn in [-170.0, -60.0, 0.0, 45.0, 170.0] {
         let mut joints = in_radians(inwards);
         joints[0] = f64::to_radians(turn);
@@ -69,7 +69,7 @@ fn a_gun_that_is_swung_into_the_base_column_is_named() {
     });
     let moved = Solver::new(&on_rail, 2.0).collision(&in_radians(inwards));
     assert_eq!(moved, Some(wanted));
-    // The other way up it is free.
+    // With the arm upright it is free.
     assert_eq!(
         solver.collision(&in_radians([0.0, 0.0, 0.0, 0.0, 30.0, 0.0])),
         None
@@ -79,8 +79,8 @@ fn a_gun_that_is_swung_into_the_base_column_is_named() {
 #[test]
 fn a_forearm_that_lies_across_the_base_column_is_named() {
     let mut placed = placed("m-20ia");
-    // Leaned back until the upper arm is level behind joint 2, the forearm level ahead above it: it passes over the end of the
-    // column, 250 mm higher, and its wrist is beyond.
+    // Leaning back until the upper arm is level behind joint 2, with the forearm level ahead above it: the forearm
+    // passes over the end of the column, 250 mm higher, and the wrist is beyond.
     let across = in_radians([0.0, -90.0, -90.0, 0.0, 0.0, 0.0]);
     let [_, wrist, forearm, ..] = Solver::new(&placed, 0.0).bodies(&across);
     assert!((forearm.axis.from.z - 0.25).abs() < 1e-9 && (wrist.axis.from.z - 0.25).abs() < 1e-9);
@@ -93,7 +93,7 @@ fn a_forearm_that_lies_across_the_base_column_is_named() {
         wanted.describe(),
         "the forearm is too near to the base column"
     );
-    // 150 mm of the column and 130 mm of the forearm, in whatever direction.
+    // 150 mm of the column and 130 mm of the forearm, in any direction.
     for turn in [-170.0, 0.0, 90.0] {
         let mut joints = across;
         joints[0] = f64::to_radians(turn);
@@ -115,8 +115,8 @@ fn a_gun_that_is_folded_back_along_the_forearm_is_named() {
         flange_from_nozzle: Translation3::new(0.4, 0.0, 0.0).into(),
         ..placed("irb2600")
     };
-    // The forearm level, the wrist bent down by a right angle: the gun runs back below the forearm or, with joint 6 turned
-    // around, away from it, 85 mm lower either way.
+    // The forearm level, the wrist bent down by 90°: the gun runs back below the forearm or, with joint 6 turned by
+    // 180°, away from it, 85 mm lower in both cases.
     let back = in_radians([0.0, 0.0, 0.0, 0.0, 90.0, 0.0]);
     let away = in_radians([0.0, 0.0, 0.0, 0.0, 90.0, 180.0]);
     let [gun, _, forearm, ..] = Solver::new(&placed, 0.0).bodies(&back);

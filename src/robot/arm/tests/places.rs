@@ -1,4 +1,4 @@
-//! Better places of base and rail.
+//! Suggestions of better places for base and rail.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -122,13 +122,13 @@ fn a_check_ends_in_each_of_its_stages_when_it_is_cancelled() {
     };
     let (found, all) = checked(usize::MAX);
     assert_eq!(found.expect("checked"), check(&placed, &points));
-    // What a place reaches, the run of the rail, candidates, their chain, and the way: each asks once a point.
+    // Positions that reach a point, run of the rail, candidates, their chain, and the way: each asks once per point.
     assert!(all >= 5 * num - 1, "{all}");
     for stage in 0..5 {
         let most = stage * num + num / 2;
         let (found, asked) = checked(most);
         assert!(matches!(found, Err(ArmError::Cancelled)), "{stage}");
-        // Points whose places are left to look at ask once more each.
+        // Points whose positions are still to be tested ask once more each.
         assert!(asked <= most + num, "{stage}: {asked}");
     }
 }

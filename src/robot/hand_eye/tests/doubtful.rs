@@ -1,4 +1,4 @@
-//! Pairs that are not to be trusted, and what is said of them.
+//! Pairs that must not be trusted, and their doubts.
 
 use super::*;
 
@@ -16,7 +16,7 @@ fn half_turns_about_axes_at_right_angles_alone_have_several_answers() {
                 pair
             })
             .collect();
-        // Which of the answers comes out is chance, and may be none at all.
+        // Which of the solutions is found is chance; there may be none at all.
         match solve(&pairs, cell.mount) {
             Ok(found) => {
                 assert_eq!(found.doubts.first(), Some(&HandEyeDoubt::SeveralAnswers));
@@ -26,7 +26,7 @@ fn half_turns_about_axes_at_right_angles_alone_have_several_answers() {
     });
 }
 
-/// Pairs that turn about one axis of the flange only.
+/// Pairs with turns about one axis of the flange only.
 fn about_one_axis(cell: &TrueCell, axis: Vector3<f64>, num: usize) -> Vec<PosePair> {
     (0..num)
         .map(|i| {
@@ -110,7 +110,7 @@ fn a_gross_outlier_is_named_and_nothing_else() {
     over_cells(60, |cell, random| {
         let mut pairs = cell.pairs(10, 0.7, noise(0.5, 0.1), random);
         let wrong = random.random_range(0..10);
-        // Another capture's pose of the arm, or a slip of some centimetres.
+        // The arm's pose of another capture, or an error of some centimetres.
         let slip = Translation3::new(0.03, -0.02, 0.01);
         pairs[wrong].robot_from_flange = if wrong % 2 == 0 {
             slip * pairs[wrong].robot_from_flange
@@ -245,7 +245,7 @@ fn lengths_in_another_unit_are_told() {
 fn poses_that_do_not_belong_together_are_told() {
     over_cells(20, |cell, random| {
         let mut pairs = cell.pairs(10, 0.7, noise(0.5, 0.1), random);
-        // Every robot pose one line too late.
+        // Every robot pose is shifted by one line.
         let first = pairs[0].robot_from_flange;
         for i in 0..9 {
             pairs[i].robot_from_flange = pairs[i + 1].robot_from_flange;

@@ -1,9 +1,9 @@
-//! How an arm stands at each point, in each controller's words.
+//! Configurations of an arm at each point, in each controller's notation.
 
 use super::*;
 use crate::robot::arm::ARM_NAMES;
 
-/// What the program of the arm's maker says of these joints, degrees, at each point.
+/// The configurations that the program for the arm's maker gives for these joints, degrees, at each point.
 fn words_of(name: &str, format: ProgramFormat, degrees: &[[f64; 6]]) -> Vec<String> {
     let joints: Vec<Joints> = degrees.iter().copied().map(in_radians).collect();
     let points = points_for(&joints);
@@ -42,11 +42,11 @@ fn format_of(arm: &str) -> ProgramFormat {
     }
 }
 
-/// Whether the wrist is ahead of joint 1 and whether it is before the line of the upper arm, by the makers' drawings:
-/// lengths from joint 1 to joint 2, of the upper arm, of the forearm and of the step above it, metres.
+/// Whether the wrist is ahead of joint 1, and in front of the line of the upper arm, by the makers' drawings. Lengths:
+/// from joint 1 to joint 2, upper arm, forearm, and offset above the forearm, metres.
 fn drawn(arm: &str, degrees: &[f64; 6]) -> [bool; 2] {
     let [_, a2, a3, ..] = *degrees;
-    // The upper arm from upright to the front, and the forearm from level downwards.
+    // Angles of the upper arm from upright to the front, and of the forearm from level downwards.
     let (lengths, upper, fore) = match arm {
         "kr6-r900" => ([0.025, 0.455, 0.42, 0.025], a2 + 90.0, a2 + a3),
         "m-20ia" => ([0.15, 0.79, 0.835, 0.25], a2, a2 - a3),
@@ -68,7 +68,7 @@ fn drawn(arm: &str, degrees: &[f64; 6]) -> [bool; 2] {
     [ahead > 0.0, before > 0.0]
 }
 
-/// Holds a configuration against the joints as the controllers' manuals tell it.
+/// Compares a configuration with the joints as the controllers' manuals define it.
 fn fits(format: ProgramFormat, words: &str, degrees: &[f64; 6], [ahead, before]: [bool; 2]) {
     let numbers = |text: &str| -> Vec<i32> {
         let numbers = text.split([',', ' ']).filter_map(|n| n.parse().ok());
@@ -100,7 +100,7 @@ fn fits(format: ProgramFormat, words: &str, degrees: &[f64; 6], [ahead, before]:
             let turns = numbers(turns);
             assert_eq!(turns.len(), 3);
             for (turn, angle) in turns.iter().zip(&degrees[3..]) {
-                // A whole turn less or more lies within half a turn of 0.
+                // The remainder after whole turns is within half a turn of 0.
                 let left = angle - 360.0 * f64::from(*turn);
                 assert!(left.abs() <= 180.0, "{what}");
             }
@@ -147,7 +147,7 @@ fn every_controller_is_told_the_configuration_that_was_checked() {
             .map(|_| reach.map(|most| random.random_range(-most..most)))
             .collect();
         let mut kinds = std::collections::BTreeSet::new();
-        // Of KRL only the first counts.
+        // KRL gives only the first.
         let num = if format == ProgramFormat::Krl { 1 } else { 50 };
         for sets in sets.chunks(num) {
             let found = words_of(arm, format, sets);
@@ -196,7 +196,7 @@ fn the_borders_of_quarters_and_turns_belong_to_one_side_whatever_the_last_bit_is
     }
     for (angle, turn) in [(0.0, 0), (179.9, 0), (180.0, 1), (-179.9, 0), (-180.0, -1)] {
         for words in words("m-20ia", 3, angle) {
-            // Behind the letters.
+            // After the letters.
             assert_eq!(part(&words, 0), turn, "{words}: {angle}");
         }
         for words in words("gp25", 3, angle) {
@@ -223,11 +223,11 @@ fn poses_that_controllers_showed_have_their_configuration() {
     let home = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
     let found = words_of("irb2600", ProgramFormat::Rapid, &[home]);
     assert_eq!(found, ["0,0,0,0"]);
-    // FANUC, with J3 of -10.99° on the controller, which is counted against the horizontal.
+    // FANUC: J3 is -10.99° on the controller, where it is counted against the horizontal.
     let shown = [86.75, -45.63, -56.62, 56.19, -81.55, -94.01];
     let found = words_of("m-20ia", ProgramFormat::Ls, &[shown]);
     assert_eq!(found, ["N U T, 0, 0, 0"]);
-    // A YRC1000 with a larger arm of the same shape: home, B upwards, leaned back, T on either side.
+    // A YRC1000 with a larger arm of the same shape: home, B upwards, leaning back, T on either side.
     let home = [0.15, -39.5, 0.75, 0.0, -130.3, 0.0];
     let with = |axis: usize, angle: f64| {
         let mut degrees = home;
@@ -295,7 +295,7 @@ fn an_arm_of_another_maker_or_of_none_leaves_the_configuration_as_it_was() {
         let arm = Arm::named(path.to_str().expect("a path")).expect("an arm");
         assert_eq!(words(Some(arm), format), words(None, format), "{format:?}");
     }
-    // Where a point was not reached, the usual one stands; so do turns that RCONF cannot tell apart.
+    // A point that was not reached has the usual configuration, and so have turns that RCONF cannot express.
     let mut reach = reached(Arm::named("gp25").expect("known"), &joints);
     reach.1.points[2].joints = None;
     reach.1.points[3].joints = Some(in_radians([20.0, 10.0, 5.0, 0.0, 40.0, 400.0]));
@@ -306,6 +306,6 @@ fn an_arm_of_another_maker_or_of_none_leaves_the_configuration_as_it_was() {
     let read = parse::read(ProgramFormat::Jbi, &text_of(&program, ProgramFormat::Jbi));
     let is_usual = |found: &parse::Move| found.configuration.starts_with("1,0,0,0,0,0,");
     let usual: Vec<bool> = read.moves.iter().map(is_usual).collect();
-    // The approach comes first.
+    // The first one is the approach.
     assert_eq!(usual, [false, false, false, true, true, false, false]);
 }

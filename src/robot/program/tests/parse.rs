@@ -1,4 +1,4 @@
-//! Reads programs back by what the controllers' manuals say, knowing nothing of the writers.
+//! Reads programs back by the controllers' manuals, independently of the writers.
 
 use std::collections::BTreeMap;
 
@@ -10,19 +10,19 @@ use crate::{geometry::rigid::RigidTransform, robot::program::ProgramFormat};
 #[derive(Clone, Debug)]
 pub(super) struct Move {
     pub(super) to: RigidTransform,
-    /// None for a joint move.
+    /// Speed, m/s; none for a joint move.
     pub(super) speed: Option<f64>,
-    /// The gun on the way.
+    /// Gun state on the way.
     pub(super) is_gun_on: bool,
-    /// True if the point is reached, false if the corner may be cut.
+    /// True if the robot stops at the point, false if it may cut the corner.
     pub(super) is_exact: bool,
-    /// How the arm shall stand there, as it is written.
+    /// The configuration there, as written.
     pub(super) configuration: String,
-    /// The first external axis, metres; none where it is not written.
+    /// Position of the first external axis, metres; none if not written.
     pub(super) rail: Option<f64>,
 }
 
-/// What was read.
+/// Content of a program.
 #[derive(Debug, Default)]
 pub(super) struct Read {
     pub(super) name: String,
@@ -30,9 +30,9 @@ pub(super) struct Read {
     pub(super) output: String,
     pub(super) comments: Vec<String>,
     pub(super) moves: Vec<Move>,
-    /// Programs that are called, in their order.
+    /// Names of called programs, in order.
     pub(super) calls: Vec<String>,
-    /// After the last line.
+    /// Gun state after the last line.
     pub(super) is_gun_on: bool,
 }
 
@@ -67,7 +67,7 @@ fn about(axis: Vector3<f64>, degrees: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::from_scaled_axis(axis * degrees.to_radians())
 }
 
-/// Millimetres and a rotation.
+/// A pose from millimetres and a rotation.
 fn placed(mm: &[f64], rotation: UnitQuaternion<f64>) -> RigidTransform {
     Isometry3::from_parts(
         Translation3::new(mm[0] / 1000.0, mm[1] / 1000.0, mm[2] / 1000.0),
@@ -75,7 +75,7 @@ fn placed(mm: &[f64], rotation: UnitQuaternion<f64>) -> RigidTransform {
     )
 }
 
-/// First about the fixed x, then about the fixed y, then about the fixed z.
+/// Turns about the fixed x, then the fixed y, then the fixed z.
 fn fixed_xyz(mm: &[f64], rx: f64, ry: f64, rz: f64) -> RigidTransform {
     let turn = about(Vector3::z(), rz) * about(Vector3::y(), ry) * about(Vector3::x(), rx);
     placed(mm, turn)
@@ -212,7 +212,7 @@ fn rapid(text: &str) -> Read {
             let n = numbers(line);
             let turn = Quaternion::new(n[3], n[4], n[5], n[6]);
             assert!((turn.norm() - 1.0).abs() < 1e-6);
-            // Behind the target: its configuration and external axes.
+            // Configuration and external axes follow the target.
             let unused = ",9E9,9E9,9E9,9E9,9E9]],";
             let (target, _) = line.split_once(unused).expect("axes");
             let (target, rail) = target.rsplit_once(",[").expect("external axes");
@@ -331,7 +331,7 @@ fn jbi(text: &str) -> Read {
     assert_eq!([places.len(), rails.len()], num_places);
     let group = between(text, "///GROUP1 ", "\r\n");
     assert!(group == "RB1,BS1" || (group == "RB1" && rails.is_empty()));
-    // A job without positions says nothing of their frame.
+    // A job without positions has no lines about their frame.
     let of_positions = ["///POSTYPE BASE", "///RECTAN", "////FRAME BASE"];
     for line in of_positions {
         let is_there = text.contains(&format!("\r\n{line}\r\n"));

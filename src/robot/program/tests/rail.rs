@@ -3,7 +3,7 @@
 use super::*;
 use crate::robot::arm::Rail;
 
-/// An arm on a rail along y, which moves with it, and where the rail is at each point, metres.
+/// An arm on a rail along y with this top speed, and the rail's position at each point, metres.
 fn on_rail(name: &str, rails: &[f64], speed: Option<f64>) -> (PlacedArm, PathCheck) {
     let joints = vec![in_radians([20.0, 10.0, 5.0, 30.0, 40.0, -20.0]); rails.len()];
     let (mut placed, mut check) = reached(Arm::named(name).expect("known"), &joints);
@@ -33,7 +33,7 @@ fn a_rail_that_moves_is_the_external_axis_of_every_position() {
         ("m-20ia", ProgramFormat::Ls, "rail: E1, mm"),
         ("irb4600", ProgramFormat::Rapid, "rail: eax_a, mm"),
         ("gp25", ProgramFormat::Jbi, "rail: BC, base axis 1, mm"),
-        // The configuration is not known, the rail is.
+        // The configuration is not known, but the rail is.
         ("gp25", ProgramFormat::Krl, "rail: E1, mm"),
     ] {
         let text = |speed: Option<f64>| {
@@ -56,7 +56,7 @@ fn a_rail_that_moves_is_the_external_axis_of_every_position() {
         let words = read.comments.join(" ");
         assert!(words.contains(axis), "{words}");
         assert!(words.contains("0 where the cell was calibrated"), "{words}");
-        // All else is as it is without a rail.
+        // Everything else is as without a rail.
         let still = parse::read(format, &text(None));
         assert!(!still.comments.join(" ").contains("rail:"));
         for (moved, still) in read.moves.iter().zip(&still.moves) {
@@ -131,7 +131,7 @@ fn a_path_in_several_programs_keeps_its_rail() {
     };
     for format in [ProgramFormat::Ls, ProgramFormat::Jbi] {
         let texts = program.texts(format, "paint").expect("texts");
-        // Its axes are those of the programs that it calls.
+        // The main program has the same axes as the programs that it calls.
         let main = parse::read(format, &texts.main);
         assert_eq!(main.calls.len(), texts.parts.len());
         let is_of_rail = texts.main.contains("///GROUP1 RB1,BS1");

@@ -1,4 +1,4 @@
-//! What the task does: runs the server, and inspects a frame of the window's source for each trigger.
+//! The server's task: runs the server, and inspects a frame of the window's source for each trigger.
 
 use std::{
     io,
@@ -38,41 +38,41 @@ use crate::{
     stages::scene::{EmptyCell, SceneCloud},
 };
 
-/// How long a trigger waits for its frame, as the command does.
+/// How long a trigger waits for its frame, as in `partsight serve`.
 const FRAME_TIMEOUT: Duration = Duration::from_secs(5);
-/// Events of clients that wait to be shown; more of them at once are left out.
+/// Capacity for client events that the task has not read yet; further ones are dropped.
 const MAX_EVENTS: usize = 64;
-/// Inspections are handed to the history with numbers from here on, beyond those of the window's own.
+/// First history ticket of the server, out of the range of the window's own tickets.
 const FIRST_TICKET: u64 = 1 << 63;
 
-/// How the server stands.
+/// Status of the server.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnsweringStatus {
-    /// Where it listens, with the port that the system chose.
+    /// Address of the listener, with the port that the system chose.
     pub at: ListenAddress,
-    /// Connections.
+    /// Number of connections.
     pub num_clients: usize,
-    /// What happened to one of them last.
+    /// The last event of any connection.
     pub client: Option<ClientEvent>,
     /// The answer to the last trigger.
     pub last: Option<LastAnswer>,
-    /// What went wrong behind an answer; the answer is not affected.
+    /// The last error while keeping an inspection; the answer itself is not affected.
     pub trouble: Option<UserError>,
 }
 
-/// What a trigger was answered.
+/// The last trigger and its answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LastAnswer {
-    /// When the trigger came.
+    /// When the trigger arrived.
     pub at: Timestamp,
-    /// The answer, when it was given.
+    /// The answer; the default until it is given.
     pub answer: Answer,
 }
 
-/// What triggers are answered by. The window replaces it while the server runs.
+/// The inputs for answering a trigger. The window replaces them while the server runs.
 #[derive(Clone, Debug)]
 pub(super) struct AnswerInputs {
-    /// The source, while it is followed.
+    /// The source, while Live follows one.
     followed: Option<SourceSpec>,
     recipe: Arc<NamedRecipe>,
     empty_cell: Option<Arc<EmptyCell>>,
@@ -95,17 +95,17 @@ impl AnswerInputs {
     }
 }
 
-/// What to answer, and until when.
+/// What the server's task needs.
 pub(super) struct AnswerRequest {
     pub(super) listener: Listener,
     pub(super) inputs: Arc<Mutex<AnswerInputs>>,
     pub(super) is_ending: Arc<AtomicBool>,
     pub(super) library_cache: LibraryCache,
-    /// Called when the history may have news.
+    /// Called when the history may have changed.
     pub(super) on_history: Box<dyn Fn() + Send>,
 }
 
-/// Runs the server until it is told to end, or the task is cancelled. All that was answered is in the history then.
+/// Runs the server until it is told to end or the task is cancelled. On return all answered inspections are in the history.
 pub(super) fn answer(
     request: AnswerRequest,
     context: &TaskContext<AnsweringStatus>,
@@ -120,7 +120,7 @@ pub(super) fn answer(
     let camera = {
         let (inputs, library_cache) = (Arc::clone(&inputs), library_cache.clone());
         Camera::start_with(move || {
-            // The window does not wait for its camera: the lock is not held meanwhile.
+            // Release the lock before the camera starts, so that the window does not wait for it.
             let followed = lock(&inputs).followed.clone();
             Ok(followed_feed(followed.as_ref(), &library_cache))
         })
@@ -133,7 +133,7 @@ pub(super) fn answer(
         ServerSettings::default(),
         move || of_server.status(),
         move |event| {
-            // With so many at once nobody reads them all.
+            // Dropped if the channel is full: only the last one is shown anyway.
             let _ = tell.try_send(event);
         },
     );
@@ -175,7 +175,7 @@ pub(super) fn answer(
     Ok(session.finish())
 }
 
-/// Why the server does not listen, and what to do in the window.
+/// Explains why the server does not listen, and what to do in the window.
 fn in_words(error: &ServeError) -> UserError {
     match error {
         ServeError::Bind { at, source, .. } if source.kind() == io::ErrorKind::AddrInUse => {
@@ -192,7 +192,7 @@ fn in_words(error: &ServeError) -> UserError {
     }
 }
 
-/// What the window follows, and which of its frames are new.
+/// Returns a feed of the source that the window follows, and the rule for which of its frames are new.
 fn followed_feed(followed: Option<&SourceSpec>, library_cache: &LibraryCache) -> (Feed, NewFrame) {
     match followed {
         Some(spec) => (library_cache.camera().tap(spec), NewFrame::of_source(spec)),
@@ -203,29 +203,29 @@ fn followed_feed(followed: Option<&SourceSpec>, library_cache: &LibraryCache) ->
     }
 }
 
-/// The inspections, on the thread that runs the server.
+/// Answers triggers on the thread that runs the server.
 struct AnsweringSession<'a> {
     context: &'a TaskContext<AnsweringStatus>,
     is_ending: &'a AtomicBool,
     inputs: &'a Mutex<AnswerInputs>,
     library_cache: &'a LibraryCache,
     camera: Arc<Camera>,
-    /// The source that the camera was started with.
+    /// The source that the camera was last restarted with; `None` at first.
     followed: Option<SourceSpec>,
     finder: PartFinder,
-    /// The library whose parts the finder knows.
+    /// The library whose parts `finder` has.
     library: Option<Arc<LoadedLibrary>>,
     events: Receiver<ClientEvent>,
     handle: ServerHandle,
     writer: Writer,
     num_written: u64,
-    /// The inspection whose answer is on its way.
+    /// The inspection of the last trigger, until it is handed to the history.
     last: Option<AnsweredFrame>,
     status: AnsweringStatus,
     told: Option<AnsweringStatus>,
 }
 
-/// An inspection that is to be kept.
+/// An inspection to be kept in the history.
 struct AnsweredFrame {
     origin: Origin,
     source: String,
@@ -234,7 +234,7 @@ struct AnsweredFrame {
     recipe: Arc<NamedRecipe>,
     library: Arc<LibraryView>,
     trace: Traceability,
-    /// The line of JSON.
+    /// The JSON line.
     line: String,
 }
 
@@ -330,19 +330,19 @@ impl AnsweringSession<'_> {
         self.context.is_cancelled() || self.is_ending.load(Ordering::Relaxed)
     }
 
-    /// What holds now. The camera is started anew where the window follows another source, or its source again.
+    /// Returns the current inputs. Restarts the camera if the window follows another source, or follows its source again.
     fn follow(&mut self) -> AnswerInputs {
         let inputs = lock(self.inputs).clone();
         let is_over = || self.camera.status().state == CameraState::Over;
         if inputs.followed != self.followed || inputs.followed.is_some() && is_over() {
             self.followed.clone_from(&inputs.followed);
-            // It never fails to start: a source without frames is a feed that has failed.
+            // Starting cannot fail: a missing source is a feed that has failed.
             let _ = self.camera.restart();
         }
         inputs
     }
 
-    /// Has the finder know this library, and where the camera stands.
+    /// Updates the finder with the library, the calibration and the kind of pose.
     fn know(&mut self, loaded: &Arc<LoadedLibrary>, inputs: &AnswerInputs) {
         self.finder.robot.clone_from(&inputs.robot);
         self.finder.kind = inputs.pose;
@@ -360,7 +360,7 @@ impl AnsweringSession<'_> {
         }
     }
 
-    /// Hands an inspection to the history, as one of its own: nobody but who asks knows whether it is the same part again.
+    /// Hands an inspection to the history as a hung part of its own: only the client knows whether it is the same part again.
     fn keep(&mut self, last: &AnsweredFrame) {
         let AnsweredFrame {
             origin,
@@ -381,7 +381,7 @@ impl AnsweringSession<'_> {
             title_of: &|name| library.title_of(name).to_owned(),
             line: line.clone(),
             library: library.identity.clone(),
-            // What has no JSON form cannot be had again either.
+            // An origin without a JSON form cannot be opened again anyway.
             origin: serde_json::to_string(origin).ok(),
             picture: picture.as_ref(),
             hung: HungId::new(),
@@ -398,7 +398,7 @@ impl AnsweringSession<'_> {
         }
     }
 
-    /// Tells the window how the server stands, unless nothing has changed.
+    /// Publishes the status if it has changed.
     fn publish(&mut self) {
         self.status.num_clients = self.handle.num_clients();
         if self.told.as_ref() != Some(&self.status) {
@@ -407,7 +407,7 @@ impl AnsweringSession<'_> {
         }
     }
 
-    /// Waits until all is written.
+    /// Waits until the history has written everything handed over.
     fn finish(self) -> AnsweringStatus {
         self.writer.finish();
         self.status

@@ -24,7 +24,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// With the page in front, and its folder, which is not there yet, read.
+    /// Opens the page and reads its folder, which does not exist yet.
     fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let kept = CellCheckFolder::at(folder.path().join("cell"));
@@ -49,20 +49,20 @@ impl Bench {
         self.apply(RobotAction::Edit(Box::new(dialog)));
     }
 
-    /// Does the work that was asked for; false if none was.
+    /// Runs the waiting work; false if there is none.
     fn work(&mut self) -> bool {
         let has_worked = self.checks().run_waiting();
         self.robot.update(&mut self.shell.context());
         has_worked
     }
 
-    /// Carries out an action of the check and the work that it asks for; false if it asks for none.
+    /// Carries out an action of the check and runs its work; false if there is none.
     fn check(&mut self, action: CheckAction) -> bool {
         self.apply(RobotAction::Check(action));
         self.work()
     }
 
-    /// Takes the source from a file: a fender, captured after the camera moved back by `back` metres.
+    /// Uses a file as the source: a fender, captured after the camera moved back by `back` metres.
     fn look_from(&mut self, noise: u64, back: f64) {
         let path = self.folder.path().join(format!("{noise}.pcd"));
         save_fender_view(&path, noise, back);
@@ -81,7 +81,7 @@ impl Bench {
         self.dialog().trouble.as_ref().expect("trouble")
     }
 
-    /// Becomes the operator's window, and does what it begins with.
+    /// Switches to the operator's role and runs the work that this starts.
     fn become_operators(&mut self) {
         self.shell.session.role = UserRole::Operator;
         self.shell.messages.clear();
@@ -99,7 +99,7 @@ fn without_a_baseline_there_is_nothing_to_compare_with() {
     assert!(bench.check(CheckAction::Check));
     assert!(bench.trouble().what.contains("no baseline"));
     assert!(bench.checks().latest().is_none());
-    // What cannot be looked at is refused before anything is done.
+    // A source that cannot be used is refused before any work starts.
     bench.shell.session.source = Source::Scan(ScanFiles::of_folder("scan".into()));
     assert!(!bench.check(CheckAction::TakeBaseline));
     assert!(bench.trouble().what.contains("scan"));
@@ -170,7 +170,7 @@ fn a_baseline_is_replaced_only_by_who_says_so() {
     assert!(bench.check(CheckAction::Check));
     let found = bench.checks().latest().map(|check| check.finding);
     assert_eq!(found, Some(CellFinding::InPlace), "within 30 mm");
-    // The first press asks; who turns the page was not asked.
+    // The first press only asks; turning the page withdraws the question.
     assert!(!bench.check(CheckAction::TakeBaseline));
     assert!(bench.dialog().is_replacing);
     bench.edit(|dialog| dialog.page = RobotPage::InUse);
@@ -184,7 +184,7 @@ fn a_baseline_is_replaced_only_by_who_says_so() {
     assert!(!bench.dialog().is_replacing);
     let second = bench.checks().content().baseline.clone().expect("taken");
     assert!(second.made_at > first.made_at);
-    // A check against another baseline says nothing of this one.
+    // A check against another baseline does not count for this one.
     assert!(bench.checks().latest().is_none());
     assert_eq!(bench.checks().content().checks.len(), 1);
 }
@@ -221,7 +221,7 @@ fn a_camera_gives_several_frames_and_can_be_given_up() {
     assert!(bench.checks().running().is_none());
     bench.work();
     assert!(!bench.folder.path().join("cell").exists());
-    // Closing the dialog gives it up as well.
+    // Closing the dialog cancels as well.
     bench.apply(RobotAction::Check(CheckAction::TakeBaseline));
     bench.apply(RobotAction::Close);
     assert!(bench.checks().running().is_none());
@@ -252,7 +252,7 @@ fn of_the_simulated_cell_the_frame_in_front_is_looked_at() {
         inspector::update(&mut state);
     }
     assert_eq!(number(&state.session), 2);
-    // What is followed is a camera.
+    // A followed source counts as a camera.
     session.live.is_on = true;
     let followed = source(&session).expect("a source");
     assert!(matches!(followed, SceneSource::Camera(_)), "{followed:?}");
