@@ -221,5 +221,6 @@ fn entry(
         picture: None,
         scene: scene.map(Arc::clone),
         shots: Vec::new(),
+        stands_for_part: false,
     }
 }

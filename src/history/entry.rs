@@ -220,6 +220,9 @@ pub struct NewEntry {
     pub scene: Option<Arc<SceneCloud>>,
     /// Shots of a scan with their camera poses from the robot; the scene is one of them. Empty otherwise.
     pub shots: Vec<Shot>,
+    /// True if it stands for its part also where another inspection of it was written before, unless that one alone
+    /// accepts it.
+    pub stands_for_part: bool,
 }
 
 /// Facts about an inspection that [`Inspection`] does not contain.
@@ -309,6 +312,7 @@ impl NewEntry {
             picture: about.picture.map(small),
             scene: Some(Arc::clone(scene)),
             shots: Vec::new(),
+            stands_for_part: false,
         }
     }
 
@@ -323,14 +327,17 @@ impl NewEntry {
         self.scene = None;
         self.shots = Vec::new();
     }
-}
 
-impl Summary {
-    /// Returns whether `later`, of the same part, replaces this inspection as the one that stands for the part: a
-    /// refused part that is later accepted in the same place counts as accepted. An acceptance is never replaced, since
-    /// a robot may have acted on it. Neither verdict changes.
-    pub(super) fn gives_way_to(&self, later: &Self) -> bool {
-        self.verdict != StoredVerdict::Accepted && later.verdict == StoredVerdict::Accepted
+    /// True if it stands for its part in place of `head`, which was written before: a part that was refused and is
+    /// accepted as it still hangs there is an accepted part. The part stays accepted for good, since a robot may have
+    /// acted on it. Neither verdict is changed.
+    pub(super) fn takes_over_from(&self, head: &Summary) -> bool {
+        let is_accepted = |row: &Summary| row.verdict == StoredVerdict::Accepted;
+        match (is_accepted(head), is_accepted(&self.record.summary)) {
+            (false, true) => true,
+            (true, false) => false,
+            (true, true) | (false, false) => self.stands_for_part,
+        }
     }
 }
 

@@ -40,8 +40,11 @@ impl fmt::Display for HungId {
 pub struct HungRows<E = NewEntry> {
     parts: HungParts,
     id: HungId,
+    /// Of the part that hangs there next.
+    next: HungId,
     visit: u64,
-    /// Best inspection of a part whose verdict does not count yet.
+    departures: u64,
+    /// Of a part whose verdict does not count yet.
     best: Option<E>,
 }
 
@@ -50,7 +53,9 @@ impl<E> Default for HungRows<E> {
         Self {
             parts: HungParts::default(),
             id: HungId::new(),
+            next: HungId::new(),
             visit: 0,
+            departures: 0,
             best: None,
         }
     }
@@ -64,9 +69,13 @@ impl<E> HungRows<E> {
         let (left, role) = self.parts.see(frame);
         let best = self.best.take_if(|_| left != Left::Nothing);
         let left = best.filter(|_| left == Left::Part);
+        if self.parts.departures() != self.departures {
+            self.departures = self.parts.departures();
+            self.next = HungId::new();
+        }
         if self.parts.visit() != self.visit {
             self.visit = self.parts.visit();
-            self.id = HungId::new();
+            self.id = std::mem::replace(&mut self.next, HungId::new());
         }
         if role == FrameRole::First {
             self.best = None;
@@ -79,7 +88,20 @@ impl<E> HungRows<E> {
         &self.id
     }
 
-    /// Holds the inspection that shows the part best, until its verdict counts or the part leaves.
+    /// The part that a frame shows which was inspected beside those of [`see`](Self::see), and taken about when the last of
+    /// those was. `shows_part` says whether that last one shows a part: if so, and the part before has left, it is the
+    /// next part already. What is inspected while nothing hangs there is of no part, and gets an id of its own.
+    pub fn id_of_frame(&self, shows_part: bool) -> HungId {
+        if self.parts.is_hanging() {
+            self.id.clone()
+        } else if shows_part {
+            self.next.clone()
+        } else {
+            HungId::new()
+        }
+    }
+
+    /// Keeps the frame that shows the part best, until its verdict counts or it leaves.
     pub fn hold(&mut self, best: E) {
         self.best = Some(best);
     }
@@ -87,7 +109,134 @@ impl<E> HungRows<E> {
     /// Ends the source. Returns the held inspection of a part whose verdict does not count yet.
     pub fn end(&mut self) -> Option<E> {
         self.parts = HungParts::default();
-        self.visit = 0;
+        self.next = HungId::new();
+        (self.visit, self.departures) = (0, 0);
         self.best.take()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::{
+        kit::{scene_of, shipped_library},
+        library::Library,
+        pipeline::{
+            Inspection, Recipe, Unwatched,
+            live::{ConsensusVerdict, LiveVerdict},
+            run,
+        },
+        simulate::{CellSetup, PartKind, PartPose, PoseRange, SensorNoise, Side, SimulatedObject},
+        stages::scene::SceneCloud,
+    };
+
+    /// A frame of the same cell, as it was inspected by itself.
+    struct Seen {
+        scene: SceneCloud,
+        inspection: Inspection,
+    }
+
+    impl Seen {
+        fn of(library: &Library, subject: SimulatedObject) -> Self {
+            let mut setup = CellSetup::new(subject, 3);
+            setup.noise = SensorNoise::kinect(5);
+            if subject != SimulatedObject::Nothing {
+                let placed = PoseRange::facing().draw(&subject.mesh(), &setup.intrinsics, 3);
+                setup.pose = PartPose::Fixed(placed.camera_from_part);
+            }
+            let scene = scene_of(&setup);
+            let inspection = run(&scene, library, &Recipe::default(), &Unwatched);
+            Self {
+                inspection: inspection.expect("not cancelled"),
+                scene,
+            }
+        }
+    }
+
+    /// Follows such frames, four a second.
+    #[derive(Default)]
+    struct Line {
+        rows: HungRows<()>,
+        num_frames: u32,
+    }
+
+    impl Line {
+        fn open(&mut self, seen: &Seen) -> FrameRole {
+            self.see(seen, &LiveVerdict::Open)
+        }
+
+        /// A frame after which its own verdict counts.
+        fn counted(&mut self, seen: &Seen) -> FrameRole {
+            let agreed = ConsensusVerdict {
+                verdict: seen.inspection.verdict.clone(),
+                num_frames: 5,
+                num_agreeing: 5,
+                pose: None,
+            };
+            self.see(seen, &LiveVerdict::Counted(Box::new(agreed)))
+        }
+
+        fn see(&mut self, seen: &Seen, verdict: &LiveVerdict) -> FrameRole {
+            self.num_frames += 1;
+            let (_, role) = self.rows.see(&HungFrame {
+                scene: &seen.scene,
+                at: Duration::from_millis(250) * self.num_frames,
+                inspection: &seen.inspection,
+                verdict,
+                middle: None,
+                inputs: "",
+            });
+            role
+        }
+    }
+
+    #[test]
+    fn an_inspection_beside_those_that_are_followed_is_of_the_part_that_hangs_there() {
+        let library = shipped_library();
+        let fender = SimulatedObject::Part {
+            kind: PartKind::Fender,
+            side: Side::Left,
+            model_seed: 0,
+        };
+        let fender = Seen::of(&library, fender);
+        let empty = Seen::of(&library, SimulatedObject::Nothing);
+        let mut line = Line::default();
+        // Before and after its verdict counts.
+        line.open(&fender);
+        let first = line.rows.id_of_frame(true);
+        assert_eq!(line.counted(&fender), FrameRole::First);
+        assert_eq!(*line.rows.id(), first);
+        assert_eq!(line.rows.id_of_frame(true), first);
+        // A frame that misses it.
+        assert_eq!(line.rows.id_of_frame(false), first);
+
+        // It was exchanged, and the other one is still moving.
+        line.open(&empty);
+        assert_ne!(line.rows.id_of_frame(false), first, "nothing hangs there");
+        line.open(&fender);
+        let second = line.rows.id_of_frame(true);
+        assert_ne!(second, first);
+        assert_eq!(line.rows.id_of_frame(true), second);
+        assert_eq!(line.counted(&fender), FrameRole::First);
+        assert_eq!(*line.rows.id(), second);
+
+        // What is there for a moment and goes is not the part that comes after it.
+        line.open(&empty);
+        line.open(&fender);
+        let passing = line.rows.id_of_frame(true);
+        for _ in 0..4 {
+            line.open(&empty);
+        }
+        assert_eq!(line.open(&fender), FrameRole::Best);
+        let third = line.rows.id().clone();
+        assert!(![first, second, passing].contains(&third));
+
+        // The source has ended: nothing hangs there any more.
+        assert!(line.rows.end().is_none());
+        assert_ne!(line.rows.id_of_frame(false), third);
+        line.open(&fender);
+        assert_ne!(*line.rows.id(), third);
     }
 }

@@ -66,8 +66,12 @@ pub(super) fn insert(
     let Record { summary, detail } = &entry.record;
     let head = head_of(file, &summary.hung)?;
     let (parent, gives_way) = match &head {
-        Some(head) if head.gives_way_to(summary) => (None, Some(head)),
-        head => (head.as_ref().map(|head| head.number), None),
+        Some(head) if entry.takes_over_from(head) => (None, Some(head)),
+        Some(head) => {
+            trace_head(file, head, &summary.trace)?;
+            (Some(head.number), None)
+        }
+        None => (None, None),
     };
     // Remark, label and traceability of the part stay with it.
     let mut summary = summary.clone();
@@ -143,8 +147,30 @@ pub(super) fn insert(
     Ok(number)
 }
 
-/// Stores a recipe under its identity, or under a variant of it if another recipe happens to have the same one. Returns
-/// the key.
+/// Traces the inspection that stands for a part by what was not known yet when it was written.
+fn trace_head(file: &Connection, head: &Summary, known: &Traceability) -> rusqlite::Result<()> {
+    let trace = head.trace.clone().or(known);
+    if trace == head.trace {
+        return Ok(());
+    }
+    let head = Summary {
+        trace,
+        ..head.clone()
+    };
+    file.execute(
+        "UPDATE inspection SET serial = ?, job_order = ?, operator = ?, search = ? WHERE number = ?",
+        params![
+            head.trace.serial,
+            head.trace.order,
+            head.trace.operator,
+            head.search(),
+            head.number
+        ],
+    )?;
+    Ok(())
+}
+
+/// Where a recipe is written: under its identity, unless another has that by chance.
 fn recipe_key(
     file: &Connection,
     identity: &str,

@@ -548,6 +548,56 @@ fn a_refusal_gives_way_to_an_acceptance_and_an_acceptance_stands() {
 }
 
 #[test]
+fn what_stands_for_its_part_does_so_above_what_was_written_before_unless_that_alone_accepts_it() {
+    use StoredVerdict::{Accepted, NotAccepted};
+
+    let standing = |of: &NewEntry, seconds, verdict| {
+        let mut entry = again(of, seconds, verdict);
+        entry.stands_for_part = true;
+        entry.record.summary.trace.serial = format!("TL-{seconds}");
+        entry
+    };
+    let parts = [(1, Accepted), (3, Accepted), (5, NotAccepted)];
+    let [one, two, three] =
+        parts.map(|(seconds, verdict)| history_entry(seconds, verdict, "grille"));
+    let entries = [
+        one.clone(),
+        standing(&one, 2, Accepted),
+        two.clone(),
+        standing(&two, 4, NotAccepted),
+        three.clone(),
+        standing(&three, 6, NotAccepted),
+    ];
+    let (_folder, mut history) = new_history();
+    // Those that wait in memory are listed in the same way.
+    let buffer = HistoryBuffer::default();
+    for (ticket, entry) in entries.into_iter().enumerate() {
+        history.add(&entry, &ALL).expect("written");
+        buffer.add(ticket as u64, entry, std::time::Instant::now());
+    }
+    let all = Filter::default();
+    let written = history.page(&all, 0, 9).expect("asked");
+    let waiting = buffer.page(&all, 0, 9).expect("asked");
+    for page in [written, waiting] {
+        let row = |row: &Summary| (row.scene.clone(), row.num_below, row.trace.serial.clone());
+        let rows: Vec<_> = page.rows.iter().map(row).collect();
+        let expected = [
+            ("frame 6", "TL-6"),
+            ("frame 3", "TL-4"),
+            ("frame 2", "TL-2"),
+        ];
+        let expected = expected.map(|(scene, serial)| (scene.to_owned(), 1, serial.to_owned()));
+        assert_eq!(rows, expected);
+    }
+    // What is traced later is found with the part.
+    let found = Filter {
+        text: "tl-4".into(),
+        ..all
+    };
+    assert_eq!(numbers(&history, &found), [3]);
+}
+
+#[test]
 fn a_file_of_the_first_version_is_brought_up_to_date_with_all_that_was_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(FILE);

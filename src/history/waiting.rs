@@ -38,7 +38,7 @@ pub(super) fn waiting_rows(
     for (place, entry) in waiting.iter().enumerate() {
         let mut row = entry.record.summary.clone();
         match heads.get(&row.hung).copied() {
-            Some(head) if rows[head].gives_way_to(&row) => {
+            Some(head) if entry.takes_over_from(&rows[head]) => {
                 row.trace = row.trace.or(&rows[head].trace);
                 for other in &mut rows {
                     if other.hung == row.hung {
@@ -50,6 +50,7 @@ pub(super) fn waiting_rows(
                 heads.insert(row.hung.clone(), place);
             }
             Some(head) => {
+                rows[head].trace = rows[head].trace.clone().or(&row.trace);
                 row.trace = row.trace.or(&rows[head].trace);
                 row.parent = Some(rows[head].number);
                 rows[head].num_below += 1;

@@ -240,6 +240,7 @@ pub(crate) fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) ->
         picture: Some(RgbImage::from_pixel(16, 12, image::Rgb([200, 150, 40]))),
         scene: Some(small_scene(seconds as u16)),
         shots: Vec::new(),
+        stands_for_part: false,
     }
 }
 

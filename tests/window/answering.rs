@@ -6,6 +6,7 @@ use std::{
     io::{BufRead as _, BufReader, Write as _},
     net::{SocketAddr, TcpListener, TcpStream},
     path::Path,
+    sync::mpsc::Sender,
     thread,
     time::{Duration, Instant},
 };
@@ -26,6 +27,7 @@ use partsight::{
     },
     capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
     geometry::{depth_frame::DepthFrame, rigid::RigidTransform},
+    history::{Filter, HistoryBuffer, StoredVerdict},
     robot::Convention,
     serve::VerdictCode,
     simulate::{PartKind, SensorNoise},
@@ -34,7 +36,7 @@ use partsight::{
 use crate::kit::{HangingPart, copy_library};
 
 use super::{
-    live::toggle,
+    live::{Step, sees, toggle, wired_options},
     robot::save_calibration,
     set_up::{
         SMALL, USUAL, WindowHarness, act, history_of, open, open_with, plain_options, press,
@@ -234,11 +236,8 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
         (answer.verdict, answer.sequence),
         (VerdictCode::Accepted, 1)
     );
-    wait_for(&mut harness, |window| {
-        let history = window.workspace::<HistoryWorkspace>();
-        history.is_some_and(|history| history.state().num_rows() == num_rows + 1)
-    });
-    wait_for(&mut harness, is_settled);
+    // Below the row that Live has written of the part.
+    wait_for_rows(&mut harness, num_rows, 1);
     let newest = history_of(&harness).row(0).expect("kept");
     assert_eq!(newest.part.as_deref(), Some("fender"));
     assert!(newest.is_simulated && newest.scene.contains("teady frame"));
@@ -385,4 +384,124 @@ fn nobody_is_answered_without_a_calibration_or_at_no_address() {
     let edit = RobotAction::Edit(Box::new(open_to_all));
     act(&mut harness, Action::Robot(edit));
     harness.get_by_label_contains("is open to the network without encryption");
+}
+
+/// Where a part that swings is seen, metres beside its place: no verdict on it counts.
+const SWINGING: [f64; 2] = [0.0, 0.06];
+/// Where one is seen that comes, and one that goes.
+const COMING: [f64; 3] = [2.0, 1.2, 0.5];
+const GOING: [f64; 6] = [-0.5, -1.2, -2.0, -2.0, -2.0, -2.0];
+
+/// A calibrated window whose every camera is this wire, with a history in this folder.
+fn wired(folder: &Path) -> (WindowHarness, Sender<Step>) {
+    let cell = folder.join("cell.toml");
+    save_calibration(&cell);
+    let (options, wire) = wired_options();
+    let options = WindowOptions {
+        cell: Some(cell),
+        history: Some(folder.join("history")),
+        ..options
+    };
+    (open_with(USUAL, options), wire)
+}
+
+/// A robot triggers; until it is answered the camera sees the part at these places, again and again.
+fn ask_while(harness: &mut WindowHarness, wire: &Sender<Step>, at: SocketAddr, places: [f64; 2]) {
+    let asking = thread::spawn(move || Robot::connect(at).ask("TRIGGER"));
+    while !asking.is_finished() {
+        sees(harness, wire, places);
+    }
+    let told = asking.join().expect("no panic");
+    assert_eq!([&*told[1], &*told[6]], ["accepted", "fender"], "{told:?}");
+}
+
+/// The same; then Live has seen what the robot was answered by.
+fn trigger(harness: &mut WindowHarness, wire: &Sender<Step>, at: SocketAddr, places: [f64; 2]) {
+    ask_while(harness, wire, at, places);
+    sees(harness, wire, places);
+}
+
+/// Waits until the history shows so many parts, and so many inspections below the newest.
+fn wait_for_rows(harness: &mut WindowHarness, num_parts: usize, num_below: usize) {
+    wait_for(harness, |window| {
+        let history = window.workspace::<HistoryWorkspace>();
+        history.map(HistoryWorkspace::state).is_some_and(|history| {
+            let below = history.row(0).map(|row| row.num_below);
+            history.is_settled() && (history.num_rows(), below) == (num_parts, Some(num_below))
+        })
+    });
+}
+
+#[test]
+fn a_trigger_before_or_after_the_verdict_counts_is_no_other_part() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut harness, wire) = wired(folder.path());
+    let at = turn_on(&mut harness);
+    trigger(&mut harness, &wire, at, SWINGING);
+    // With the first frame of the window.
+    wait_for_rows(&mut harness, 2, 0);
+    let of_trigger = history_of(&harness).row(0).map(|row| row.number);
+
+    sees(&mut harness, &wire, [0.0; 22]);
+    harness.get_by_label("Accepted");
+    wait_for_rows(&mut harness, 2, 1);
+    let of_live = history_of(&harness).row(0).map(|row| row.number);
+    assert!(of_live > of_trigger, "the verdict of many frames stands");
+
+    trigger(&mut harness, &wire, at, [0.0; 2]);
+    wait_for_rows(&mut harness, 2, 2);
+    let now = history_of(&harness).row(0).map(|row| row.number);
+    assert_eq!(now, of_live);
+
+    cause(&mut harness, Action::Role(RoleAction::Switch));
+    wait_until(&mut harness, |state| state.session.shift.since.is_some());
+    let shift = &harness.state().state().session.shift;
+    assert_eq!((shift.num_ok, shift.num_not_ok), (2, 0));
+}
+
+#[test]
+fn triggers_of_two_parts_one_after_the_other_and_of_one_that_swings_through_are_three_parts() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut harness, wire) = wired(folder.path());
+    let at = turn_on(&mut harness);
+    for num_parts in 2..=3 {
+        sees(&mut harness, &wire, COMING);
+        trigger(&mut harness, &wire, at, SWINGING);
+        sees(&mut harness, &wire, [0.0; 22]);
+        harness.get_by_label("Accepted");
+        wait_for_rows(&mut harness, num_parts, 1);
+        sees(&mut harness, &wire, GOING);
+    }
+    sees(&mut harness, &wire, COMING);
+    trigger(&mut harness, &wire, at, SWINGING);
+    sees(&mut harness, &wire, GOING);
+    sees(&mut harness, &wire, [-2.0; 2]);
+    // Live has accepted nothing; the robot may have acted on what it was answered.
+    wait_for_rows(&mut harness, 4, 1);
+    let newest = history_of(&harness).row(0).expect("kept");
+    assert_eq!(newest.verdict, StoredVerdict::Accepted);
+}
+
+#[test]
+fn what_robots_were_answered_is_kept_when_the_server_ends_or_the_window_before_live_is_done() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut harness, wire) = wired(folder.path());
+    let at = turn_on(&mut harness);
+    ask_while(&mut harness, &wire, at, SWINGING);
+    turn_off(&mut harness);
+    sees(&mut harness, &wire, [0.0; 22]);
+    harness.get_by_label("Accepted");
+    wait_for_rows(&mut harness, 2, 1);
+
+    sees(&mut harness, &wire, GOING);
+    let at = turn_on(&mut harness);
+    sees(&mut harness, &wire, COMING);
+    ask_while(&mut harness, &wire, at, SWINGING);
+    drop(harness);
+    let history = HistoryBuffer::new(Some(folder.path().join("history")));
+    let page = history.page(&Filter::default(), 0, 10).expect("readable");
+    assert_eq!((page.num_all, page.rows.len()), (3, 3));
+    let newest = &page.rows[0];
+    assert_eq!(newest.verdict, StoredVerdict::Accepted);
+    assert_eq!(newest.part.as_deref(), Some("fender"));
 }

@@ -386,6 +386,7 @@ fn what_a_command_inspects_shows_in_an_open_history() {
         picture: None,
         scene: None,
         shots: Vec::new(),
+        stands_for_part: false,
     };
     history.add_all([entry]).expect("written");
     drop(history);
@@ -415,6 +416,7 @@ fn of_a_hundred_thousand_inspections_only_those_in_sight_are_fetched() {
             picture: None,
             scene: None,
             shots: Vec::new(),
+            stands_for_part: false,
         }
     });
     history.add_all(many).expect("written");

@@ -67,6 +67,7 @@ pub enum Left {
 pub struct HungParts {
     state: HungState,
     visit: u64,
+    departures: u64,
     last_at: Option<Duration>,
     /// Since when, and in how many frames, no part was seen.
     absent: Option<(Duration, usize)>,
@@ -120,6 +121,20 @@ impl HungParts {
     /// Counts the parts that hung there, the present one included.
     pub fn visit(&self) -> u64 {
         self.visit
+    }
+
+    /// Counts how often the place was left, or stayed empty for as long as a part takes to leave.
+    pub fn departures(&self) -> u64 {
+        self.departures
+    }
+
+    /// True while a part hangs there, whether its verdict counts or not.
+    pub fn is_hanging(&self) -> bool {
+        match &self.state {
+            HungState::Empty => false,
+            HungState::Unsettled { .. } => true,
+            HungState::Counted(part) => !part.has_left,
+        }
     }
 
     /// Takes in a frame: what has left before it, and what it is for the part that hangs there now.
@@ -185,6 +200,7 @@ impl HungParts {
     }
 
     fn leave(&mut self) -> Left {
+        self.departures += 1;
         self.absent = None;
         match std::mem::take(&mut self.state) {
             HungState::Unsettled { is_named: true, .. } => Left::Part,

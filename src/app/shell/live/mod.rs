@@ -3,12 +3,14 @@
 //! The camera's thread hands over its newest frame, the task's thread inspects it, and the window shows the latest result. No
 //! thread waits for another: frames that arrive during an inspection are dropped.
 
+mod parts;
 mod set_up;
 pub mod state;
 mod status;
 mod work;
 
 pub(in crate::app) use self::{
+    parts::FollowedParts,
     set_up::set_up,
     state::{apply, give_way, restart_consensus, source_changed, update},
     status::{card, chip, words},

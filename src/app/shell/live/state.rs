@@ -5,7 +5,10 @@ use std::{
     sync::{Arc, Mutex},
 };
 
-use super::work::{FollowedParts, LiveAnswer, LiveStart, LiveStatus, SourceState, follow, rest};
+use super::{
+    parts::FollowedParts,
+    work::{LiveAnswer, LiveStart, LiveStatus, SourceState, follow, rest},
+};
 use crate::{
     app::{
         inspection::{inspected::Inspected, library_cache::LibraryCache},
@@ -37,6 +40,8 @@ pub struct LiveState {
     pub recording: Option<PathBuf>,
     /// Settings of the simulated cell while its dialog is open.
     pub setup: Option<crate::capture::SimulatedSpec>,
+    /// The parts that hang before it.
+    pub(in crate::app) parts: Arc<Mutex<FollowedParts>>,
 }
 
 /// Follows the source.
@@ -48,8 +53,6 @@ pub struct Follower {
     session: u64,
     /// The notice shown while the source is lost.
     lost: Option<Notice>,
-    /// The parts that hang before the source.
-    hung: Arc<Mutex<FollowedParts>>,
 }
 
 impl Follower {
@@ -60,7 +63,6 @@ impl Follower {
             library_cache: library_cache.clone(),
             session: 0,
             lost: None,
-            hung: Arc::default(),
         }
     }
 
@@ -187,7 +189,7 @@ fn follow_source(state: &mut State) {
         empty_cell: state.session.empty_cell.clone(),
         record: state.session.live.recording.clone(),
         trace: state.session.trace.clone(),
-        hung: Arc::clone(&state.follower.hung),
+        parts: Arc::clone(&state.session.live.parts),
     };
     state.session.live.is_on = true;
     state.session.live.status = None;

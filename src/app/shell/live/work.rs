@@ -3,10 +3,11 @@
 use std::{
     collections::VecDeque,
     path::{Path, PathBuf},
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Mutex},
     time::{Duration, Instant},
 };
 
+use super::parts::FollowedParts;
 use crate::{
     app::{
         inspection::{
@@ -20,10 +21,10 @@ use crate::{
         user_error::UserError,
     },
     capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
-    error::{Fault, guarded},
-    history::{HungRows, NewEntry, StoredVerdict, Traceability},
+    error::{Fault, guarded, lock},
+    history::{NewEntry, StoredVerdict},
     pipeline::{
-        self, NamedRecipe, ProgressObserver,
+        self, NamedRecipe, ProgressObserver, Verdict,
         live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
     },
     stages::scene::EmptyCell,
@@ -44,31 +45,8 @@ pub(super) struct LiveStart {
     pub(super) record: Option<PathBuf>,
     /// Traceability of the next part.
     pub(super) trace: CurrentTrace,
-    /// The hung part. Outlives the task, so that it is kept when the same source is followed with other settings.
-    pub(super) hung: Arc<Mutex<FollowedParts>>,
-}
-
-/// The parts that hang before a source one after the other.
-#[derive(Debug, Default)]
-pub(super) struct FollowedParts {
-    source: String,
-    rows: HungRows,
-    /// Traceability of the part whose verdict counted last.
-    trace: Traceability,
-}
-
-impl FollowedParts {
-    /// Returns the rows for this source; starts over if it is not the same source as before.
-    fn before(&mut self, source: &SourceSpec) -> &mut HungRows {
-        let source = source.to_string();
-        if self.source != source {
-            *self = Self {
-                source,
-                ..Self::default()
-            };
-        }
-        &mut self.rows
-    }
+    /// The parts that hang there: they outlive this, when the same source is followed with other settings.
+    pub(super) parts: Arc<Mutex<FollowedParts>>,
 }
 
 /// A result of the task.
@@ -167,7 +145,7 @@ struct LiveSession<'a> {
     recipe: &'a Arc<NamedRecipe>,
     recipe_identity: String,
     trace: &'a CurrentTrace,
-    hung: &'a Mutex<FollowedParts>,
+    parts: &'a Mutex<FollowedParts>,
     empty_cell: Option<&'a Arc<EmptyCell>>,
     /// `None` for a source whose captures are independent.
     watch: Option<LiveTracker>,
@@ -208,7 +186,7 @@ impl<'a> LiveSession<'a> {
             recipe: &request.recipe,
             recipe_identity: request.recipe.identity(),
             trace: &request.trace,
-            hung: &request.hung,
+            parts: &request.parts,
             empty_cell: request.empty_cell.as_ref(),
             stillness: watch.as_ref().map(LiveTracker::stillness),
             watch,
@@ -241,7 +219,7 @@ impl<'a> LiveSession<'a> {
                 }
                 None => match feed.status().state {
                     FeedState::Ended | FeedState::Stopped => {
-                        let left = lock(self.hung).before(self.spec).end();
+                        let left = lock(self.parts).before(self.spec).end();
                         self.tell_left(left);
                         return Ok(LiveAnswer::AtItsEnd);
                     }
@@ -314,7 +292,14 @@ impl<'a> LiveSession<'a> {
                 middle,
                 inputs: &format!("{} {}", self.recipe_identity, shelved.shown.identity),
             };
-            let (left, of_frame) = lock(self.hung).before(self.spec).see(&frame);
+            let shows_part = matches!(inspection.verdict, Verdict::Part { .. });
+            let (left, of_frame) = {
+                let mut parts = lock(self.parts);
+                let parts = parts.before(self.spec);
+                let seen = parts.rows.see(&frame);
+                parts.seen(arrived, shows_part);
+                seen
+            };
             role = of_frame;
             self.tell_left(left);
         }
@@ -338,21 +323,27 @@ impl<'a> LiveSession<'a> {
             source: self.spec.to_string(),
         };
         let mut inspected = found.prepared(&fitted, &shelved.shown);
+        // What a trigger found out about the part before lies below.
+        inspected.entry.stands_for_part = matches!(role, FrameRole::First | FrameRole::Best);
         let summary = &mut inspected.entry.record.summary;
         match role {
             FrameRole::First => {
                 summary.trace = self.trace.take(summary.verdict != StoredVerdict::NoPart);
-                lock(self.hung).trace = summary.trace.clone();
+                lock(self.parts).trace = summary.trace.clone();
             }
-            FrameRole::Again => summary.trace = lock(self.hung).trace.clone(),
+            FrameRole::Again => summary.trace = lock(self.parts).trace.clone(),
             FrameRole::Nothing | FrameRole::Best => {}
         }
-        if self.watch.is_some() {
-            let mut hung = lock(self.hung);
-            let rows = hung.before(self.spec);
-            inspected.entry.record.summary.hung = rows.id().clone();
-            if role == FrameRole::Best {
-                rows.hold(inspected.entry.clone());
+        {
+            let mut parts = lock(self.parts);
+            let parts = parts.before(self.spec);
+            if self.watch.is_some() {
+                inspected.entry.record.summary.hung = parts.rows.id().clone();
+                if role == FrameRole::Best {
+                    parts.rows.hold(inspected.entry.clone());
+                }
+            } else {
+                parts.seen_alone(arrived, inspected.hung());
             }
         }
         let inspected = Arc::new(inspected);
@@ -408,11 +399,6 @@ impl<'a> LiveSession<'a> {
             self.context.latest(LiveAnswer::Stands(Box::new(told)));
         }
     }
-}
-
-fn lock(hung: &Mutex<FollowedParts>) -> MutexGuard<'_, FollowedParts> {
-    // After a panic at most one part is reported twice.
-    hung.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Time of the camera's clock, from an arbitrary origin.

@@ -1,6 +1,7 @@
 //! Answers robots from the window: runs the server of `partsight serve` with the source that the window follows as its camera,
 //! and with the window's library, recipe and calibration.
 
+mod rows;
 mod work;
 
 use std::sync::{
@@ -165,6 +166,7 @@ impl Answering {
             inputs: Arc::clone(&inputs),
             is_ending: Arc::clone(&is_ending),
             library_cache: cx.services.library_cache.clone(),
+            parts: Arc::clone(&cx.session.live.parts),
             on_history: Box::new(move || egui.request_repaint()),
         };
         self.task

@@ -13,6 +13,7 @@ use std::{
 
 use jiff::Timestamp;
 
+use super::rows::TriggerRows;
 use crate::{
     app::{
         inspection::{
@@ -20,7 +21,7 @@ use crate::{
             source::{Captured, Origin},
         },
         language::text,
-        shell::{current_trace::CurrentTrace, session::Session},
+        shell::{current_trace::CurrentTrace, live::FollowedParts, session::Session},
         task::{TaskContext, TaskError},
         user_error::UserError,
     },
@@ -42,8 +43,6 @@ use crate::{
 const FRAME_TIMEOUT: Duration = Duration::from_secs(5);
 /// Capacity for client events that the task has not read yet; further ones are dropped.
 const MAX_EVENTS: usize = 64;
-/// First history ticket of the server, out of the range of the window's own tickets.
-const FIRST_TICKET: u64 = 1 << 63;
 
 /// Status of the server.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,6 +100,8 @@ pub(super) struct AnswerRequest {
     pub(super) inputs: Arc<Mutex<AnswerInputs>>,
     pub(super) is_ending: Arc<AtomicBool>,
     pub(super) library_cache: LibraryCache,
+    /// The parts that Live sees.
+    pub(super) parts: Arc<Mutex<FollowedParts>>,
     /// Called when the history may have changed.
     pub(super) on_history: Box<dyn Fn() + Send>,
 }
@@ -115,13 +116,14 @@ pub(super) fn answer(
         inputs,
         is_ending,
         library_cache,
+        parts,
         on_history,
     } = request;
+    let followed = Arc::<Mutex<Option<SourceSpec>>>::default();
     let camera = {
-        let (inputs, library_cache) = (Arc::clone(&inputs), library_cache.clone());
+        let (followed, library_cache) = (Arc::clone(&followed), library_cache.clone());
         Camera::start_with(move || {
-            // Release the lock before the camera starts, so that the window does not wait for it.
-            let followed = lock(&inputs).followed.clone();
+            let followed = lock(&followed).clone();
             Ok(followed_feed(followed.as_ref(), &library_cache))
         })
     };
@@ -149,7 +151,8 @@ pub(super) fn answer(
         is_ending: &is_ending,
         inputs: &inputs,
         library_cache: &library_cache,
-        followed: None,
+        parts: &parts,
+        followed,
         finder: PartFinder {
             parts: Vec::new(),
             robot: (*now.robot).clone(),
@@ -159,8 +162,7 @@ pub(super) fn answer(
         camera,
         events,
         handle: server.handle(),
-        writer,
-        num_written: 0,
+        rows: TriggerRows::new(writer, Arc::clone(&parts)),
         last: None,
         status: AnsweringStatus {
             at: server.addresses().first().copied().unwrap_or(listener.at),
@@ -209,17 +211,17 @@ struct AnsweringSession<'a> {
     is_ending: &'a AtomicBool,
     inputs: &'a Mutex<AnswerInputs>,
     library_cache: &'a LibraryCache,
+    parts: &'a Mutex<FollowedParts>,
     camera: Arc<Camera>,
-    /// The source that the camera was last restarted with; `None` at first.
-    followed: Option<SourceSpec>,
+    /// The source that the camera is started with.
+    followed: Arc<Mutex<Option<SourceSpec>>>,
     finder: PartFinder,
     /// The library whose parts `finder` has.
     library: Option<Arc<LoadedLibrary>>,
     events: Receiver<ClientEvent>,
     handle: ServerHandle,
-    writer: Writer,
-    num_written: u64,
-    /// The inspection of the last trigger, until it is handed to the history.
+    rows: TriggerRows,
+    /// The inspection whose answer is on its way.
     last: Option<AnsweredFrame>,
     status: AnsweringStatus,
     told: Option<AnsweringStatus>,
@@ -236,6 +238,8 @@ struct AnsweredFrame {
     trace: Traceability,
     /// The JSON line.
     line: String,
+    /// Tells which part it is.
+    part: Receiver<HungId>,
 }
 
 impl Inspector for AnsweringSession<'_> {
@@ -256,6 +260,8 @@ impl Inspector for AnsweringSession<'_> {
         };
         let source = inputs.followed.as_ref();
         let source = source.map_or_else(String::new, ToString::to_string);
+        // At once: by the end of the inspection another part may hang there.
+        let part = lock(self.parts).part_of_frame(source.clone(), captured.arrived);
         let num_dropped = self.camera.feed_status().num_dropped;
         let capture = CaptureLine::of(&source, &captured, num_dropped);
         let Captured {
@@ -294,6 +300,7 @@ impl Inspector for AnsweringSession<'_> {
             library: Arc::clone(&loaded.shown),
             trace,
             line,
+            part,
         });
         found
     }
@@ -306,7 +313,7 @@ impl Inspector for AnsweringSession<'_> {
 
     fn answered(&mut self) {
         if let Some(last) = self.last.take()
-            && let Err(fault) = guarded(|| self.keep(&last))
+            && let Err(fault) = guarded(|| self.keep(last))
         {
             self.status.trouble = Some(UserError::of(&fault));
         }
@@ -315,7 +322,9 @@ impl Inspector for AnsweringSession<'_> {
 
     fn turn(&mut self) -> ControlFlow<()> {
         self.status.client = self.events.try_iter().last().or(self.status.client.take());
-        self.follow();
+        let is_followed = self.follow().followed.is_some();
+        self.rows.update(is_followed);
+        self.tell_dropped();
         self.publish();
         if self.is_ending() {
             ControlFlow::Break(())
@@ -333,9 +342,9 @@ impl AnsweringSession<'_> {
     /// Returns the current inputs. Restarts the camera if the window follows another source, or follows its source again.
     fn follow(&mut self) -> AnswerInputs {
         let inputs = lock(self.inputs).clone();
+        let before = std::mem::replace(&mut *lock(&self.followed), inputs.followed.clone());
         let is_over = || self.camera.status().state == CameraState::Over;
-        if inputs.followed != self.followed || inputs.followed.is_some() && is_over() {
-            self.followed.clone_from(&inputs.followed);
+        if inputs.followed != before || inputs.followed.is_some() && is_over() {
             // Starting cannot fail: a missing source is a feed that has failed.
             let _ = self.camera.restart();
         }
@@ -360,8 +369,8 @@ impl AnsweringSession<'_> {
         }
     }
 
-    /// Hands an inspection to the history as a hung part of its own: only the client knows whether it is the same part again.
-    fn keep(&mut self, last: &AnsweredFrame) {
+    /// Hands an inspection to the history, as one of the part that hangs there.
+    fn keep(&mut self, last: AnsweredFrame) {
         let AnsweredFrame {
             origin,
             source,
@@ -371,26 +380,30 @@ impl AnsweringSession<'_> {
             library,
             trace,
             line,
+            part,
         } = last;
-        let picture = segmentation_picture(scene, &inspection.segmentation);
+        let picture = segmentation_picture(&scene, &inspection.segmentation);
         let about = InspectionContext {
             at: Timestamp::now(),
             scene: origin.title(),
-            source: source.clone(),
+            source,
             is_simulated: origin.is_simulated(),
             title_of: &|name| library.title_of(name).to_owned(),
-            line: line.clone(),
+            line,
             library: library.identity.clone(),
             // An origin without a JSON form cannot be opened again anyway.
-            origin: serde_json::to_string(origin).ok(),
+            origin: serde_json::to_string(&origin).ok(),
             picture: picture.as_ref(),
             hung: HungId::new(),
         };
-        let mut entry = NewEntry::of(about, scene, inspection, recipe);
-        entry.record.summary.trace = trace.clone();
-        self.writer.add(FIRST_TICKET + self.num_written, entry);
-        self.num_written += 1;
-        if self.writer.take_dropped() != [0; 2] {
+        let mut entry = NewEntry::of(about, &scene, &inspection, &recipe);
+        entry.record.summary.trace = trace;
+        self.rows.add(entry, part);
+        self.tell_dropped();
+    }
+
+    fn tell_dropped(&mut self) {
+        if self.rows.take_dropped() != [0; 2] {
             self.status.trouble = Some(UserError {
                 what: text!("history-crowded"),
                 advice: text!("history-crowded-advice"),
@@ -409,7 +422,7 @@ impl AnsweringSession<'_> {
 
     /// Waits until the history has written everything handed over.
     fn finish(self) -> AnsweringStatus {
-        self.writer.finish();
+        drop(self.rows);
         self.status
     }
 }
