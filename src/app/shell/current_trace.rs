@@ -45,6 +45,16 @@ impl CurrentTrace {
         lock(&self.0).serial = Traceability::cleaned(serial);
     }
 
+    /// Replaces an entry by an edited text, unless it has changed since the user saw it as `before`: a serial number that was
+    /// taken meanwhile must not come back for the next part.
+    fn edit(&self, entry: TraceEntry, before: &str, text: String) {
+        let mut trace = lock(&self.0);
+        let known = entry(&mut trace);
+        if *known == before {
+            *known = text;
+        }
+    }
+
     /// Takes the values for an inspection. Uses up the serial number, so that the next part never gets it; if no part was
     /// found, the number waits for one.
     pub fn take(&self, is_part: bool) -> Traceability {
@@ -62,25 +72,33 @@ impl CurrentTrace {
     }
 }
 
+/// One of the entries.
+type TraceEntry = fn(&mut Traceability) -> &mut String;
+
 /// Draws the input fields.
 pub(in crate::app) fn fields(ui: &mut Ui, trace: &CurrentTrace, theme: &Theme) {
-    let before = trace.get();
-    let mut now = before.clone();
-    for (name, says, text) in [
+    let entries: [(String, String, TraceEntry); 3] = [
         (
             text!("operator-serial"),
             text!("operator-serial-hint"),
-            &mut now.serial,
+            |trace| &mut trace.serial,
         ),
-        (text!("operator-order"), String::new(), &mut now.order),
-        (text!("operator-operator"), String::new(), &mut now.operator),
-    ] {
+        (text!("operator-order"), String::new(), |trace| {
+            &mut trace.order
+        }),
+        (text!("operator-operator"), String::new(), |trace| {
+            &mut trace.operator
+        }),
+    ];
+    for (name, says, entry) in entries {
+        let before = std::mem::take(entry(&mut trace.get()));
+        let mut text = before.clone();
         ui.horizontal(|ui| {
             ui.set_min_height(space::TARGET);
             let from = ui.cursor().left();
             let label = ui.label(egui::RichText::new(&name).color(theme.weak_text));
             ui.add_space((from + NAME - ui.cursor().left()).max(0.0));
-            let field = TextEdit::singleline(text)
+            let field = TextEdit::singleline(&mut text)
                 .hint_text(says)
                 .char_limit(Traceability::MAX_LETTERS)
                 .align(Align2::LEFT_CENTER)
@@ -89,15 +107,27 @@ pub(in crate::app) fn fields(ui: &mut Ui, trace: &CurrentTrace, theme: &Theme) {
             let field = ui.add(field).labelled_by(label.id);
             field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &name));
         });
-    }
-    if now != before {
-        *lock(&trace.0) = now;
+        if text != before {
+            trace.edit(entry, &before, text);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_serial_number_that_is_taken_while_a_field_is_edited_does_not_come_back() {
+        let current = CurrentTrace::default();
+        current.set_serial("4711");
+        assert_eq!(current.take(true).serial, "4711");
+        // Both fields were drawn before that.
+        current.edit(|trace| &mut trace.serial, "4711", "47112".into());
+        current.edit(|trace| &mut trace.order, "", "A 17".into());
+        let left = current.get();
+        assert_eq!((&*left.serial, &*left.order), ("", "A 17"));
+    }
 
     #[test]
     fn a_serial_number_is_of_one_part_and_order_and_operator_of_many() {

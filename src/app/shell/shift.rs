@@ -15,6 +15,8 @@ use crate::{
     history::{Filter, HistoryBuffer, HistoryError, StoredVerdict, Summary},
 };
 
+/// Seconds after which a failed count is repeated.
+const RETRY: f64 = 10.0;
 /// Maximum number of parts listed.
 const MAX_LISTED: usize = 12;
 
@@ -92,6 +94,8 @@ pub struct ShiftWatch {
     counting: Task<ShiftParts>,
     /// The revision of the history and the shift of the last count.
     counted: Option<(u64, Timestamp)>,
+    /// When to repeat a failed count, seconds of egui's clock.
+    retry_at: Option<f64>,
 }
 
 impl ShiftWatch {
@@ -100,6 +104,7 @@ impl ShiftWatch {
         Self {
             counting: Task::new("shift", runner),
             counted: None,
+            retry_at: None,
         }
     }
 
@@ -111,11 +116,12 @@ impl ShiftWatch {
 
 /// Takes over a finished count, and counts again in the operator's view if it is outdated.
 pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ctx: &egui::Context) {
-    // The History workspace reports why the history cannot be read.
-    if let Some(TaskEvent::Done(parts) | TaskEvent::Partial(parts)) =
-        state.shift_watch.counting.poll()
-    {
-        state.session.shift = parts;
+    let time = ctx.input(|input| input.time);
+    match state.shift_watch.counting.poll() {
+        Some(TaskEvent::Done(parts) | TaskEvent::Partial(parts)) => state.session.shift = parts,
+        // The History workspace reports why the history cannot be read.
+        Some(TaskEvent::Failed(_)) => state.shift_watch.retry_at = Some(time + RETRY),
+        None => {}
     }
     if state.session.role != UserRole::Operator {
         return;
@@ -127,9 +133,14 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
     if let Some(left) = end.and_then(|end| Duration::try_from(now.duration_until(&end)).ok()) {
         ctx.request_repaint_after(left + Duration::from_secs(1));
     }
+    if let Some(at) = state.shift_watch.retry_at {
+        ctx.request_repaint_after_secs((at - time).max(0.0) as f32);
+    }
+    let is_retry = state.shift_watch.retry_at.is_some_and(|at| at <= time);
     let wanted = (history.num_events(), since.timestamp());
-    if state.shift_watch.counted != Some(wanted) {
+    if is_retry || state.shift_watch.counted != Some(wanted) {
         state.shift_watch.counted = Some(wanted);
+        state.shift_watch.retry_at = None;
         let history = Arc::clone(history);
         let count = move |_: &_| {
             count(&history, since.clone()).map_err(|error| UserError::of(&error).into())
@@ -177,6 +188,31 @@ mod tests {
             let at = at.expect("a start").timestamp();
             at.to_string()
         })
+    }
+
+    #[test]
+    fn a_failed_count_is_repeated_after_a_while() {
+        let mut state = State::default();
+        state.session.role = UserRole::Operator;
+        let (history, ctx) = (Arc::new(HistoryBuffer::new(None)), egui::Context::default());
+        update(&mut state, &history, &ctx);
+        let counting = &mut state.shift_watch.counting;
+        assert!(counting.running().is_some());
+        let failed = UserError {
+            what: "the history cannot be read".into(),
+            advice: String::new(),
+        };
+        counting.start("fails", move |_| Err(failed.into()));
+        assert!(counting.run_waiting());
+        for _ in 0..2 {
+            update(&mut state, &history, &ctx);
+            assert!(state.shift_watch.is_idle(), "not in every frame");
+        }
+        ctx.input_mut(|input| input.time += RETRY);
+        update(&mut state, &history, &ctx);
+        assert!(state.shift_watch.counting.run_waiting());
+        update(&mut state, &history, &ctx);
+        assert!(state.session.shift.since.is_some());
     }
 
     #[test]

@@ -121,7 +121,7 @@ mod tests {
         tell.send(first.clone()).expect("waited for");
         rows.update(true);
         rows.writer.finish();
-        assert_eq!(written(&history), [first.clone()]);
+        assert_eq!(written(&history), std::slice::from_ref(&first));
 
         // Live follows another source.
         let (tell, part) = channel();
