@@ -1,4 +1,4 @@
-//! Aligns two clouds of the same part that share no point, from no start.
+//! Aligns two clouds of the same part that share no point, without an initial pose.
 #![expect(clippy::print_stdout, reason = "it shows what it finds")]
 
 use std::error::Error;

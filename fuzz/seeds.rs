@@ -1,4 +1,4 @@
-//! Small files to begin with, made by the program's own writers: `seeds FOLDER` fills `FOLDER/<target>`.
+//! Small seed files, made by the program's own writers: `seeds FOLDER` fills `FOLDER/<target>`.
 
 use std::{env, fs, path::Path, time::Duration};
 
@@ -63,14 +63,14 @@ fn open(folder: &Path) -> Outcome {
         save_cloud(&folder.join(name), &cloud)?;
     }
     write_depth_png(&folder.join("depth.png"), &small_depth())?;
-    // As the Point Cloud Library and scanners store the same, and formats that are only read.
+    // The same points as the Point Cloud Library and scanners store them, and formats that are only read.
     let header = "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\n";
     fs::write(
         folder.join("ascii.pcd"),
         format!("{header}DATA ascii\n1 2 3 0\nnan 5 6 7\n"),
     )?;
     let mut packed = format!("{header}DATA binary_compressed\n").into_bytes();
-    // 32 bytes in one literal run of LZF.
+    // 32 bytes as one literal run of LZF.
     packed.extend(33_u32.to_le_bytes());
     packed.extend(32_u32.to_le_bytes());
     packed.push(31);
@@ -171,8 +171,8 @@ fn texts(folder: &Path) -> Outcome {
     Ok(())
 }
 
-/// The width of the picture, then coordinates in tenths of a millimetre: simulated frames in fewer pixels, and whole
-/// reference clouds in fewer points.
+/// Writes the width of the picture, then coordinates in tenths of a millimetre: simulated frames with fewer pixels,
+/// and whole reference clouds with fewer points.
 fn inspect(folder: &Path) -> Outcome {
     let coordinates = |points: &[Point3<f32>]| -> Vec<u8> {
         let numbers = points.iter().flat_map(|point| [point.x, point.y, point.z]);

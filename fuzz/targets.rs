@@ -1,4 +1,4 @@
-//! What the fuzz targets do with their bytes. `cargo test` runs them on the seeds, so that they go on building.
+//! The functions of the fuzz targets. `cargo test` runs them on the seeds, so that they keep building.
 
 use std::{
     fs::{self, File},
@@ -23,7 +23,7 @@ use partsight::{
     run, scene_from_cloud,
 };
 
-/// Every reader of clouds, meshes and depth images; the content decides which.
+/// Runs the readers of clouds, meshes and depth images; the content decides which.
 pub(crate) fn open(bytes: &[u8]) {
     let opened = open_bytes(Path::new("fuzzed"), bytes);
     if let Err(FileError::Fault { fault, .. }) = opened {
@@ -31,11 +31,11 @@ pub(crate) fn open(bytes: &[u8]) {
     }
 }
 
-/// Everything that is read from a text beside a capture: cameras, calibrations, poses, spray paths, recipes, coats, arms,
+/// Runs the readers of all other text files: cameras, calibrations, poses, spray paths, recipes, coats, arms,
 /// obstacles, lists of recordings and sequences.
 pub(crate) fn texts(bytes: &[u8]) {
     let folder = tempfile::tempdir().expect("a folder");
-    // A recording's list begins with JSON; as a calibration it is read all the same.
+    // A recording's list begins with JSON; the other readers ignore the file name.
     let list = if bytes.starts_with(b"{\"partsight") {
         "recording.jsonl"
     } else {
@@ -43,7 +43,7 @@ pub(crate) fn texts(bytes: &[u8]) {
     };
     let path = folder.path().join(list);
     fs::write(&path, bytes).expect("written");
-    // A reader would wait until the file has settled.
+    // An old time keeps readers from waiting until the file has settled.
     let file = File::options().write(true).open(&path).expect("there");
     file.set_modified(SystemTime::UNIX_EPOCH).expect("set");
     let _ = DepthCamera::read(&path);
@@ -65,13 +65,13 @@ pub(crate) fn texts(bytes: &[u8]) {
 
 static LIBRARY: OnceLock<Library> = OnceLock::new();
 
-/// Run from the repository, where the shipped parts are.
+/// The shipped parts; needs the repository as the working folder.
 fn library() -> Library {
     let folder = LibraryFolder::open("reference_parts".as_ref()).expect("the shipped parts");
     folder.load(&Default::default()).expect("loaded").library
 }
 
-/// The whole inspection of a small cloud.
+/// Runs a whole inspection of a small cloud.
 pub(crate) fn inspect(bytes: &[u8]) {
     let Some((&width, coordinates)) = bytes.split_first() else {
         return;

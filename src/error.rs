@@ -17,7 +17,7 @@ pub trait Advice {
 
 /// A panic, which is a bug in the program, while working on one input.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize)]
-#[error("the program itself failed here: {message}")]
+#[error("internal error of the program: {message}")]
 pub struct Fault {
     /// The message of the panic.
     message: String,
@@ -35,7 +35,7 @@ impl Fault {
 
 impl Advice for Fault {
     fn advice(&self) -> String {
-        "Keep the file or frame and report it with this message; what comes after it is not affected"
+        "Keep the file or frame and report it with this message; later inspections are not affected"
             .into()
     }
 }

@@ -1,4 +1,4 @@
-//! Partsight: the window, or a command.
+//! Opens the Partsight window, or runs a command.
 
 use std::process::ExitCode;
 
@@ -6,8 +6,8 @@ use clap::Parser as _;
 use mimalloc::MiMalloc;
 use partsight::cli::{self, Cli};
 
-/// Frames of megabytes come and go thirty times a second on several threads. glibc keeps what they leave behind, more
-/// with every minute; this one gives it back or uses it again.
+/// Frames of several megabytes are allocated and freed thirty times a second on several threads. glibc retains ever
+/// more of the freed memory; mimalloc reuses or returns it.
 #[global_allocator]
 static ALLOCATOR: MiMalloc = MiMalloc;
 

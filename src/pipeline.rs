@@ -75,15 +75,15 @@ pub struct Recipe {
     pub icp_ga: IcpGaParams,
     /// Acceptance.
     pub accept: AcceptParams,
-    /// The nozzle's stand-off, worked out from the pose where it is shown.
+    /// Stand-off of the nozzle, computed from the pose where it is shown.
     pub stand_off: StandOffParams,
     /// How the pose is estimated.
     pub pose: PoseChoice,
 }
 
 impl Recipe {
-    /// What references are prepared with: they are compared fairly only with scenes that were projected, outlined and
-    /// described with the same parameters.
+    /// The parameters to prepare references with. A fair comparison needs scene and references prepared with the same
+    /// ones.
     pub fn reference_params(&self) -> ReferenceParams {
         ReferenceParams {
             project: self.project.clone(),
@@ -99,7 +99,7 @@ impl Recipe {
 pub enum PoseChoice {
     /// Stop after the ranking: the verdict rests on the outline alone.
     Skip,
-    /// By this method.
+    /// Estimate it by this method.
     By(PoseMethod),
 }
 
@@ -109,7 +109,7 @@ impl Default for PoseChoice {
     }
 }
 
-/// What an inspection found, stage by stage. A stage that could not run leaves the later ones empty.
+/// The results of an inspection, stage by stage. If a stage fails, its result and those of the later ones are empty.
 #[derive(Clone, Debug)]
 pub struct Inspection {
     /// Segmentation.
@@ -120,9 +120,9 @@ pub struct Inspection {
     pub contour: Option<Contour>,
     /// Signature.
     pub signature: Option<FanSignature>,
-    /// References, best first; after a pose was confirmed, in the order of the confirmed score.
+    /// References, best first; in the order of the confirmed scores once poses were confirmed.
     pub ranking: ConfirmedRanking,
-    /// The pose of the first-ranked part, if asked for.
+    /// Pose of the reference ranked first, if the recipe asks for one.
     pub pose: Option<Result<PoseEstimate, PoseError>>,
     /// The verdict.
     pub verdict: Verdict,
@@ -130,10 +130,10 @@ pub struct Inspection {
     pub timings: Timings,
 }
 
-/// Inspects a scene: which enrolled part is it, and where?
+/// Inspects a scene: which enrolled part hangs there, and where.
 ///
-/// With nothing enrolled or nothing found the inspection still holds what the stages before made. A panic in a stage is
-/// a verdict too: no part, and why.
+/// If nothing is enrolled or found, the inspection still holds the results of the earlier stages. A panic in a stage
+/// becomes the verdict [`Unrecognisable::Fault`].
 pub fn run(
     scene: &SceneCloud,
     library: &Library,
@@ -210,13 +210,14 @@ fn inspect(
     Ok(inspection)
 }
 
-/// Of the other surfaces so many are looked at.
+/// Maximum number of other surfaces tried after the first.
 const MAX_OTHERS: usize = 3;
 
-/// Below this score one surface is as little an enrolled part as another: the first stays.
+/// Another surface replaces the first only above this score; below it neither is an enrolled part.
 const WORTH_CHANGING: f64 = 0.1;
 
-/// True if the part may be another of the surfaces in the scene. The paper knows only one.
+/// True if other surfaces of the scene should be tried: nothing is accepted yet, and the recipe does not use the
+/// paper's methods, which know only one surface.
 fn should_try_alternatives(inspection: &Inspection, recipe: &Recipe) -> bool {
     let is_ours = recipe.rank.matcher == Matcher::Default
         && recipe.pose == PoseChoice::By(PoseMethod::Global);
@@ -224,12 +225,12 @@ fn should_try_alternatives(inspection: &Inspection, recipe: &Recipe) -> bool {
     is_ours && !is_accepted && !inspection.ranking.entries.is_empty()
 }
 
-/// True if neither an enrolled part nor one that is like it, such as its mirror image, was found.
+/// True if neither an enrolled part nor a likeness of one, such as its mirror image, was found.
 fn is_nothing_like_it(inspection: &Inspection, recipe: &Recipe) -> bool {
     should_try_alternatives(inspection, recipe) && !inspection.verdict.is_likeness()
 }
 
-/// Looks at the next largest surfaces too, and keeps the one that is most likely an enrolled part.
+/// Tries the next largest surfaces, and keeps the one most likely to be an enrolled part.
 fn try_other_segments(
     inspection: &mut Inspection,
     scene: &SceneCloud,
@@ -249,7 +250,7 @@ fn try_other_segments(
     Ok(())
 }
 
-/// Inspects a surface, and keeps it if it is more likely an enrolled part than what was taken for the part.
+/// Inspects a surface, and keeps it if it is more likely an enrolled part than the present one.
 fn try_segment(
     inspection: &mut Inspection,
     part: SegmentedPart,
@@ -267,7 +268,7 @@ fn try_segment(
     Ok(())
 }
 
-/// Looks at a surface without any bars: they may be a stand's.
+/// Tries a surface with its bars removed, because they may belong to a stand.
 fn try_without_bars(
     inspection: &mut Inspection,
     surface: &SegmentedPart,
@@ -292,7 +293,7 @@ fn try_without_bars(
 }
 
 impl Inspection {
-    /// Of a scene at which the program itself failed.
+    /// The empty inspection of a scene during which the program failed.
     fn broken_off(fault: Fault, num_points: usize) -> Self {
         Self {
             segmentation: Segmentation {
@@ -315,26 +316,26 @@ impl Inspection {
         }
     }
 
-    /// True if what was taken for the part reaches the picture's edge, so that some of it may be missing.
+    /// True if the segmented part reaches the edge of the picture, so that some of it may be missing.
     pub fn touches_edge(&self) -> bool {
         let part = self.segmentation.part.as_ref();
         part.is_ok_and(|part| part.touches_edge)
     }
 
-    /// The name of the reference that was ranked first: the pose is in its coordinates.
+    /// Name of the reference ranked first; the pose is in its coordinates.
     pub fn reference(&self) -> Option<&str> {
         let best = self.ranking.entries.first()?;
         Some(&best.enrolled_as)
     }
 
-    /// The same, if that is not the part's own but one more of the part: it has coordinates, and so a standard position,
-    /// of its own.
+    /// Name of the reference ranked first, if it is an additional reference of its part, which has its own
+    /// coordinates and so its own standard position.
     pub fn other_reference(&self) -> Option<&str> {
         let best = self.ranking.entries.first()?;
         self.reference().filter(|name| *name != best.part)
     }
 
-    /// The reference that was ranked first, in the library that was inspected with.
+    /// The reference ranked first; `library` is the one that was used for the inspection.
     pub fn best_reference<'a>(&self, library: &'a Library) -> Option<&'a Reference> {
         let best = self.ranking.entries.first()?;
         library.references.get(best.reference)

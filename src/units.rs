@@ -25,7 +25,7 @@ impl Metres {
 }
 
 impl fmt::Display for Metres {
-    /// Written for a person, in millimetres.
+    /// Formats in millimetres, for display.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:.1} mm", self.mm())
     }
@@ -49,7 +49,7 @@ impl Radians {
 }
 
 impl fmt::Display for Radians {
-    /// Written for a person, in degrees.
+    /// Formats in degrees, for display.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:.2}°", self.degrees())
     }

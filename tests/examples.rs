@@ -1,8 +1,8 @@
-//! The examples run and find what they say.
+//! The examples run and find what their texts say.
 
 use std::{path::PathBuf, process::Command};
 
-/// The output of an example, which `cargo test` builds beside the tests.
+/// Runs an example, which `cargo test` builds beside the tests, and returns its output.
 fn output_of(example: &str) -> String {
     let own = std::env::current_exe().expect("the path of this test");
     let built = own.ancestors().nth(2).expect("target/PROFILE/deps/TEST");

@@ -1,4 +1,4 @@
-//! The fuzz targets on their seeds, whole, cut and with a byte changed: that they still build, and that nothing panics.
+//! Runs the fuzz targets on their seeds, whole, cut, and with a byte changed: they build and do not panic.
 
 #![allow(clippy::pedantic, reason = "the folder is a crate of its own")]
 
@@ -22,7 +22,7 @@ fn every_target_takes_its_seeds() {
         let mut num = 0;
         for seed in fs::read_dir(folder.path().join(name)).expect("its seeds") {
             let path = seed.expect("a seed").path();
-            // A depth image brings its camera beside it.
+            // Every file is a seed, including the camera beside a depth image.
             let bytes = fs::read(&path).expect("read");
             target(&bytes);
             target(&bytes[..bytes.len() / 2]);

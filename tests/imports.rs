@@ -1,8 +1,8 @@
-//! Imports run down the list of layers in docs/ARCHITECTURE.md, and the crates of the window and of the command line stay
-//! in them.
+//! Imports run down the list of layers in docs/ARCHITECTURE.md, and only the window and the command line use their
+//! crates.
 //!
-//! Reads `crate::…` paths, and `super::…` paths that lead to the root, of all of `src` but its tests: a test may build
-//! what it needs with whatever lies above.
+//! Reads the `crate::…` paths, and the `super::…` paths that lead to the root, in all of `src` except its tests,
+//! which may use any layer.
 
 use std::{
     collections::BTreeSet,
@@ -80,7 +80,7 @@ fn check_layers(layers: &[Vec<String>], sources: &[Source]) {
             let Some(other) = rank(&to) else {
                 panic!("{}: {to} is not among the layers", file.path.display());
             };
-            // Those of one layer may use each other, as units and error do.
+            // Modules of one layer, such as units and error, may use each other.
             if other > own {
                 uphill.push(format!("{}: {from} -> {to}", file.path.display()));
             }
@@ -147,8 +147,8 @@ fn paths_in_all_their_forms_are_found() {
     );
 }
 
-/// A list of layers in docs/ARCHITECTURE.md, by its number there, from the bottom up; those of one layer stand between two
-/// arrows.
+/// Reads the list of layers of this number in docs/ARCHITECTURE.md, from the bottom up; the modules of one layer
+/// stand between two arrows.
 fn layers(number: usize) -> Vec<Vec<String>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/ARCHITECTURE.md");
     let text = fs::read_to_string(path).expect("the architecture");
@@ -165,28 +165,28 @@ fn layers(number: usize) -> Vec<Vec<String>> {
 
 /// A file of `src` without comments and tests.
 struct Source {
-    /// The module whose parts are looked at.
+    /// The module whose parts are checked.
     module: &'static [&'static str],
-    /// Within the module's folder.
+    /// Path within the module's folder.
     path: PathBuf,
     text: String,
 }
 
 impl Source {
-    /// The folder or file of the module that it is or lies in.
+    /// The top-level folder or file of the module that the source belongs to.
     fn folder(&self) -> &str {
         let first = self.path.iter().next().and_then(|name| name.to_str());
         let first = first.expect("a name");
         first.strip_suffix(".rs").unwrap_or(first)
     }
 
-    /// How many `super` lead from this file to the module.
+    /// Number of `super` that lead from this file to the module.
     fn depth(&self) -> usize {
         let depth = self.path.iter().count();
         depth - usize::from(self.path.ends_with("mod.rs"))
     }
 
-    /// The folders and files of the module that it names, but its own.
+    /// The other folders and files of the module that it names.
     fn imports(&self) -> BTreeSet<String> {
         if self.depth() == 0 {
             // The module itself names its own parts.
@@ -195,7 +195,7 @@ impl Source {
         let root = "super::".repeat(self.depth());
         let after = |start: &str| {
             let found = self.text.match_indices(start);
-            // `super::super::x` is not `super::x`, nor is `$crate` one of ours.
+            // Skip `super::x` within `super::super::x`, and `$crate`.
             let is_whole = |at: &usize| {
                 let before = self.text[..*at].chars().next_back();
                 before.is_none_or(|c| !c.is_alphanumeric() && !matches!(c, '_' | ':' | '$'))
@@ -217,7 +217,7 @@ impl Source {
     }
 }
 
-/// The names that follow a module in a path, several where braces list them.
+/// The names that follow a module in a path; several if braces list them.
 fn names_under(module: &[&str], path: &str) -> Vec<String> {
     let mut names = Vec::new();
     for item in items(path) {
@@ -237,7 +237,7 @@ fn names_under(module: &[&str], path: &str) -> Vec<String> {
     names
 }
 
-/// What a path begins with: the parts of its list, or the path itself.
+/// The items of a path that begins with a list in braces, or the path itself.
 fn items(path: &str) -> Vec<&str> {
     let Some(list) = path.strip_prefix('{') else {
         return vec![path];
@@ -261,7 +261,7 @@ fn items(path: &str) -> Vec<&str> {
     items
 }
 
-/// Without comments, and without what follows the first module of tests.
+/// The text without comments, up to the first module of tests.
 fn code_of(text: &str) -> String {
     let lines = text
         .lines()
@@ -284,7 +284,7 @@ fn sources(module: &'static [&'static str]) -> Vec<Source> {
                 continue;
             }
             let within = path.strip_prefix(&root).expect("within").to_owned();
-            // Modules of tests outside their file.
+            // Modules of tests in files of their own.
             let is_test = within
                 .iter()
                 .any(|name| name == "tests" || name == "tests.rs");

@@ -1,8 +1,8 @@
-//! A program that is killed while it writes loses at most what it was writing.
+//! A program that is killed while it writes loses at most the inspection that it was writing.
 //!
-//! The test runs itself as another process that writes inspections with their frames, and their reports as JSON, PDF and a
-//! row of a table, as fast as it can and says after each that it is written; it is killed at a moment of chance, again
-//! and again in the same folder.
+//! The test runs itself as another process, which writes inspections with their frames, and their reports as JSON,
+//! PDF and a row of a table, as fast as it can, and reports each on standard output. It is killed at a random moment,
+//! again and again, in the same folder.
 
 mod kit;
 
@@ -34,9 +34,9 @@ use partsight::{
 };
 use rand::{RngExt as _, SeedableRng as _};
 
-/// In the environment of the process that is killed: the folder to write in.
+/// Environment variable of the process to be killed: the folder to write in.
 const BODY: &str = "PARTSIGHT_KILL_TEST";
-/// The table of poses, in that folder.
+/// The table of poses in that folder.
 const TABLE: &str = "poses.csv";
 const NUM_KILLS: usize = 200;
 
@@ -46,7 +46,7 @@ const ALL: Retention = Retention {
     max_gigabytes: 10.0,
 };
 
-/// An inspection that can be told from every other.
+/// An inspection with unique contents.
 fn entry(number: i64) -> NewEntry {
     let mut entry = history_entry(number, StoredVerdict::Unknown, "unknown");
     entry.record.summary.at = Timestamp::now();
@@ -85,7 +85,7 @@ fn report_of(number: i64, inspection: &Inspection) -> PoseReport {
     })
 }
 
-/// What is killed: writes until then.
+/// The process to be killed: writes until then.
 #[test]
 fn body() {
     let Some(folder) = env::var_os(BODY) else {
@@ -97,7 +97,7 @@ fn body() {
     let inspection = inspection();
     let mut out = std::io::stdout();
     loop {
-        // The number it will have: nobody else writes.
+        // The number that it will get, because no other process writes.
         let newest = history.page(&Filter::default(), 0, 1).expect("asked");
         let next = newest.rows.first().map_or(1, |row| row.number + 1);
         let number = history.add(&entry(next), &ALL).expect("written");
@@ -127,7 +127,7 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
     let mut num_in_flight = 0;
     let mut all_told = Vec::new();
     for kill in 0..NUM_KILLS {
-        // From before it has opened the file to some inspections later.
+        // From before it has opened the file until after several inspections.
         let moment = Duration::from_micros(random.random_range(0..100_000));
         let told = killed_after(moment, folder.path());
         let history = open_history(folder.path());
@@ -162,7 +162,7 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
         }
         known = newest;
     }
-    // Every report is whole, also the one that nobody had told of; what was in flight is a hidden file at most.
+    // Every report is complete, even one not yet reported; an interrupted one is at most a hidden file.
     let mut num_reports = 0;
     for report in fs::read_dir(folder.path().join("reports")).expect("there") {
         let path = report.expect("listed").path();
@@ -187,9 +187,9 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
         num_reports as i64 >= known - num_in_flight,
         "{num_reports} of {known}"
     );
-    // Also on a machine that is busy with something else the kills hit somebody who writes.
+    // Even on a busy machine, the kills must hit a process that writes.
     assert!(known > 50, "only {known} written in {NUM_KILLS} lives");
-    // Every row has its frame and every frame its row, but for the camera that they share.
+    // Every row has a frame and every frame a row; the file of the camera is common to all frames.
     let history = History::open(folder.path()).expect("opened").history;
     assert_eq!(history.usage().expect("asked").num_frames as i64, known);
     let files = fs::read_dir(history.frames_folder())
@@ -198,7 +198,7 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
     assert_eq!(files as i64, known + 1);
 }
 
-/// Every row that was told is there, and none is cut off once another was appended.
+/// Checks that every reported row is there, and that none is cut off once another was appended.
 fn check_table(folder: &Path, all_told: &[i64]) {
     let table = folder.join(TABLE);
     append_csv(&table, &report_of(0, &inspection())).expect("appended");
@@ -206,7 +206,7 @@ fn check_table(folder: &Path, all_told: &[i64]) {
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
     let scene = rows[0].iter().position(|name| *name == "scene");
     let scene = scene.expect("a column");
-    // The same report but for its scene: whole rows have as many commas as the last one.
+    // Reports differ in their scene only, so complete rows have as many cells as the last one.
     let whole = rows.last().map_or(0, Vec::len);
     assert!(rows.iter().skip(1).all(|row| row.len() == whole), "{text}");
     for number in all_told {
@@ -216,7 +216,7 @@ fn check_table(folder: &Path, all_told: &[i64]) {
     }
 }
 
-/// Runs the body for so long behind its start, kills it, and answers with what it said last.
+/// Runs the body, kills it this time after its start, and returns the last number that it reported.
 fn killed_after(moment: Duration, folder: &Path) -> Option<i64> {
     let mut child = Command::new(env::current_exe().expect("this program"))
         .args(["--exact", "body", "--nocapture", "--test-threads=1"])
@@ -228,12 +228,12 @@ fn killed_after(moment: Duration, folder: &Path) -> Option<i64> {
     let lines = BufReader::new(child.stdout.take().expect("piped"));
     let reader = thread::spawn(move || {
         let lines = lines.lines().map_while(Result::ok);
-        // The first stands behind what the test runner says.
+        // The first one follows the test runner's own words on its line.
         let numbers = lines.filter_map(|line| line.split_once("written ")?.1.parse().ok());
         numbers.last()
     });
     thread::sleep(Duration::from_millis(15) + moment);
-    // SIGKILL: nothing of it is tidied up.
+    // SIGKILL: the process cannot clean up.
     child.kill().expect("it runs until it is killed");
     child.wait().expect("gone");
     reader.join().expect("read")
@@ -246,7 +246,7 @@ fn two_processes_write_at_once_and_nothing_is_lost() {
     let is_over = Arc::new(AtomicBool::new(false));
     let other = {
         let (path, is_over) = (path.clone(), Arc::clone(&is_over));
-        // This process adds what it can while the others live.
+        // This process adds entries while the others run.
         thread::spawn(move || {
             let mut history = History::open(&path).expect("opened").history;
             let mut numbers = Vec::new();

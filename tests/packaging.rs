@@ -1,7 +1,6 @@
-//! What the Debian package holds: every file is there, and what reads it accepts it.
+//! The files of the Debian package exist, and the programs that read them accept them.
 //!
-//! Checks that need a program which is missing say that they were skipped; with `PARTSIGHT_REQUIRE_PACKAGING=1` that is a
-//! failure.
+//! Checks whose program is missing report that they are skipped; with `PARTSIGHT_REQUIRE_PACKAGING=1` they fail.
 
 use std::{
     fs, io,
@@ -11,7 +10,7 @@ use std::{
 
 use toml::{Table, Value};
 
-/// Puts a path of the checkout in front.
+/// Path of a file in the checkout.
 fn at(path: impl AsRef<Path>) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
@@ -37,7 +36,7 @@ fn text(value: &Value) -> &str {
     value.as_str().expect("text")
 }
 
-/// The names of the files that an asset's source names; the name of a file may have one `*`.
+/// The files that an asset's source names; a file name may have one `*`.
 fn sources(source: &str) -> Vec<String> {
     let (folder, pattern) = source.rsplit_once('/').unwrap_or(("", source));
     let entries = fs::read_dir(at(folder)).unwrap_or_else(|error| panic!("{folder}: {error}"));
@@ -87,7 +86,7 @@ fn every_file_of_the_package_is_there() {
         let path = text(path);
         assert!(is_installed(path.trim_start_matches('/')), "{path}");
     }
-    // cargo-deb finds these by their names and leaves out what it does not find.
+    // cargo-deb finds these by name and silently leaves out missing ones.
     let folder = at(text(&metadata["maintainer-scripts"]));
     let unit = text(&metadata["systemd-units"]["unit-name"]);
     for name in [
@@ -116,7 +115,7 @@ fn every_example_of_the_service_starts_once_there_is_a_calibration() {
     assert_eq!(starts, "/usr/bin/partsight serve $ARGS");
     let conf = read("packaging/serve.conf");
     let lines = conf.lines().filter(|line| line.contains("ARGS="));
-    // None is in force: nobody but the integrator knows the camera and the robot.
+    // All are comments: only the integrator knows the camera and the robot.
     let examples = lines.map(|line| {
         let args = line.strip_prefix("# ARGS=\"");
         let args = args.and_then(|args| args.strip_suffix('"'));
@@ -133,14 +132,14 @@ fn every_example_of_the_service_starts_once_there_is_a_calibration() {
             .current_dir(at(""))
             .output()
             .expect("runs");
-        // Options, addresses and conventions are looked at before.
+        // Options, addresses and conventions are checked before the missing file.
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{example}: {said}");
         assert!(said.contains(missing), "{example}: {said}");
     }
 }
 
-/// What a program says; `None`, with a word about it, where it is not installed.
+/// Runs a program; returns `None`, with a message, if it is not installed.
 #[expect(
     clippy::print_stdout,
     reason = "a test that checks nothing must say so"
@@ -161,7 +160,7 @@ fn run(command: &mut Command) -> Option<Output> {
     }
 }
 
-/// Both outputs of a program, with which it was content.
+/// Both outputs of a program, which must have succeeded.
 fn said_by(output: &Output) -> String {
     let streams = [&output.stdout, &output.stderr];
     let said = streams.map(|stream| String::from_utf8_lossy(stream));
@@ -173,7 +172,7 @@ fn said_by(output: &Output) -> String {
 #[test]
 fn systemd_accepts_the_unit() {
     let unit = read("packaging/partsight-serve.service");
-    // The program has to be there.
+    // The unit's program must exist.
     let built = env!("CARGO_BIN_EXE_partsight");
     let unit = unit.replace("/usr/bin/partsight", built);
     let folder = tempfile::tempdir().expect("a folder");
@@ -182,7 +181,7 @@ fn systemd_accepts_the_unit() {
     let verify = ["--man=no", "verify"];
     let output = run(Command::new("systemd-analyze").args(verify).arg(&path));
     if let Some(output) = output {
-        // Settings that it does not know are only a message; other units of the system may have some, too.
+        // Unknown settings give only a message; messages about other units do not count.
         let said = said_by(&output);
         assert!(!said.contains("partsight-serve"), "{said}");
     }
@@ -197,7 +196,7 @@ fn the_desktop_entry_is_valid() {
     }
 }
 
-/// Since this version of systemd, udevadm checks rules.
+/// First version of systemd whose udevadm checks rules.
 const VERIFIES_RULES: u32 = 254;
 
 #[test]
@@ -214,7 +213,7 @@ fn udev_accepts_the_rules() {
         println!("skipped: udevadm {version} has no verify, which {VERIFIES_RULES} has");
         return;
     }
-    // The group plugdev is Debian's.
+    // The group plugdev exists on Debian only.
     let verify = ["verify", "--resolve-names=never"];
     let rules = at("packaging/55-partsight-cameras.rules");
     if let Some(output) = run(Command::new("udevadm").args(verify).arg(rules)) {

@@ -1,4 +1,4 @@
-//! The whole inspection: moved and turned parts, poison, cancelling, the same bits for the same scene.
+//! The whole inspection: moved and rotated parts, invalid points, cancellation, reproducible results.
 
 #[path = "pipeline/cameras.rs"]
 mod cameras;
@@ -39,7 +39,7 @@ fn inspected(scene: &SceneCloud, library: &Library, recipe: &Recipe) -> Inspecti
     run(scene, library, recipe, &Unwatched).expect("nobody cancels")
 }
 
-/// A front door so far away that it fits the picture at any turn about the optical axis.
+/// A front door far enough away to fit the picture at any rotation about the optical axis.
 fn door(roll: f64, shift: [f64; 2]) -> SceneCloud {
     door_with(roll, shift, SensorNoise::kinect(5))
 }
@@ -72,7 +72,7 @@ fn moving_and_turning_the_part_leaves_its_signature_up_to_a_cyclic_shift() {
             (sum / n as f64).sqrt()
         };
         let best = (0..n).map(rms_at).fold(f64::INFINITY, f64::min);
-        // Two pixels of the binary image, for noise at the edges, on rays of half a metre.
+        // Two pixels of the binary image, to allow for noise at the edges of rays of half a metre.
         assert!(best < 0.010, "{best} m after a turn by {roll}");
     }
 }
@@ -185,7 +185,7 @@ fn nothing_to_see_is_no_part_whatever_the_recipe() {
 #[test]
 fn a_scene_of_stray_points_is_never_accepted() {
     let library = standard();
-    // Flat and curved sheets of no part's shape, alone in space.
+    // Isolated flat and curved sheets unlike any part.
     for bend in [0.0, 0.5, -2.0] {
         let points = (0..20_000).map(|i| {
             let (u, v) = (
@@ -261,7 +261,7 @@ fn a_cancelled_inspection_stops_before_the_next_stage() {
     }
 }
 
-/// Cancels when asked more than ten times since the pose began.
+/// Cancels at the eleventh query after the pose stage has begun.
 #[derive(Default)]
 struct Midway {
     is_posing: Cell<bool>,
@@ -373,7 +373,7 @@ fn a_part_whose_outline_its_stand_changes_is_found() {
 #[test]
 fn a_half_that_two_doors_share_is_accepted_as_neither() {
     let library = standard();
-    // Each was once accepted as the other door, whose pose fits the half in sight a little better.
+    // Regression: each was accepted as the other door, whose pose fits the half in sight slightly better.
     let halves = [
         (PartKind::FrontDoor, 17_800_500),
         (PartKind::FrontDoor, 17_800_596),
@@ -425,7 +425,7 @@ fn a_part_of_another_model_is_named_and_its_pose_is_marked_as_approximate() {
         assert!(is_named && !other.is_unknown(), "{other:?}");
         num_marked += usize::from(other.is_approximate());
     }
-    // A model that differs by millimetres only is the same to a camera of this noise.
+    // A model that differs only by millimetres cannot be told apart at this noise.
     assert!(num_marked >= 6, "{num_marked} of 8");
 }
 

@@ -1,8 +1,9 @@
-//! The program as it is started: a window on a display, keys pressed, pictures of the screen, closed.
+//! The built program in a real window on a virtual display: it is opened, keys are pressed, the screen is compared,
+//! it is closed.
 //!
-//! Needs Xvfb, a display without a screen, and xdotool, which presses keys. Where one of them is missing the test says
-//! that it was skipped; `PARTSIGHT_REQUIRE_WINDOW` makes that a failure. `PARTSIGHT_WINDOW_PICTURES` names a folder that
-//! keeps the pictures.
+//! Needs Xvfb, a display without a screen, and xdotool, which presses keys. If one of them is missing, the test
+//! reports that it is skipped; `PARTSIGHT_REQUIRE_WINDOW` makes that a failure. `PARTSIGHT_WINDOW_PICTURES` names a
+//! folder in which to keep the pictures.
 
 mod kit;
 
@@ -23,10 +24,10 @@ use partsight::{
 };
 
 const SIZE: (u32, u32) = (1440, 900);
-/// Software rendering on a busy machine is slow; nothing here is about speed.
+/// Timeout with room for software rendering on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(90);
 
-/// A display without a screen; its picture lies in a file.
+/// A virtual display, whose frame buffer is a file.
 struct Display {
     server: Child,
     name: String,
@@ -55,7 +56,7 @@ impl Display {
         })
     }
 
-    /// What is on the screen now, from the X window dump that Xvfb keeps.
+    /// The present picture of the screen, from the X window dump that Xvfb keeps.
     fn picture(&self) -> RgbImage {
         let bytes = fs::read(&self.frame_buffer).expect("the frame buffer");
         let field = |place: usize| {
@@ -82,7 +83,7 @@ impl Drop for Display {
     }
 }
 
-/// The program, ended with the test whatever happens.
+/// The program, killed when dropped.
 struct Program(Child);
 
 impl Drop for Program {
@@ -106,7 +107,7 @@ fn xdotool(display: &Display, words: &[&str]) -> String {
     String::from_utf8_lossy(&output.stdout).trim().to_owned()
 }
 
-/// Pixels that differ plainly.
+/// Number of pixels that clearly differ.
 fn num_different(a: &RgbImage, b: &RgbImage) -> usize {
     let differ = |(a, b): &(&image::Rgb<u8>, &image::Rgb<u8>)| {
         a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 24)
@@ -114,7 +115,7 @@ fn num_different(a: &RgbImage, b: &RgbImage) -> usize {
     a.pixels().zip(b.pixels()).filter(differ).count()
 }
 
-/// Waits until the screen stands still for a second, and keeps its picture.
+/// Waits until the screen does not change for a second, and keeps its picture.
 fn still_picture(
     display: &Display,
     name: &str,
@@ -147,7 +148,7 @@ fn still_picture(
     last
 }
 
-/// Many colours: a window with its 3-D view, not an empty screen.
+/// Number of colours: a window with its 3-D view has many, an empty screen few.
 fn num_colours(picture: &RgbImage) -> usize {
     let colours: std::collections::HashSet<_> = picture.pixels().map(|p| p.0).collect();
     colours.len()
@@ -182,7 +183,7 @@ fn the_program_opens_a_file_shows_every_workspace_and_closes_with_code_0() {
         .arg(&scene_path)
         .env("DISPLAY", &display.name)
         .env_remove("WAYLAND_DISPLAY")
-        // Nothing of the machine's user: the test's own settings, cases and library.
+        // Use the test's own settings, cases and library, not the user's.
         .env("HOME", folder.path())
         .env("XDG_CONFIG_HOME", folder.path().join("config"))
         .env("XDG_DATA_HOME", folder.path().join("data"))
@@ -218,7 +219,7 @@ fn the_program_opens_a_file_shows_every_workspace_and_closes_with_code_0() {
     let again = still_picture(&display, "6_inspect_again", |now| {
         num_different(now, &last) > 10_000
     });
-    // The same result as at first; the pointer may have moved, times have not.
+    // The same result as at first, except for the pointer.
     assert!(num_different(&again, &first) < 20_000);
 
     xdotool(&display, &["key", "ctrl+q"]);

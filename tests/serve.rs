@@ -1,6 +1,7 @@
-//! The server that robots and PLCs ask: real sockets on this computer's own address, and an inspector that needs no camera.
+//! The server for robots and PLCs, tested over real sockets on the loopback address with an inspector that needs no
+//! camera.
 //!
-//! Requests are written and answers read here by what the guide says, not by the program's own functions.
+//! Requests are written and answers parsed here according to the guide, not with the program's own functions.
 
 use std::{
     collections::BTreeSet,
@@ -25,13 +26,13 @@ use partsight::{
     },
 };
 
-/// Long enough for a machine at work with other things; what is waited for comes at once.
+/// Timeout with room for a busy machine; what is awaited normally comes at once.
 const PATIENCE: Duration = Duration::from_mins(2);
 
 /// Every protocol, at any free port.
 const ALL: [&str; 5] = ["ascii=0", "binary=0", "binary-be=0", "eki=0", "urscript=0"];
 
-/// A part that hangs as many millimetres from the robot as it has been inspected, so that answers cannot be mixed up.
+/// An accepted part, `number` millimetres from the robot, so that answers cannot be mixed up.
 fn accepted(number: u32) -> Found {
     let at = |x| RigidTransform::translation(x, 0.25, 1.5);
     Found {
@@ -65,12 +66,12 @@ fn refused(number: u32) -> Found {
             reason: "low_score".into(),
             message: "too low (to do: Look again)".into(),
         },
-        // What must not go out.
+        // The server must not send these.
         ..accepted(number)
     }
 }
 
-/// An inspector that finds what it is told to, and counts.
+/// An inspector that returns what it is told to, and counts.
 struct Fake {
     number: u32,
     find: Box<dyn FnMut(u32) -> Found + Send>,
@@ -97,7 +98,7 @@ impl Inspector for Fake {
     }
 }
 
-/// A server at work.
+/// A running server.
 struct Service {
     addresses: Vec<SocketAddr>,
     camera: Arc<Mutex<CameraStatus>>,
@@ -183,7 +184,7 @@ fn wait_until(what: impl Fn() -> bool) {
     }
 }
 
-/// What a robot was told.
+/// An answer as a robot reads it.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Told {
     verdict: u32,
@@ -196,9 +197,9 @@ struct Told {
     point: u32,
     points: u32,
     speed_mm_s: f64,
-    /// Of the pose; the first three in millimetres.
+    /// Numbers of the pose; the first three in millimetres.
     numbers: Vec<f64>,
-    /// Empty where the protocol has no texts.
+    /// Empty if the protocol has no texts.
     part: String,
     reason: String,
 }
@@ -273,7 +274,7 @@ impl Robot {
         let mut rest = Vec::new();
         match self.stream.read_to_end(&mut rest) {
             Ok(_) => rest.is_empty(),
-            // Reset, since bytes were on their way to it.
+            // Reset, because the server had not read all bytes.
             Err(error) => error.kind() == std::io::ErrorKind::ConnectionReset,
         }
     }
@@ -444,7 +445,7 @@ fn told_in_list(line: &str) -> Told {
     assert_eq!(list[0] as usize, list.len() - 1);
     assert!(matches!(list.len(), 11 | 17), "{line}");
     let number = |i: usize| list[i] as u32;
-    // The others give millimetres.
+    // The other protocols send millimetres.
     let numbers = list[11..].iter().enumerate();
     let numbers = numbers.map(|(i, number)| if i < 3 { number * 1000.0 } else { *number });
     Told {
@@ -572,7 +573,7 @@ fn of_a_thousand_triggers_by_several_clients_none_is_lost_or_answered_twice() {
                 (0..EACH).map(|_| robot.ask("TRIGGER")).collect::<Vec<_>>()
             })
         });
-        // All at once, before the first is waited for.
+        // Start all of them before waiting for the first.
         let clients: Vec<_> = clients.collect();
         let told = clients
             .into_iter()
@@ -616,7 +617,7 @@ fn triggers_wait_in_their_order_and_a_status_does_not() {
     assert_eq!(second.told().sequence, 2);
 }
 
-/// Ends what goes on until then when it is dropped.
+/// Sets the flag when dropped, to end the threads that watch it.
 struct EndAtLast<'a>(&'a AtomicBool);
 
 impl Drop for EndAtLast<'_> {
@@ -633,7 +634,7 @@ fn hostile_clients_do_not_disturb_a_good_one() {
         ..ServerSettings::default()
     };
     let service = Service::start(&ALL, settings, accepted);
-    // Their places are taken before anybody else comes.
+    // They connect before any other client does.
     let mut good: Vec<Robot> = (0..ALL.len()).map(|place| service.robot(place)).collect();
     for robot in &mut good {
         assert_eq!(robot.ask("STATUS").verdict, 0);
@@ -643,7 +644,7 @@ fn hostile_clients_do_not_disturb_a_good_one() {
         for (i, address) in service.addresses.iter().enumerate() {
             let address = *address;
             let is_over = &is_over;
-            // Whatever the server does with them is right: each goes on with a new connection.
+            // The server may do anything with a hostile client: it continues with a new connection.
             let attack = move |bytes: &[u8], num: usize| {
                 while !is_over.load(Ordering::SeqCst) {
                     thread::sleep(Duration::from_millis(1));
@@ -663,12 +664,12 @@ fn hostile_clients_do_not_disturb_a_good_one() {
             };
             let protocol = ALL[i].split('=').next().expect("a protocol");
             let half = request(protocol, "LAST", 0)[..3].to_vec();
-            // Half a request, bytes that mean nothing, and a megabyte without an end.
+            // Half a request, meaningless bytes, and a megabyte without a line end.
             scope.spawn(move || attack(&half, 1));
             scope.spawn(move || attack(&[0xff, 0x00, 0x80, b'<', b'R', b'\n'], 100));
             scope.spawn(move || attack(&[b'A'; 4096], 256));
         }
-        // Also if one of the good ones fails.
+        // Ends the attacks even if a good client fails.
         let _end = EndAtLast(&is_over);
         for round in 0..40 {
             for robot in &mut good {
@@ -679,7 +680,7 @@ fn hostile_clients_do_not_disturb_a_good_one() {
         }
     });
     assert_eq!(service.num_inspected.load(Ordering::SeqCst), 200);
-    // Their places become free again.
+    // The places of the hostile clients become free again.
     for place in 0..ALL.len() {
         wait_until(|| {
             let mut robot = service.robot(place);
@@ -757,7 +758,7 @@ fn a_bad_request_is_answered_with_its_reason_and_the_connection_closed() {
             assert_eq!(told.reason, reason);
         }
         assert!(robot.is_let_go(), "{reason}");
-        // It may come again.
+        // The client may connect again.
         assert_eq!(service.robot(place).ask("LAST").verdict, 0);
     }
     assert_eq!(service.num_inspected.load(Ordering::SeqCst), 0);
@@ -839,7 +840,7 @@ fn whichever_side_starts_again_the_other_goes_on() {
     let mut service = Service::start(&["ascii=0"], ServerSettings::default(), accepted);
     let mut robot = service.robot(0);
     let told = robot.ask("TRIGGER");
-    // The robot starts again, with an answer on its way.
+    // The robot restarts before it has read the answer.
     robot.send(b"TRIGGER\n");
     drop(robot);
     wait_until(|| service.num_inspected.load(Ordering::SeqCst) == 2);
@@ -847,7 +848,7 @@ fn whichever_side_starts_again_the_other_goes_on() {
     let last = robot.ask("LAST");
     assert_eq!(last.boot, told.boot);
     assert!((1..=2).contains(&last.sequence));
-    // The server starts again, at the same port.
+    // The server restarts at the same port.
     let address = format!("ascii={}", service.addresses[0]);
     service.end();
     assert!(robot.is_let_go());
@@ -877,7 +878,7 @@ fn who_waits_when_the_service_ends_is_told_so() {
     go_on.send(()).expect("awaited");
     // Its inspection had begun.
     assert_eq!(first.told().sequence, 1);
-    // There is no line if the server was quicker than the request.
+    // There is no line if the server ended before it read the request.
     let mut line = String::new();
     let _ = second.stream.read_line(&mut line);
     assert!(line.is_empty() || line.contains(";stopping;"), "{line}");

@@ -1,4 +1,4 @@
-//! The rigid transform that lays one cloud over another.
+//! Alignment of two clouds.
 
 use std::path::PathBuf;
 
@@ -15,16 +15,16 @@ use crate::{
     interrupt::SignalWatch,
 };
 
-/// How one cloud lies on another. Where `reason` is not `None`, the transform is not to be relied upon.
+/// The result of an alignment. Do not rely on the transform if `reason` is not `None`.
 #[pyclass(frozen, module = "partsight")]
 pub(crate) struct Alignment {
     pose: PoseEstimate,
 }
 
-/// Aligns `source` to `target`: the rigid transform that takes points of the source onto the target.
+/// Aligns `source` to `target`: finds the rigid transform that takes points of the source onto the target.
 ///
-/// Both hold points in metres, of the shape (N, 3) or (H, W, 3). `method` is `global`, which needs no start, or the paper's
-/// `icp` or `icp-ga`, which begin at `initial`, a 4×4 matrix, or with no displacement. Ctrl-C stops it.
+/// Both hold points in metres, of the shape (N, 3) or (H, W, 3). `method` is `global`, which needs no start, or the
+/// paper's `icp` or `icp-ga`, which start at `initial`, a 4×4 matrix, by default the identity. Ctrl-C stops it.
 #[pyfunction]
 #[pyo3(signature = (source, target, *, method = "global", initial = None))]
 pub(crate) fn align(
@@ -41,7 +41,7 @@ pub(crate) fn align(
         return Err(refused(message, &format!("Name one of {names}")));
     };
     let initial = initial.map(transform_of).transpose()?;
-    // An organised cloud's cells without a reading are no points of it.
+    // Drop the cells of an organised cloud that have no reading.
     let [source, target] =
         [cloud_of(source)?, cloud_of(target)?].map(|cloud| PointCloud::from_points(cloud.points));
     let pose = py.detach(|| {
@@ -55,7 +55,7 @@ pub(crate) fn align(
 
 #[pymethods]
 impl Alignment {
-    /// Takes points of the source onto the target, 4×4, metres: a new array each time.
+    /// Transform of points of the source onto the target, 4×4, metres: a new array each time.
     #[getter]
     fn target_from_source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         matrix_of(py, &self.pose.target_from_source)
@@ -73,14 +73,14 @@ impl Alignment {
         self.pose.fit.overlap
     }
 
-    /// The source's middle is within this of the truth in 95 of 100 cases, metres; infinite where nothing holds it,
-    /// `None` if it is not known.
+    /// The source's middle is within this distance of the truth in 95 of 100 cases, metres; infinite if it is
+    /// unconstrained, `None` if unknown.
     #[getter]
     fn shift_bound_m(&self) -> Option<f64> {
         self.pose.uncertainty.map(|bounds| bounds.shift.0)
     }
 
-    /// Likewise its turn, radians.
+    /// The source's rotation is within this angle of the truth in 95 of 100 cases, radians.
     #[getter]
     fn turn_bound_rad(&self) -> Option<f64> {
         self.pose.uncertainty.map(|bounds| bounds.turn.0)
@@ -98,13 +98,13 @@ impl Alignment {
         self.pose.is_ambiguous()
     }
 
-    /// Why it should not be relied upon, in words; `None` if nothing speaks against it.
+    /// Why the result is unreliable, in words; `None` if it is reliable.
     #[getter]
     fn reason(&self) -> Option<String> {
         self.pose.doubt().map(|doubt| doubt.to_string())
     }
 
-    /// What to do about it, in words; `None` with no `reason`.
+    /// What to do about it, in words; `None` if there is no `reason`.
     #[getter]
     fn advice(&self) -> Option<String> {
         let doubt = self.pose.doubt()?;
@@ -120,7 +120,7 @@ impl Alignment {
     }
 }
 
-/// The points of a file, metres, float32 of the shape (N, 3) or (H, W, 3). A mesh is sampled evenly.
+/// Reads the points of a file: metres, float32 of the shape (N, 3) or (H, W, 3). A mesh is sampled evenly.
 #[pyfunction]
 pub(crate) fn read_points(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyArrayDyn<f32>>> {
     let name = path.display();

@@ -1,4 +1,4 @@
-//! numpy arrays in and out. Everything is copied: what a caller changes later changes no result.
+//! Conversion from and to numpy arrays. Everything is copied, so later changes by the caller affect no result.
 
 use nalgebra::Point3;
 use numpy::{
@@ -10,10 +10,10 @@ use pyo3::{prelude::*, types::PyAny};
 
 use crate::error::refused;
 
-/// How far the rotation of a matrix that a caller gives may be off one, as of numbers that were rounded to six digits.
+/// How far the rotation of a given matrix may deviate from a true one; allows for numbers rounded to six digits.
 const ROUNDING: f64 = 1e-5;
 
-/// An array whose elements lie in memory one after the other, row by row; made of whatever numpy makes an array of.
+/// Converts anything that numpy accepts to an array that is contiguous in memory, row by row.
 fn contiguous<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
     let py = given.py();
     let wanted = (given, py.None(), ["C_CONTIGUOUS", "ALIGNED"]);
@@ -21,14 +21,14 @@ fn contiguous<'py>(given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedAr
     Ok(array.cast_into::<PyUntypedArray>()?)
 }
 
-/// The elements, if they are of this type.
+/// Copies the elements, if they are of this type.
 fn elements<T: Element + Copy>(array: &Bound<'_, PyUntypedArray>) -> Option<PyResult<Vec<T>>> {
     let array = array.cast::<PyArrayDyn<T>>().ok()?;
     let copied = || -> PyResult<Vec<T>> { Ok(array.try_readonly()?.as_slice()?.to_vec()) };
     Some(copied())
 }
 
-/// The elements of an array of float32 or float64.
+/// Copies the elements of an array of float32 or float64.
 fn floats(array: &Bound<'_, PyUntypedArray>) -> Option<PyResult<Vec<f32>>> {
     elements::<f32>(array).or_else(|| {
         let doubles = elements::<f64>(array)?;
@@ -52,7 +52,7 @@ fn wrong_shape(what: &str, array: &Bound<'_, PyUntypedArray>, expected: &str) ->
     )
 }
 
-/// Points of the shape (N, 3), those that are not finite left out, or (H, W, 3) as an organised cloud.
+/// Reads points of the shape (N, 3), without those that are not finite, or (H, W, 3) as an organised cloud.
 pub(crate) fn cloud_of(given: &Bound<'_, PyAny>) -> PyResult<PointCloud> {
     const SHAPE: &str = "(N, 3), or (H, W, 3) with rows and columns";
     let array = contiguous(given)?;
@@ -78,18 +78,18 @@ pub(crate) fn cloud_of(given: &Bound<'_, PyAny>) -> PyResult<PointCloud> {
     })
 }
 
-/// Where a pixel has no reading.
+/// The point of a pixel without a reading.
 pub(crate) const NO_POINT: Point3<f32> = Point3::new(f32::NAN, f32::NAN, f32::NAN);
 
 /// Depths of the shape (H, W).
 pub(crate) enum Depths {
-    /// As sensors count them; 0 is no reading.
+    /// Whole units, as from a sensor; 0 is no reading.
     Units(Vec<u16>),
-    /// In the same unit with fractions.
+    /// Units with fractions.
     Floats(Vec<f32>),
 }
 
-/// The depths with their rows and columns.
+/// Reads depths, and the size of their grid.
 pub(crate) fn depths_of(given: &Bound<'_, PyAny>) -> PyResult<(Depths, Grid)> {
     let array = contiguous(given)?;
     let grid = match *array.shape() {
@@ -105,7 +105,7 @@ pub(crate) fn depths_of(given: &Bound<'_, PyAny>) -> PyResult<(Depths, Grid)> {
     Ok((depths, grid))
 }
 
-/// A rigid transform of a 4×4 matrix.
+/// Reads a rigid transform from a 4×4 matrix.
 pub(crate) fn transform_of(given: &Bound<'_, PyAny>) -> PyResult<RigidTransform> {
     let array = contiguous(given)?;
     let wrong = || wrong_type("numbers of the transform", &array, "float64");
@@ -122,7 +122,7 @@ pub(crate) fn transform_of(given: &Bound<'_, PyAny>) -> PyResult<RigidTransform>
     })
 }
 
-/// A transform as a 4×4 matrix.
+/// Converts a transform to a 4×4 matrix.
 pub(crate) fn matrix_of<'py>(
     py: Python<'py>,
     transform: &RigidTransform,
@@ -130,7 +130,7 @@ pub(crate) fn matrix_of<'py>(
     PyArray1::from_slice(py, &rigid::row_major(transform)).reshape([4, 4])
 }
 
-/// The points of a cloud as (N, 3), or (H, W, 3) of an organised one.
+/// Converts the points of a cloud to an array of the shape (N, 3), or (H, W, 3) for an organised cloud.
 pub(crate) fn points_of<'py>(
     py: Python<'py>,
     cloud: &PointCloud,
@@ -141,7 +141,7 @@ pub(crate) fn points_of<'py>(
     PyArray1::from_vec(py, numbers).reshape(IxDyn(&shape))
 }
 
-/// The shape of one value per point.
+/// Shape of an array with one value per point.
 pub(crate) fn shape_of(cloud: &PointCloud) -> Vec<usize> {
     cloud.grid.map_or_else(
         || vec![cloud.points.len()],

@@ -1,5 +1,5 @@
-//! Kept cases, packed into rows, judged row by row, and the report on all results: what `partsight evaluate` does, in
-//! pieces that several computers share.
+//! Packs kept cases into rows, judges them row by row, and reports on all results: the steps of `partsight evaluate`,
+//! to share between several computers.
 
 use std::{path::PathBuf, time::Duration};
 
@@ -49,7 +49,7 @@ struct KeptRow {
     newer_schema: Option<u32>,
 }
 
-/// The same, as far as it is inspected.
+/// The columns of a [`KeptRow`] that an inspection needs.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct PackedRow {
@@ -78,7 +78,7 @@ pub(crate) struct ResultRow {
     reason_kind: Option<String>,
     rotation_error_rad: Option<f64>,
     shift_error_m: Option<f64>,
-    /// 16 numbers, row after row.
+    /// 4×4 matrix, row by row.
     camera_from_part: Option<[f64; 16]>,
     reference: Option<String>,
     rms_m: Option<f64>,
@@ -90,7 +90,7 @@ pub(crate) struct ResultRow {
     times: Option<TimesRow>,
 }
 
-/// How long the stages took, nanoseconds.
+/// Time that each stage took, nanoseconds.
 #[derive(FromPyObject, IntoPyObject)]
 #[pyo3(from_item_all)]
 struct TimesRow {
@@ -111,12 +111,12 @@ fn kind_of(truth: &Truth) -> &'static str {
     }
 }
 
-/// Name, damage and newer schema of a case that cannot be read.
+/// The name, damage and newer schema of a case that cannot be read.
 fn columns_of(problem: &CaseError) -> (String, Option<String>, Option<u32>) {
     match problem {
         CaseError::Damaged { name, what } => (name.clone(), Some(what.clone()), None),
         CaseError::Newer { name, found, .. } => (name.clone(), None, Some(*found)),
-        // The others are of a whole folder.
+        // The other errors concern a whole folder.
         other => (String::new(), Some(other.to_string()), None),
     }
 }
@@ -182,7 +182,7 @@ impl KeptCases {
         self.list.problems.len() + self.list.cases.len()
     }
 
-    /// The case at a place of the list as a row, with everything that an inspection needs.
+    /// The case of this number in the list as a row, with everything that an inspection needs.
     fn row(&self, py: Python<'_>, number: usize) -> PyResult<KeptRow> {
         if let Some(problem) = self.list.problems.get(number) {
             return Ok(problem.into());
@@ -210,9 +210,9 @@ impl KeptCases {
     }
 }
 
-/// Inspects packed cases and compares the verdicts with their truth: a result per row, in their order.
+/// Inspects packed cases and compares the verdicts with their truth. Returns a result per row, in the same order.
 ///
-/// Without a recipe that of the library is used. Ctrl-C stops it between two stages.
+/// Without a recipe, the library's is used. Ctrl-C stops it between two stages.
 #[pyfunction]
 #[pyo3(signature = (rows, library, recipe = None))]
 pub(crate) fn judge_cases(
@@ -301,7 +301,7 @@ impl ResultRow {
         }
     }
 
-    /// The result, as `evaluate` had it.
+    /// Converts the row back to the result of the evaluation.
     fn into_result(self) -> PyResult<Result<CaseResult, CaseError>> {
         if let Some(problem) = problem_of(&self.case, self.damage.as_deref(), self.newer_schema) {
             return Ok(Err(problem));
@@ -369,8 +369,8 @@ impl From<&TimesRow> for Timings {
     }
 }
 
-/// The report on results in the order of their cases, as `(json, text)`: what `partsight evaluate` writes with `--json`,
-/// and what it shows. Each case that could not be read is a `UserWarning`.
+/// Reports on results in the order of their cases, as `(json, text)`: the output of `partsight evaluate` with
+/// `--json` and without. Each case that could not be read raises a `UserWarning`.
 #[pyfunction]
 #[pyo3(signature = (results, library, recipe = None, *, num_threads = 1))]
 pub(crate) fn evaluation_report(

@@ -1,4 +1,4 @@
-//! Which enrolled part hangs in a scene, and where.
+//! Inspections: which enrolled part hangs in a scene, and where.
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -17,7 +17,7 @@ use crate::{
     scene::Scene,
 };
 
-/// What an inspection found. Nothing but an accepted part is to be relied upon.
+/// The result of an inspection. Rely on it only if the part is accepted.
 #[pyclass(frozen, module = "partsight")]
 pub(crate) struct Inspection {
     name: String,
@@ -28,9 +28,9 @@ pub(crate) struct Inspection {
     is_part_simulated: bool,
 }
 
-/// Inspects a scene: which enrolled part is it, and where?
+/// Inspects a scene: which enrolled part hangs there, and where.
 ///
-/// Without a recipe that of the library is used. The same scene, library and recipe give the same result, to the bit, on
+/// Without a recipe, the library's is used. The same scene, library and recipe give the same result, to the bit, on
 /// any number of threads. Ctrl-C stops it between two stages.
 #[pyfunction]
 #[pyo3(signature = (scene, library, recipe = None))]
@@ -67,7 +67,7 @@ pub(crate) fn inspect(
 
 #[pymethods]
 impl Inspection {
-    /// True if the part was named and may be relied upon.
+    /// True if the part was named and accepted, so that it may be relied on.
     #[getter]
     fn accepted(&self) -> bool {
         self.found.verdict.is_accepted()
@@ -86,7 +86,7 @@ impl Inspection {
         verdict.guess().filter(|_| !verdict.is_unknown())
     }
 
-    /// The probability that the best match is there, at its pose, 0..1.
+    /// Probability that the best match is there, at its pose, 0..1.
     #[getter]
     fn score(&self) -> Option<f64> {
         self.found.verdict.score().map(|[score, _]| score)
@@ -104,7 +104,7 @@ impl Inspection {
         self.found.verdict.complaint().map(|[why, _]| why)
     }
 
-    /// The same for programs, such as `low_score`; docs/guide/files.md lists them.
+    /// The reason as a word for programs, such as `low_score`; docs/guide/files.md lists them.
     #[getter]
     fn reason_kind(&self) -> Option<String> {
         let refusal = self.found.verdict.refusal();
@@ -117,19 +117,20 @@ impl Inspection {
         self.found.verdict.complaint().map(|[_, what]| what)
     }
 
-    /// True if what was taken for the part reaches the picture's edge: some of it may be missing.
+    /// True if the segmented part reaches the edge of the picture, so that some of it may be missing.
     #[getter]
     fn touches_edge(&self) -> bool {
         self.found.touches_edge()
     }
 
-    /// True if no camera read the scene, or the named part when it was enrolled: no robot may move by it.
+    /// True if the scene, or the named part when it was enrolled, does not come from a camera: no robot may move by
+    /// it.
     #[getter]
     fn is_simulated(&self) -> bool {
         self.scene.cloud.is_simulated || self.is_part_simulated
     }
 
-    /// The pose of the first-ranked part, accepted or not; `None` if there is none.
+    /// The pose of the part ranked first, accepted or not; `None` if there is none.
     #[getter]
     fn pose(&self) -> Option<Pose> {
         let pose = self.found.pose.as_ref()?.as_ref().ok()?;
@@ -144,7 +145,7 @@ impl Inspection {
         points_of(py, &self.scene.cloud)
     }
 
-    /// What each point of `cloud` was taken for, a value of `Segment` as uint8, of the shape (H, W) or (N,): a new array
+    /// The label of each point of `cloud`, a value of `Segment` as uint8, of the shape (H, W) or (N,): a new array
     /// each time. The background planes are `Segment.BACKGROUND` and above.
     #[getter]
     fn segments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<u8>>> {
@@ -159,7 +160,7 @@ impl Inspection {
         PyArray1::from_vec(py, values.collect()).reshape(IxDyn(&shape))
     }
 
-    /// How long each stage took, and the `total`, in milliseconds.
+    /// Time that each stage took, and the `total`, in milliseconds.
     #[getter]
     fn timings_ms(&self) -> BTreeMap<&'static str, f64> {
         let timings = &self.found.timings;
@@ -176,7 +177,7 @@ impl Inspection {
         stages.map(in_ms).into()
     }
 
-    /// The line that `partsight inspect --json` writes of the same file, ranking included.
+    /// The JSON line that `partsight inspect --json` writes for the same file, including the ranking.
     fn to_json(&self) -> String {
         self.line().to_json()
     }
@@ -202,11 +203,11 @@ impl Inspection {
     }
 }
 
-/// Where the part is, and how well that is known. Names and units are those of the JSON line.
+/// The pose of the part and its uncertainty. Names and units are those of the JSON line.
 #[pyclass(frozen, module = "partsight")]
 pub(crate) struct Pose {
     camera_from_part: RigidTransform,
-    /// The reference whose coordinates part space is.
+    /// The reference whose coordinates define part space.
     #[pyo3(get)]
     reference: Option<String>,
     /// How it was found: `global`, `icp` or `icp-ga`.
@@ -215,13 +216,14 @@ pub(crate) struct Pose {
     /// Root mean square distance of the closest points, metres.
     #[pyo3(get)]
     rms_m: f64,
-    /// Share of what was seen that lies on the reference, 0..1.
+    /// Share of the points seen that lie on the reference, 0..1.
     #[pyo3(get)]
     overlap: f64,
-    /// The part's middle is within this of the truth in 95 of 100 cases, metres; `None` if nothing holds it.
+    /// The part's middle is within this distance of the truth in 95 of 100 cases, metres; `None` if it is
+    /// unconstrained.
     #[pyo3(get)]
     shift_bound_m: Option<f64>,
-    /// Likewise its turn, radians.
+    /// The part's rotation is within this angle of the truth in 95 of 100 cases, radians.
     #[pyo3(get)]
     turn_bound_rad: Option<f64>,
     /// How the part could move and still fit; `None` if the pose is constrained.
@@ -233,7 +235,7 @@ pub(crate) struct Pose {
     /// True if another pose fits nearly as well.
     #[pyo3(get)]
     ambiguous: bool,
-    /// True if it may be another model of the part, so that the pose is only about right.
+    /// True if it may be another model of the part, so that the pose is only approximate.
     #[pyo3(get)]
     approximate: bool,
 }
@@ -260,7 +262,7 @@ impl Pose {
 
 #[pymethods]
 impl Pose {
-    /// Takes part space to camera space, 4×4, metres: a new array each time.
+    /// Transform from part space to camera space, 4×4, metres: a new array each time.
     #[getter]
     fn camera_from_part<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         matrix_of(py, &self.camera_from_part)

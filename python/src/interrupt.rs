@@ -1,4 +1,4 @@
-//! Ctrl-C while a call computes.
+//! Handling of Ctrl-C while a call computes.
 
 use std::{
     cell::{Cell, RefCell},
@@ -8,7 +8,8 @@ use std::{
 use partsight::ProgressObserver;
 use pyo3::{PyErr, Python};
 
-/// How often Python's signal handlers are asked: taking the interpreter's lock may mean waiting for another thread.
+/// Interval at which Python's signal handlers run; to take the interpreter's lock may mean to wait for another
+/// thread.
 const INTERVAL: Duration = Duration::from_millis(100);
 
 /// Runs Python's signal handlers between the steps of a computation, and ends it once one raises an exception.

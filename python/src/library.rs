@@ -27,19 +27,20 @@ use crate::{
 #[pyclass(frozen, module = "partsight")]
 pub(crate) struct Library {
     place: LibraryPlace,
-    /// By which its references are prepared.
+    /// The recipe that its references are prepared with.
     pub(crate) recipe: NamedRecipe,
-    /// Replaced whole when a part was enrolled.
+    /// Replaced as a whole when a part is enrolled.
     loaded: Mutex<Arc<LibraryLoad>>,
 }
 
 impl Library {
-    /// What is enrolled now; it stays as it is for whoever holds it.
+    /// A snapshot of the enrolled parts, which later enrolling does not change.
     pub(crate) fn loaded(&self) -> Arc<LibraryLoad> {
         self.lock().clone()
     }
 
-    /// The recipe to inspect with: the one given, if the references fit it, else its own.
+    /// The recipe to inspect with: the one given, or else the library's own. Fails if the references are prepared
+    /// with other parameters than the one given.
     pub(crate) fn recipe_or<'a>(&'a self, given: Option<&'a Recipe>) -> PyResult<&'a NamedRecipe> {
         let recipe = given.map_or(&self.recipe, |given| &given.recipe);
         if recipe.reference_params() != self.recipe.reference_params() {
@@ -52,7 +53,7 @@ impl Library {
     }
 
     fn lock(&self) -> MutexGuard<'_, Arc<LibraryLoad>> {
-        // It is only ever replaced whole.
+        // A panic elsewhere leaves no partial state: the value is only replaced as a whole.
         self.loaded.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -86,17 +87,17 @@ impl Library {
 
 #[pymethods]
 impl Library {
-    /// Opens a library's folder; without a path your own, as the window and the commands use it, which is filled with the
-    /// eight shipped parts the first time.
+    /// Opens a library's folder. Without a path it opens your own, which the window and the commands use, too, and
+    /// which is filled with the eight shipped parts the first time.
     ///
-    /// Parts are prepared by the parameters of the recipe. A damaged part is left out with a `UserWarning`.
+    /// Parts are prepared with the parameters of the recipe. A damaged part is left out with a `UserWarning`.
     #[staticmethod]
     #[pyo3(signature = (path = None, *, recipe = None))]
     fn open(py: Python<'_>, path: Option<PathBuf>, recipe: Option<&Recipe>) -> PyResult<Self> {
         Self::load(py, recipe, move || open_library(path.as_deref()))
     }
 
-    /// Opens a library's folder, which is made if it is not there.
+    /// Opens a library's folder, and creates it if it does not exist.
     #[staticmethod]
     #[pyo3(signature = (path, *, recipe = None))]
     fn create(py: Python<'_>, path: PathBuf, recipe: Option<&Recipe>) -> PyResult<Self> {
@@ -105,13 +106,13 @@ impl Library {
         })
     }
 
-    /// Its folder; `None` of the parts inside the program, where there is no folder for your own.
+    /// Its folder; `None` for the parts inside the program, which are used if the system has no folder for your own.
     #[getter]
     fn path(&self) -> Option<PathBuf> {
         self.place.folder().map(|folder| folder.path().to_owned())
     }
 
-    /// Eight hexadecimal digits, the same for the same parts with the same clouds, wherever they lie.
+    /// Eight hexadecimal digits, the same for the same parts with the same clouds in any folder.
     #[getter]
     fn identity(&self) -> String {
         self.loaded().identity()
@@ -128,7 +129,7 @@ impl Library {
         names
     }
 
-    /// The titles of all references by their names; a part may have several references.
+    /// Titles of all references by their names; a part may have several references.
     #[getter]
     fn titles(&self) -> BTreeMap<String, String> {
         let loaded = self.loaded();
@@ -153,10 +154,10 @@ impl Library {
         points_of(py, &found.cloud)
     }
 
-    /// Enrols the part that stands in a capture, seen from one side; part space is the camera's space of that moment.
+    /// Enrols the part in a capture, as seen from one side; part space is the camera space of that capture.
     ///
-    /// A part of the same name goes to the library's trash. What is odd about the part, or which other it cannot be told
-    /// from, is a `UserWarning`. Inspections that began before use the library as it was.
+    /// An earlier part of the same name goes to the library's trash. Anything odd about the part, or another part
+    /// that it cannot be told from, raises a `UserWarning`. Inspections that began before use the library as it was.
     #[pyo3(signature = (scene, name, *, title = "", notes = ""))]
     fn enrol(
         &self,
@@ -177,7 +178,7 @@ impl Library {
         };
         let found = title.chars().count();
         if found > MAX_TITLE {
-            let message = format!("the title has {found} characters, at most {MAX_TITLE} are kept");
+            let message = format!("the title has {found} characters, but at most {MAX_TITLE} are kept");
             return Err(refused(message, "Put the rest into the notes"));
         }
         let about = PartDescription {

@@ -62,7 +62,8 @@ impl Recipe {
         })
     }
 
-    /// Its name; `built-in` is the program's own, and `(modified)` follows where a setting differs from the named one.
+    /// Its name, followed by `(modified)` if a setting differs from the recipe of this name; `built-in` is the
+    /// program's own.
     #[getter]
     fn name(&self) -> String {
         self.recipe.label.to_string()
@@ -91,7 +92,7 @@ impl Recipe {
         }
     }
 
-    /// For `pickle`: the same parameters to the bit, under the same name.
+    /// Supports `pickle`: keeps the name, and the parameters to the bit.
     fn __reduce__<'py>(
         &self,
         py: Python<'py>,
@@ -104,7 +105,7 @@ impl Recipe {
         Ok((restore, (name, is_changed, json)))
     }
 
-    /// The recipe that was pickled.
+    /// Restores a pickled recipe.
     #[staticmethod]
     fn _restore(name: String, is_changed: bool, json: &str) -> PyResult<Self> {
         let recipe: partsight::Recipe =

@@ -1,4 +1,4 @@
-//! What a depth camera saw: from a file, from arrays or simulated.
+//! Scenes: from a file, from arrays or simulated.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -14,7 +14,7 @@ use crate::{
     error::{advised, refused, warn_about},
 };
 
-/// What a depth camera saw: points in camera space, x right, y down, z forward, in metres.
+/// The points that a depth camera saw, in camera space, x right, y down, z forward, in metres.
 #[pyclass(frozen, module = "partsight")]
 pub(crate) struct Scene {
     pub(crate) name: String,
@@ -34,8 +34,8 @@ impl Scene {
 impl Scene {
     /// Reads a capture: PCD, PLY, XYZ or CSV text, or a depth PNG with its camera beside it.
     ///
-    /// Clouds are in metres; `scan.ply#units=mm#up=z` reads one in millimetres whose z points up. What is odd about a file
-    /// is a `UserWarning`. A file without a single reading is an empty scene: the camera was covered.
+    /// Clouds are in metres; `scan.ply#units=mm#up=z` reads one in millimetres whose z points up. Anything odd about
+    /// a file raises a `UserWarning`. A file without readings, as from a covered camera, gives an empty scene.
     #[staticmethod]
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let name = path.display().to_string();
@@ -51,11 +51,11 @@ impl Scene {
         Ok(Self::new(name, scene))
     }
 
-    /// The scene of a depth image of the shape (H, W).
+    /// Makes a scene from a depth image of the shape (H, W).
     ///
-    /// Depths are along the optical axis, in units of `metres_per_unit`; 0, and of floats also what is negative or not
-    /// finite, is no reading. `fx`, `fy`, `cx` and `cy` are in pixels, with pixel centres at whole numbers; the image is
-    /// without lens distortion. `is_simulated` marks what no camera read.
+    /// Depths are along the optical axis, in units of `metres_per_unit`; 0 is no reading, nor is a negative or
+    /// non-finite float. `fx`, `fy`, `cx` and `cy` are in pixels, with pixel centres at whole numbers; the image must
+    /// have no lens distortion. Set `is_simulated` if the depths do not come from a camera.
     #[staticmethod]
     #[pyo3(signature = (depth, fx, fy, cx, cy, metres_per_unit, *, name = "array", is_simulated = false))]
     #[expect(clippy::too_many_arguments, reason = "the numbers of a camera")]
@@ -104,10 +104,12 @@ impl Scene {
         Ok(Self::new(name.to_owned(), scene))
     }
 
-    /// The scene of points in camera space, in metres, of the shape (N, 3), or (H, W, 3) with the camera's rows and columns.
+    /// Makes a scene from points in camera space, metres, of the shape (N, 3), or (H, W, 3) with the camera's rows
+    /// and columns.
     ///
-    /// Rows and columns help: without them the points are put back onto a picture, if one camera at the origin can have
-    /// seen them all. Points that are not finite are no readings. `is_simulated` marks what no camera read.
+    /// Give rows and columns if they are known: without them the points are projected back into a picture, if a
+    /// camera at the origin can have seen them all. Points that are not finite are no readings. Set `is_simulated` if
+    /// the points do not come from a camera.
     #[staticmethod]
     #[pyo3(signature = (points, *, name = "array", is_simulated = false))]
     fn from_points(
@@ -124,7 +126,7 @@ impl Scene {
         Ok(Self::new(name.to_owned(), scene))
     }
 
-    /// What it was opened as; the `scene` of the JSON line.
+    /// Name of the file or array; the `scene` of the JSON line.
     #[getter]
     fn name(&self) -> &str {
         &self.name
@@ -132,19 +134,19 @@ impl Scene {
 
     /// The points in metres, float32, of the shape (H, W, 3), NaN without a reading, or (N, 3): a new array each time.
     ///
-    /// Of an image finer than the method needs they are fewer than its pixels.
+    /// They are fewer than the pixels of an image that is finer than the method needs.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
         points_of(py, &self.scene.cloud)
     }
 
-    /// `(fx, fy, cx, cy)` of the camera in pixels of `points`; `None` if no camera is known.
+    /// `(fx, fy, cx, cy)` of the camera, in pixels of `points`; `None` if no camera is known.
     #[getter]
     fn intrinsics(&self) -> Option<(f64, f64, f64, f64)> {
         self.scene.intrinsics.map(four_numbers)
     }
 
-    /// True if no camera read it.
+    /// True if it does not come from a camera.
     #[getter]
     fn is_simulated(&self) -> bool {
         self.scene.cloud.is_simulated
@@ -160,7 +162,7 @@ fn four_numbers(camera: Intrinsics) -> (f64, f64, f64, f64) {
     (camera.fx, camera.fy, camera.cx, camera.cy)
 }
 
-/// A depth frame has whole units only, so the depths become points on the camera's rays.
+/// Converts the depths to points on the camera's rays, because a depth frame holds whole units only.
 fn scene_of_floats(
     depth: &[f32],
     camera: Intrinsics,
@@ -184,7 +186,7 @@ fn scene_of_floats(
         ..PointCloud::default()
     });
     if scene.cloud.grid.is_some() {
-        // It was fitted to the points; this is the one that made them.
+        // Replace the intrinsics fitted to the points by those that the points were made with.
         let block_side = scene.reduced.as_ref().map_or(1, |from| from.block_side);
         scene.intrinsics = Some(camera.in_blocks(block_side));
     }
@@ -212,29 +214,29 @@ impl SimulatedFrame {
         four_numbers(self.frame.frame.intrinsics)
     }
 
-    /// Metres that one unit of `depth` stands for.
+    /// Metres per unit of `depth`.
     #[getter]
     fn metres_per_unit(&self) -> f64 {
         self.frame.frame.metres_per_unit
     }
 
-    /// The truth, 4×4: takes the coordinates of the simulated model to the camera's. An enrolled part has other
+    /// The true transform from the simulated model's coordinates to camera space, 4×4. An enrolled part has other
     /// coordinates, those of the camera that saw it.
     #[getter]
     fn camera_from_model<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         matrix_of(py, &self.frame.truth.camera_from_part)
     }
 
-    /// The scene that it shows.
+    /// The scene of the frame.
     fn scene(&self, py: Python<'_>) -> Scene {
         let scene = py.detach(|| scene_from_frame(&self.frame.frame));
         Scene::new("simulated".into(), scene)
     }
 }
 
-/// Takes a frame of a simulated cell: a part in front of a wall and a floor, with a Kinect's noise.
+/// Simulates a frame of a cell: a part in front of a wall and a floor, with a Kinect's noise.
 ///
-/// The seed draws the pose, the cell and the noise; the same arguments give the same frame.
+/// The seed determines pose, cell and noise; the same arguments give the same frame.
 #[pyfunction]
 #[pyo3(signature = (part = "fender", *, side = "left", seed = 1))]
 pub(crate) fn simulate_frame(

@@ -81,7 +81,7 @@ def test_a_recipe_lists_its_parameters() -> None:
         ({"accept.min_scor": 0.5}, "nearest is accept.min_score"),
         ({"accept.min_score": 1.5}, "from 0 to 1"),
         ({"accept.min_score": float("nan")}, "from 0 to 1"),
-        ({"accept.min_score": "high"}, "no value of accept.min_score"),
+        ({"accept.min_score": "high"}, "not a value of accept.min_score"),
         ({"icp.max_iterations": 1.5}, "whole numbers"),
     ],
 )

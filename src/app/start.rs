@@ -55,7 +55,7 @@ impl Advice for WindowError {
                     .into()
             }
             Self::DeviceLost { .. } => {
-                "Start Partsight again; every part that was enrolled and every file that was written is there".into()
+                "Start Partsight again; no enrolled part and no written file is lost".into()
             }
             Self::NoAdapter { .. } => {
                 "Install a Vulkan driver: on Debian and Ubuntu the package mesa-vulkan-drivers".into()

@@ -19,7 +19,7 @@ use crate::{
 #[derive(Debug, Error)]
 pub enum CaptureError {
     /// The folder of a recording, or one to watch, does not exist.
-    #[error("{}: the folder is not there", path.display())]
+    #[error("{}: the folder does not exist", path.display())]
     FolderGone {
         /// The folder.
         path: PathBuf,
@@ -38,7 +38,7 @@ pub enum CaptureError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The file is a mesh, not a capture of a camera.
-    #[error("{}: a mesh, expected what a depth camera saw", path.display())]
+    #[error("{}: a mesh, expected a depth camera's capture", path.display())]
     MeshIsNoCapture {
         /// The file.
         path: PathBuf,
@@ -56,7 +56,7 @@ pub enum CaptureError {
     #[error(transparent)]
     Realsense(#[from] RealsenseError),
     /// The folder has nothing to replay.
-    #[error("{}: no recording, and no file of a camera", path.display())]
+    #[error("{}: neither a recording nor a camera's file", path.display())]
     NoFrames {
         /// The folder.
         path: PathBuf,
@@ -105,7 +105,7 @@ pub enum CaptureError {
     #[error("the window does not follow its source, so there are no frames")]
     NotFollowed,
     /// The camera's thread panicked.
-    #[error("the camera's thread ended by a fault of the program")]
+    #[error("an error of the program ended the camera's thread")]
     Crashed,
 }
 
@@ -217,7 +217,7 @@ pub enum CaptureWarning {
         num_frames: usize,
     },
     /// The sequence has no file with the camera's numbers.
-    #[error("{} is not there: taken for a camera of 640×480 pixels, fx = fy = 525, with 5000 units to the metre", missing.display())]
+    #[error("{} is missing: a camera of 640×480 pixels, fx = fy = 525, with 5000 units to the metre is assumed", missing.display())]
     AssumedCamera {
         /// Where that file was expected.
         missing: PathBuf,
@@ -238,10 +238,10 @@ impl Advice for CaptureWarning {
             Self::Kinect(warning) => warning.advice(),
             Self::Genicam(warning) => warning.advice(),
             Self::CutOff { .. } => {
-                "Record again if the end matters; leave room on the disk and stop before pulling out a stick".into()
+                "Record again if the end matters; leave room on the disk, and stop before you unplug a drive".into()
             }
             Self::AssumedCamera { missing } => format!(
-                "Put the camera's numbers into {}, as they stand beside a depth PNG",
+                "Put the camera's intrinsics into {}, as beside a depth PNG",
                 missing.display()
             ),
         }

@@ -28,7 +28,7 @@ pub enum CaseError {
         source: io::Error,
     },
     /// A case differs from what was written.
-    #[error("the kept case {name} is damaged and set aside: {what}")]
+    #[error("the kept case {name} is damaged and was set aside: {what}")]
     Damaged {
         /// Name of the case's folder.
         name: String,
@@ -37,7 +37,7 @@ pub enum CaseError {
     },
     /// A case was written by a newer version.
     #[error(
-        "the kept case {name} was made by a newer version (format {found}, known up to {known})"
+        "the kept case {name} was made by a newer version (format {found}, this one reads up to {known})"
     )]
     Newer {
         /// Name of the case's folder.
@@ -59,7 +59,7 @@ pub enum CaseError {
     #[error(transparent)]
     History(#[from] HistoryError),
     /// The system names no folder for a user's data.
-    #[error("this system names no folder for a user's data")]
+    #[error("this system has no folder for user data")]
     NoUserFolder,
 }
 
@@ -70,7 +70,9 @@ impl Advice for CaseError {
             Self::Unwritable { source, .. } => {
                 format!("{}, or choose another folder of cases", advice_on(source))
             }
-            Self::Damaged { .. } => "Copy it again from where it came, or delete its folder".into(),
+            Self::Damaged { .. } => {
+                "Copy it again from where it came from, or delete its folder".into()
+            }
             Self::Newer { .. } => "Update Partsight on this computer".into(),
             Self::NoSuchCase { .. } => "Check whether the folder was moved or renamed".into(),
             Self::History(error) => error.advice(),

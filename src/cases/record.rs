@@ -12,7 +12,7 @@
 //!  "times_ms":[{"stage":"segment","median_ms":1.9,"p95_ms":2.4,"budget_ms":2.5}],
 //!  "cases":[{"name":"fender_placed_1","difficulty":"placed","truth":{…},"found":{"part":"fender","score":0.97,
 //!            "margin":0.4,"accepted":true},"judgement":"right","rotation_error_deg":0.2,"shift_error_mm":1.1,"total_ms":9.0}],
-//!  "damaged":["the kept case door is damaged and set aside: scene.pcd: the kept frame is damaged: it does not have its checksum"]}
+//!  "damaged":["the kept case door is damaged and set aside: scene.pcd: the kept frame is damaged: its checksum does not match"]}
 //! ```
 //!
 //! `changed` lists other parameters that were not at their default. `accepted_as` is null if nothing was accepted.
@@ -271,7 +271,7 @@ pub enum RecordError {
         what: String,
     },
     /// The file was written by a newer version.
-    #[error("{}: made by a newer version (schema {found}, known up to {RECORD_SCHEMA})", path.display())]
+    #[error("{}: made by a newer version (schema {found}, this one reads up to {RECORD_SCHEMA})", path.display())]
     Newer {
         /// The file.
         path: PathBuf,
@@ -285,7 +285,7 @@ impl Advice for RecordError {
         match self {
             Self::File(error) => error.advice(),
             Self::NotARecord { .. } => {
-                "Choose a file that partsight evaluate DIR --json FILE has written".into()
+                "Choose a file that partsight evaluate DIR --json FILE wrote".into()
             }
             Self::Newer { .. } => "Update Partsight on this computer".into(),
         }

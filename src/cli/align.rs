@@ -31,19 +31,19 @@ Examples:
   partsight align scan.ply reference.ply --pose icp-ga
   partsight align scan.ply door.stl --json
 
-Both in metres. A mesh is sampled evenly. The answer maps points of SOURCE onto TARGET.
+Both are in metres. A mesh is sampled evenly. The result maps points of SOURCE onto TARGET.
 Exit codes: 0 aligned, 1 no pose was found or it should not be relied upon (hardly any overlap, ambiguous, not
 settled; the reason says which), 2 a file could not be read.
-With --json a pose that was not found is a line too: target_from_source is null, and reason says why.")]
+With --json there is a line even if no pose was found: target_from_source is then null, and reason says why.")]
 pub(super) struct AlignArgs {
     /// The cloud that is moved
     source: PathBuf,
     /// The cloud that stays
     target: PathBuf,
-    /// How
+    /// Method
     #[arg(long, value_enum, default_value_t = MethodChoice::Global)]
     pose: MethodChoice,
-    /// Where to start: three angles (radians, or 90deg) and a shift (metres, or 800mm); R = Rz·Ry·Rx
+    /// Start pose: three angles (radians, or 90deg) and a shift (metres, or 800mm); R = Rz·Ry·Rx
     #[arg(long, value_name = "\"rx ry rz x y z\"", value_parser = parse_pose, allow_hyphen_values = true)]
     initial: Option<GivenPose>,
     /// Write one line of JSON, and nothing else, to standard output

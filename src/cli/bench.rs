@@ -59,8 +59,9 @@ Examples:
   partsight bench soak --frames 1000000 --json soak.json
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
-name: a few frames of each part, to time the stages. table1 needs no frames: each part of the library is put where T1..T5 of the
-paper put it, and found again by ICP, ICP-GA and the global method. Times are those of this machine, at what else it is doing now.")]
+name: a few frames of each part, to time the stages. table1 needs no frames: each part of the library is put where T1..T5
+of the paper put it, and found again by ICP, ICP-GA and the global method. Times are those of this machine under its
+present load.")]
 pub(super) struct BenchArgs {
     /// What to measure
     #[arg(value_enum, default_value_t = Bench::Speed)]
@@ -101,16 +102,16 @@ pub(super) struct BenchArgs {
     /// For scaling: draw the times into this file
     #[arg(long, value_name = "PNG")]
     plot: Option<PathBuf>,
-    /// For scaling: references at most; ten thousand take below 3 GB
+    /// For scaling: maximum number of references; ten thousand take less than 3 GB
     #[arg(long, value_name = "N", default_value_t = crate::bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
     most: u64,
     /// For paint: draw the film of each part into this folder
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
-    /// For live: how long
+    /// For live: duration in minutes
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1440))]
     minutes: u64,
-    /// For soak: how many, 20000 at least, so that every part has hung there once in the first fifth, the warm-up
+    /// For soak: number of frames, at least 20000, so that every part hangs there once in the first fifth, the warm-up
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(20_000..=1_000_000_000))]
     frames: u64,
     /// For table1: only this part; may be given several times
@@ -136,7 +137,7 @@ enum Bench {
     Registration,
     /// Whether poses are as exact as their bounds say: whole and cut views of parts of other car models, enrolled themselves, or of meshes
     Bounds,
-    /// Ranking by 1, 2, 4 and 8 workers over a growing number of references: from where do several pay?
+    /// Ranking by 1, 2, 4 and 8 workers over a growing number of references: from how many on do several pay off?
     Scaling,
     #[cfg(feature = "window")]
     /// Processor time of a frame of the window, at rest, turning and live; needs no display
@@ -183,52 +184,52 @@ fn check(args: &BenchArgs) -> anyhow::Result<()> {
     let bench = args.bench;
     if bench != Bench::Table1 && (args.csv.is_some() || !args.part.is_empty()) {
         return Err(advised_error(
-            "--csv and --part go with table1",
-            "Ask for it: partsight bench table1 --csv FILE",
+            "--csv and --part are for table1",
+            "Use it like this: partsight bench table1 --csv FILE",
         ));
     }
     if !args.suite.is_empty() && !matches!(bench, Bench::Recognition | Bench::Speed) {
         return Err(advised_error(
-            "--suite goes with recognition",
-            "Ask for it: partsight bench recognition --suite all",
+            "--suite is for recognition and speed",
+            "Use it like this: partsight bench recognition --suite all",
         ));
     }
     if !args.mesh.is_empty() && !matches!(bench, Bench::Bounds | Bench::Registration) {
         return Err(advised_error(
-            "--mesh goes with bounds and registration",
-            "Ask for it: partsight bench bounds --mesh FILE#NAME",
+            "--mesh is for bounds and registration",
+            "Use it like this: partsight bench bounds --mesh FILE#NAME",
         ));
     }
     if bench != Bench::Paint && args.plots.is_some() {
         return Err(advised_error(
-            "--plots goes with paint",
-            "Ask for it: partsight bench paint --plots DIR",
+            "--plots is for paint",
+            "Use it like this: partsight bench paint --plots DIR",
         ));
     }
     let takes_files = matches!(bench, Bench::Speed | Bench::Paint);
     if (bench != Bench::Speed && args.compare.is_some()) || (!takes_files && !args.files.is_empty())
     {
         return Err(advised_error(
-            "--compare goes with speed, --files with speed and paint",
-            "Ask for it: partsight bench speed --files FILE --compare before.json",
+            "--compare is for speed, --files for speed and paint",
+            "Use it like this: partsight bench speed --files FILE --compare before.json",
         ));
     }
     if bench != Bench::Registration && !args.condition.is_empty() {
         return Err(advised_error(
-            "--condition goes with registration",
-            "Ask for it: partsight bench registration --condition outside",
+            "--condition is for registration",
+            "Use it like this: partsight bench registration --condition outside",
         ));
     }
     if bench != Bench::Recognition && args.recipe.is_given() {
         return Err(advised_error(
-            "--recipe and --set go with recognition",
-            "Ask for it: partsight bench recognition --set NAME=VALUE",
+            "--recipe and --set are for recognition",
+            "Use it like this: partsight bench recognition --set NAME=VALUE",
         ));
     }
     if bench != Bench::Recognition && (args.only_ours || args.pictures.is_some()) {
         return Err(advised_error(
-            "--only-ours and --pictures go with recognition",
-            "Ask for it: partsight bench recognition --pictures DIR",
+            "--only-ours and --pictures are for recognition",
+            "Use it like this: partsight bench recognition --pictures DIR",
         ));
     }
     Ok(())

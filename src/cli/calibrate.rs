@@ -30,7 +30,7 @@ Examples:
   partsight calibrate capture-pose \"kuka 900 0 1100 0 90 0\"
   partsight calibrate show --as fanuc
 
-The calibration is a text file, cell.toml in your data folder without --calibration. inspect takes it from there.
+The calibration is a text file, by default cell.toml in your data folder, where the other commands find it.
 Conventions: matrix (16 numbers, metres), quaternion-xyzw, rotation-vector, kuka, fanuc, abb, universal-robots,
 yaskawa, staubli, doosan. Units and order of each: partsight report --conventions")]
 pub(super) struct CalibrateArgs {
@@ -66,7 +66,7 @@ struct SetArgs {
     mount: MountChoice,
 }
 
-/// Store the flange pose of every capture, for a camera on the flange
+/// Store the flange pose at which every capture is taken, for a camera on the flange
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Example:
@@ -77,7 +77,7 @@ struct CapturePoseArgs {
     /// The convention and its numbers, or the 16 numbers of a matrix in metres, row after row
     #[arg(value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     pose: WrittenPose,
-    /// The calibration to change; without it, your own
+    /// The calibration to change; default: your own
     #[arg(long, value_name = "FILE")]
     calibration: Option<PathBuf>,
 }
@@ -85,7 +85,7 @@ struct CapturePoseArgs {
 /// Where a new calibration goes, and what it is called.
 #[derive(Debug, Args)]
 struct CalibrationOutput {
-    /// The file to write; without it, your own cell.toml. an existing file is kept beside it
+    /// The file to write; default: your own cell.toml. An existing file is kept beside it
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Name of the cell
@@ -173,7 +173,7 @@ fn keep(
     console.line(&format_args!("Written to {}", path.display()));
     if let Some(former) = former {
         console.line(&format_args!(
-            "  what was there is kept in {}",
+            "  the previous file is kept in {}",
             former.display()
         ));
     }
@@ -236,10 +236,12 @@ pub(super) fn scan_calibration(
 /// Where the camera sits, for a command that inspects.
 #[derive(Debug, Args)]
 pub(super) struct CalibrationChoice {
-    /// Where the camera sits in the robot's cell, as written by `calibrate`; without it your own, if there is one
+    /// Where the camera sits in the robot's cell, as written by `calibrate`; default: your own calibration, if there is
+    /// one
     #[arg(long, value_name = "FILE")]
     calibration: Option<PathBuf>,
-    /// With a camera on the flange: the flange pose at the capture, as `kuka X Y Z A B C`, or 16 numbers of a matrix
+    /// With a camera on the flange: the flange pose at the capture, as `kuka X Y Z A B C`, or the 16 numbers of a
+    /// matrix
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     robot_pose: Option<WrittenPose>,
 }
@@ -255,7 +257,7 @@ impl CalibrationChoice {
             if given.is_some() && calibration.camera.mount() == Mount::EyeToHand {
                 return Err(advised_error(
                     format!(
-                        "{}: the camera stands in the cell: the arm's pose says nothing of it",
+                        "{}: the camera stands in the cell, so the arm's pose says nothing about it",
                         path.display()
                     ),
                     "Leave --robot-pose out",

@@ -24,7 +24,7 @@ use crate::{
 #[derive(Debug, Args)]
 #[command(after_help = super::follow::SOURCES)]
 pub(super) struct CaptureArgs {
-    /// What to record, see below
+    /// What to record; see below
     #[arg(long, value_name = "SOURCE", value_parser = parse_source, required_unless_present = "list")]
     source: Option<SourceSpec>,
     /// Number of frames to record; default: until Ctrl-C or the end of the source
@@ -130,12 +130,12 @@ fn record(
     ));
     if status.num_dropped > 0 {
         console.note(&format_args!(
-            "{} frames were dropped: they came faster than they could be written",
+            "{} frames were dropped: they arrived faster than they could be written",
             status.num_dropped
         ));
     }
     if let Some(wanted) = frames.filter(|&wanted| num < wanted) {
-        console.note(&format_args!("{wanted} frames were asked for"));
+        console.note(&format_args!("{wanted} frames were requested"));
     }
     Ok(outcome)
 }

@@ -26,7 +26,7 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// Check with one part, hung in the same place every day, that camera and cell have not moved
+/// Check that camera and cell have not moved, with one part hung in the same place every day
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -37,9 +37,9 @@ Examples:
 
 Any rigid thing with edges in all directions serves as the part; it need not be enrolled. Wall and floor tell whether the
 camera moved or the part hangs elsewhere: leave some of them in the picture.
-Exit codes of check: 0 in place, 1 something moved or the readings are noisier, 2 could not be compared.")]
+Exit codes of check: 0 in place, 1 something moved or the readings are noisier, 2 the comparison was not possible.")]
 pub(super) struct CellArgs {
-    /// The folder of baseline and checks; without it your own, cell-check in your data folder
+    /// Folder of the baseline and the checks; default: cell-check in your data folder
     #[arg(long, value_name = "DIR", global = true)]
     folder: Option<PathBuf>,
     #[command(subcommand)]
@@ -104,7 +104,7 @@ struct BaselineArgs {
 struct CheckArgs {
     #[command(flatten)]
     views: Views,
-    /// Do not write the check to the list
+    /// Do not add the check to the list
     #[arg(long)]
     no_list: bool,
     /// Write one line of JSON, and nothing else, to standard output
@@ -216,7 +216,7 @@ fn show(check: &CellCheck, baseline: &CellBaseline, console: &mut Console) {
     console.entry(
         "part",
         &format_args!(
-            "x {x:+.1}  y {y:+.1}  z {z:+.1} mm in the camera's space, {} in all, turned by {}; allowed {} and {}",
+            "x {x:+.1}  y {y:+.1}  z {z:+.1} mm in the camera's frame, {} in all, turned by {}; allowed {} and {}",
             check.shift(),
             check.turn(),
             limits.shift,
@@ -330,7 +330,7 @@ fn views(args: &Views, console: &mut Console) -> anyhow::Result<CellViews> {
         if num < wanted {
             return Err(advised_error(
                 format!("{} gave {num} of {wanted} frames", source.title()),
-                "Check that the camera goes on taking pictures, or ask for fewer with --frames",
+                "Check that the camera keeps taking pictures, or request fewer with --frames",
             ));
         }
     }

@@ -13,10 +13,10 @@ use crate::{
 /// What lets the program in.
 #[derive(Clone, Debug, Args)]
 pub(super) struct DatabaseFiles {
-    /// The file whose first line is the user's password at the database
+    /// File whose first line is the user's password for the database
     #[arg(long, value_name = "FILE")]
     database_password_file: Option<PathBuf>,
-    /// Certificates, PEM, of the authority that signed the database server's; without it the system's own
+    /// PEM file with the certificates of the authority that signed the database server's; default: the system's own
     #[arg(long, value_name = "FILE")]
     database_ca: Option<PathBuf>,
 }
@@ -43,8 +43,8 @@ impl DatabaseFiles {
     pub(super) fn refuse_without(&self, option: &str) -> anyhow::Result<()> {
         if self.database_password_file.is_some() || self.database_ca.is_some() {
             return Err(advised_error(
-                "--database-password-file and --database-ca are for a database, and none is named",
-                format!("Name it with {option}, or leave them out"),
+                "--database-password-file and --database-ca are for a database, but none is given",
+                format!("Give it with {option}, or leave them out"),
             ));
         }
         Ok(())
@@ -60,7 +60,8 @@ pub(super) fn parse_cell(text: &str) -> Result<CellName, String> {
 /// Where the history is sent while it is written.
 #[derive(Clone, Debug, Args)]
 pub(super) struct HistoryToChoice {
-    /// Send the history to this PostgreSQL database as well, under the name --cell; nothing waits for it
+    /// Also send the history to this PostgreSQL database, under the name given by --cell; inspections do not wait for
+    /// it
     #[arg(
         long,
         value_name = "postgres://USER@HOST[:PORT]/DATABASE",

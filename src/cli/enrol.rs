@@ -26,7 +26,7 @@ use crate::{
     },
 };
 
-/// Enrol a part: make a reference of a captured scene, a cloud or a mesh
+/// Enrol a part: make a reference from a captured scene, a cloud or a mesh
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -38,12 +38,12 @@ Examples:
   partsight enrol door.stl --name door_left --units mm --up z
   partsight enrol car.gltf#Door_FL --name door_left --library /media/stick/parts
 
-An organised cloud or a depth image is a captured scene: the part before the wall is taken out of it. Anything
+An organised cloud or a depth image is a captured scene: the part in front of the wall is cut out of it. Anything
 else is taken whole. A part of the same name is replaced; the previous version is kept in the library's .trash folder.
-With --scan the frames are put together as partsight scan does it. The part's frame is then that of the camera at the
-first frame that was used, and it can be recognised from every side that most of its surface was seen from.")]
+With --scan the frames are fused as by partsight scan. The part's frame is then the camera's frame of the first used shot,
+and the part can be recognised from every side from which most of its surface was seen.")]
 pub(super) struct EnrolArgs {
-    /// A captured scene, a cloud, or a mesh (one of a glTF by #NAME)
+    /// A captured scene, a cloud, or a mesh (FILE#NAME for one mesh of a glTF file)
     #[arg(value_name = "FILE", required_unless_present = "scan")]
     file: Option<PathBuf>,
     /// Instead of a file: several frames of the part, each with the pose of its camera; a folder, a recording or files
@@ -66,7 +66,8 @@ pub(super) struct EnrolArgs {
     /// Take everything in the file
     #[arg(long, conflicts_with = "segment")]
     whole: bool,
-    /// Take the part in front of the background; with a number, that one of the surfaces found, likeliest first
+    /// Take the part in front of the background; with a number, take that one of the surfaces found, counted from the
+    /// likeliest
     #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "0")]
     segment: Option<usize>,
     /// Title shown to people, such as "Front door, left"; at most 80 characters
@@ -112,14 +113,15 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
         part.signature.openings_m.len(),
     ));
     console.line(&format_args!(
-        "  it lies in         {}",
+        "  stored in          {}",
         saved.folder.display()
     ));
     if let Some(former) = saved.replaced {
         console.line(&format_args!("  previous version in {}", former.display()));
         if saved.left_path {
             console.note(&format_args!(
-                "note: its spray path stays with it, since it is in the former one's frame. To store one: partsight library path {} path.csv",
+                "note: the spray path stays with the previous version, since it is in that version's frame. To store \
+                 a new one: partsight library path {} path.csv",
                 args.name
             ));
         }
@@ -165,7 +167,7 @@ pub(super) fn parse_title(text: &str) -> Result<String, String> {
     match text.chars().count() {
         0..=MAX_TITLE => Ok(text.to_owned()),
         found => Err(format!(
-            "{found} characters, at most {MAX_TITLE} are allowed; put the rest into --notes"
+            "{found} characters, but at most {MAX_TITLE} are allowed; put the rest into --notes"
         )),
     }
 }
@@ -226,7 +228,7 @@ fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enro
     let enrolled = match opened {
         FileContent::Mesh(_) if args.segment.is_some() => {
             return Err(advised_error(
-                format!("{path}: a mesh has no background to take the part out of"),
+                format!("{path}: a mesh has no background to cut the part out of"),
                 "Leave --segment out",
             ));
         }

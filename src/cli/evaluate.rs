@@ -31,12 +31,13 @@ Examples:
   partsight evaluate tried --against monday.json
   partsight evaluate tried --threads 1        # for times that nothing else disturbs
 
-A folder of cases holds a folder for each, with case.toml (what it truly is, how hard, where) and scene.pcd; the window
-keeps such cases in Compare. With --pose icp, icp-ga or global the pose is measured too where the true one is known.
+A folder of cases holds a folder for each, with case.toml (what it truly is, how hard it is, where it hangs) and
+scene.pcd; the window keeps such cases in Compare. With --pose icp, icp-ga or global the pose is measured too where the
+true one is known.
 
-Exit codes: 0 nothing was accepted as what it is not, and nothing is worse than in the earlier run; 1 something was
-accepted wrongly, or is worse; 2 a case is damaged, or nothing could run. An enrolled part that is refused is counted, but
-is no failure. Files are written at the end and whole: Ctrl-C leaves none.")]
+Exit codes: 0 no false accepts, and nothing is worse than in the earlier run; 1 something was accepted wrongly, or is
+worse; 2 a case is damaged, or nothing could run. An enrolled part that is refused is counted, but is not a failure.
+Files are written at the end, in one piece: Ctrl-C leaves none.")]
 pub(super) struct EvaluateArgs {
     /// The folder of cases
     #[arg(value_name = "DIR")]
@@ -45,7 +46,7 @@ pub(super) struct EvaluateArgs {
     library: LibraryChoice,
     #[command(flatten)]
     recipe: RecipeChoice,
-    /// Inspections in parallel; default: all cores. More than one affects the measured times alone
+    /// Inspections in parallel; default: all cores. More than one affects only the measured times
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     /// Write everything to this file as JSON
@@ -63,7 +64,7 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
     if args.json.is_some() && args.json == args.report {
         return Err(advised_error(
             "--json and --report are the same file",
-            "Name two",
+            "Give two different files",
         ));
     }
     // Read first, so that a wrong file does not cost the work.

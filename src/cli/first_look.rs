@@ -33,7 +33,7 @@ pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Res
         ),
         (
             "partsight enrol FILE --name NAME",
-            "teach it a part of your own",
+            "enrol a part of your own",
         ),
         ("partsight library list", "see what is enrolled"),
         (

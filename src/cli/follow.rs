@@ -38,7 +38,7 @@ pub(super) fn follow(
         let status = feed.status();
         if let Some(item) = feed.wait(TURN) {
             if lost.take().is_some() {
-                console.note(&format_args!("{} is there again", spec.title()));
+                console.note(&format_args!("{} is back", spec.title()));
             }
             if each(Some(item), &feed.status(), console)?.is_break() {
                 break;
@@ -56,10 +56,7 @@ pub(super) fn follow(
                 // Report each cause once, not each retry.
                 let words = error.to_string();
                 if lost.as_ref() != Some(&words) {
-                    console.warn(
-                        &format_args!("{words}; looked for again until Ctrl-C"),
-                        &*error,
-                    );
+                    console.warn(&format_args!("{words}; retrying until Ctrl-C"), &*error);
                     lost = Some(words);
                 }
             }
@@ -76,19 +73,19 @@ Sources:
   simulated                 the simulated cell, where the eight parts come one after the other
   simulated:fender          one part hanging still; also hood, wheel, box, ... and empty
                             options: side=right model=3 pose=facing|placed|hard|\"rx ry rz x y z\" noise=2
-                            clutter=none|on-floor|in-front seed=7 fps=30, and every=8 (seconds) of the line
+                            clutter=none|on-floor|in-front seed=7 fps=30; for the line, every=8 (seconds)
   recording:DIR             a recording; an RGB-D sequence with its depth.txt; a folder of clouds or depth images
                             options: pace=step|as-taken|10 (frames a second) camera=intrinsics.json
-  watch:DIR                 new files in a folder, each once it is complete; option: from=all for those there, too
+  watch:DIR                 new files in a folder, each once it is complete; option: from=all to include earlier ones
   kinect   kinect:SERIAL    a Kinect
   genicam  genicam:ID       a 3-D camera of GigE Vision or USB3 Vision; ID as --list shows it, or its IP address
-                            options: camera=intrinsics.json (where the camera does not tell its numbers)
+                            options: camera=intrinsics.json (if the camera does not report its own)
                             format=Coord3D_C16|Coord3D_ABC32f|Mono16
   openni   openni:URI       an Asus Xtion, PrimeSense or Orbbec Astra, through OpenNI 2
   openni:FILE.oni           a file that OpenNI 2 recorded; option: pace, as above
   realsense                 a RealSense camera; realsense:SERIAL is one of several; option: preset=High Accuracy
   realsense:FILE.db3        a file that librealsense recorded, or FILE.bag; option: pace, as above
-Options stand before the colon: simulated,side=right,noise=2:fender
+Options go before the colon: simulated,side=right,noise=2:fender
 
 Examples:
   partsight capture --list
@@ -97,4 +94,4 @@ Examples:
   partsight inspect --source recording:monday
   partsight inspect --source watch:/mnt/scanner --json >> verdicts.jsonl
 
-A recording is whole after every frame: Ctrl-C ends it, and what was cut off opens up to its last whole frame.";
+A recording is complete after every frame: Ctrl-C ends it, and one that was cut off opens up to its last complete frame.";

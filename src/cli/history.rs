@@ -29,7 +29,7 @@ use crate::{
     stages::reference::ReferenceParams,
 };
 
-/// List, show and export what was inspected, here and in the window
+/// List, show and export past inspections, made here or in the window
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -44,11 +44,11 @@ Examples:
   partsight history export --verdict not-accepted --cases tried && partsight evaluate tried
   partsight history keep all --days 30 --gigabytes 50
 
-Each row is a part as it hung there once: of a source that is followed the verdict that counted. Inspected again while it
-hung there, with another recipe or library or because its verdict changed, it stays one part; the others lie below it
-(history show NUMBER, or --reinspections). A refusal gives way to an acceptance of the same part, an acceptance stands.
-Times are shown as the clocks here go, in files and JSON as UTC. A frame that is not kept any more can neither be
-inspected again nor become a case; which are kept says `partsight history keep`.")]
+Each row is one hung part; for a followed source, with the verdict that counted. A part that was inspected again while it
+hung there, with another recipe or library or because its verdict changed, stays one row, with its re-inspections below it
+(history show NUMBER, or --reinspections). An acceptance replaces a refusal of the same part, never the reverse.
+Times are shown in local time, in files and JSON in UTC. A frame that is no longer kept can neither be inspected again nor
+become a case; `partsight history keep` shows which are kept.")]
 pub(super) struct HistoryArgs {
     #[command(flatten)]
     place: HistoryChoice,
@@ -75,14 +75,14 @@ enum HistoryCommand {
     Label {
         /// Number of the inspection
         number: i64,
-        /// An enrolled name, `-` for something that is not enrolled, `none` for nothing, `?` to take it back
+        /// An enrolled name, `-` for something that is not enrolled, `none` for nothing, `?` to remove the label
         part: String,
         #[command(flatten)]
         library: LibraryChoice,
     },
-    /// Show or change which frames are kept, and how long
+    /// Show or change which frames are kept, and for how long
     Keep(KeepArgs),
-    /// Send to the plant's PostgreSQL database what it has not got yet
+    /// Send the plant's PostgreSQL database the inspections that it does not have yet
     #[cfg(feature = "plant")]
     Send(plant::SendArgs),
 }
@@ -90,10 +90,10 @@ enum HistoryCommand {
 /// Which inspections.
 #[derive(Debug, Args)]
 struct FilterArgs {
-    /// Not before: a day (2026-11-20), a moment (2026-11-20T14:00), `today`, or a number of days back (`7d`)
+    /// From this time on: a day (2026-11-20), a moment (2026-11-20T14:00), `today`, or a number of days back (`7d`)
     #[arg(long, value_name = "DATE", value_parser = parse_since)]
     since: Option<Timestamp>,
-    /// Not after this day or moment
+    /// Up to and including this day or moment
     #[arg(long, value_name = "DATE", value_parser = parse_until)]
     until: Option<Timestamp>,
     /// Recognised as this part, accepted or not
@@ -105,7 +105,7 @@ struct FilterArgs {
     /// With these words in the name of part, scene or source, in the remark or in the true label
     #[arg(long, value_name = "TEXT")]
     text: Option<String>,
-    /// Only simulated ones, or only those of a camera
+    /// Only simulated inspections (true), or only those of a camera (false)
     #[arg(long, value_name = "BOOL")]
     simulated: Option<bool>,
     /// Also re-inspections, which otherwise lie below the inspection that stands for their part
@@ -119,7 +119,7 @@ enum VerdictChoice {
     Accepted,
     /// A part, not accepted
     NotAccepted,
-    /// Something that is nothing enrolled
+    /// Something that is not enrolled
     Unknown,
     /// No part
     NoPart,
@@ -189,7 +189,7 @@ struct ExportArgs {
     /// Write a table to this file, the oldest first
     #[arg(long, value_name = "FILE", required_unless_present = "cases")]
     csv: Option<PathBuf>,
-    /// Keep those with a kept frame and a true label as cases in this folder
+    /// Write those with a kept frame and a true label as cases into this folder
     #[arg(long, value_name = "DIR")]
     cases: Option<PathBuf>,
     /// With --cases: use the accepted part where no true label is set
@@ -202,7 +202,7 @@ struct ExportArgs {
 
 #[derive(Debug, Args)]
 struct KeepArgs {
-    /// Of which inspections the frame is kept
+    /// Inspections whose frames are kept
     #[arg(value_enum)]
     keep: Option<KeepChoice>,
     /// Days after which frames are removed
@@ -215,11 +215,11 @@ struct KeepArgs {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum KeepChoice {
-    /// Of all inspections
+    /// All inspections
     All,
-    /// Of those that were not accepted
+    /// Those that were not accepted
     NotAccepted,
-    /// Of none
+    /// None
     None,
 }
 
@@ -279,7 +279,7 @@ fn note_if_unknown(part: &str, library: &LibraryChoice, console: &mut Console) {
     if !enrolled.contains(part) {
         let enrolled: Vec<&str> = enrolled.into_iter().collect();
         console.note(&format_args!(
-            "no enrolled part is called {part}, which is written down all the same; enrolled: {}",
+            "no enrolled part is named {part}; the label is set nevertheless; enrolled: {}",
             enrolled.join(", ")
         ));
     }
@@ -314,7 +314,10 @@ fn opened(
             ""
         };
         let error = &only_read.error;
-        console.warn(&format_args!("{error}; it is only read{lacks}"), error);
+        console.warn(
+            &format_args!("{error}; it is opened for reading only{lacks}"),
+            error,
+        );
     }
     Ok(opened.history)
 }
@@ -439,7 +442,7 @@ fn keep(history: &mut History, asked: &KeepArgs, console: &mut Console) -> anyho
         history.set_retention(&rule).advised()?;
         let swept = history.sweep(&rule, Timestamp::now()).advised()?;
         if swept.num_frames > 0 {
-            console.note(&format_args!("{} frames were taken away", swept.num_frames));
+            console.note(&format_args!("{} frames were removed", swept.num_frames));
         }
     }
     let usage = history.usage().advised()?;

@@ -27,7 +27,7 @@ use crate::{
 pub(super) enum InputError {
     #[error(transparent)]
     File(#[from] FileError),
-    #[error("{path}: a mesh, expected what a depth camera saw")]
+    #[error("{path}: a mesh, expected a depth camera's capture")]
     MeshIsNoScene { path: String },
     #[error("{path}: the mesh has no area")]
     EmptyMesh { path: String },
@@ -48,10 +48,10 @@ impl Advice for InputError {
 /// How the numbers of clouds and meshes are meant.
 #[derive(Debug, Args)]
 pub(super) struct ImportChoice {
-    /// The unit of clouds and meshes; a depth image says its own
+    /// Unit of clouds and meshes; a depth image gives its own
     #[arg(long, value_name = "UNIT", default_value = "m", value_parser = one_of(LengthUnit::ALL.map(LengthUnit::name)))]
     units: String,
-    /// The axis of clouds and meshes that points up: -y in a camera's space, y in OpenGL's, z in CAD and robots'
+    /// Axis of clouds and meshes that points up: -y for cameras, y for OpenGL, z for CAD and robots
     #[arg(long, value_name = "AXIS", default_value = "-y", allow_hyphen_values = true, value_parser = one_of(UpAxis::ALL.map(UpAxis::name)))]
     up: String,
 }

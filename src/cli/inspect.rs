@@ -68,21 +68,20 @@ Examples:
   partsight inspect --source watch:/mnt/scanner --json
 
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it.
-Clouds are in metres, or --units says in what. The JSON has width, height, fx, fy, cx, cy and metres_per_unit, and may have k1 k2 p1 p2 k3 k4 k5 k6 (OpenCV's lens
-distortion), \"mirrored\": true (left and right are exchanged in the image) and \"rotated\": 90, 180 or 270 (degrees clockwise
-to turn the image by). All of it is about the image as it is stored.
+Clouds are in metres, unless --units says otherwise. The JSON has width, height, fx, fy, cx, cy and metres_per_unit, and
+may have k1 k2 p1 p2 k3 k4 k5 k6 (OpenCV's lens distortion), \"mirrored\": true (left and right are swapped in the image)
+and \"rotated\": 90, 180 or 270 (degrees clockwise to turn the image by). All of these refer to the image as it is stored.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.
-Without a part to compare with, because the library is empty or cannot be loaded, nothing is inspected: one error, no
-line of JSON, exit code 2.
-With --source: follows a camera, a recording or a folder until it ends, --frames were inspected, or Ctrl-C. Of a live
-camera the newest frame is inspected and those in between are dropped; of a recording or folder every one is inspected.
-Exit codes as with files; 1 also if nothing came. What can be a source: partsight capture --help
-With --scan: one verdict on all frames together; partsight help scan says how their poses are given. camera_from_part is
-then the pose before the camera of the first frame that was used, and base_from_part that in the robot's base frame.
-Every inspection is written into the history (partsight history --help) after its verdict is shown; where that cannot be
-written there is a warning, and the exit code is the same. Of a source that is followed it is one for each part that hung
-there: the verdict that the frames agree on once it hangs still. Files, a watched folder and a folder of single captures
-are taken for a part each.")]
+If the library is empty or cannot be loaded, nothing is inspected: one error, no line of JSON, exit code 2.
+With --source: follows a camera, a recording or a folder until it ends, until --frames were inspected, or until Ctrl-C.
+A live camera gives its newest frame, and those in between are dropped; every frame of a recording or folder is inspected.
+Exit codes as with files; 1 also if no frame came. Possible sources: partsight capture --help
+With --scan: one verdict on all frames together; partsight help scan explains how to give their poses. camera_from_part
+is then the pose in the camera's frame of the first used shot, and base_from_part the pose in the robot's base frame.
+Every inspection is written to the history (partsight history --help) after its verdict is shown; if that fails, there is
+a warning, and the exit code stays the same. A followed source gives one inspection for each part that hung there: the
+verdict that the frames agree on once it hangs still. Each file, and each capture of a watched folder or of a folder of
+single captures, counts as a part of its own.")]
 pub(super) struct InspectArgs {
     /// Captured scenes
     #[arg(required_unless_present_any = ["source", "scan"], value_name = "FILE")]

@@ -28,7 +28,7 @@ impl Interrupt {
                 process::exit(ENDED_AT_ONCE);
             }
         })
-        .context("the system does not let Ctrl-C be waited for")?;
+        .context("the system does not allow Ctrl-C to be handled")?;
         Ok(Self { came })
     }
 

@@ -59,7 +59,7 @@ enum LibraryCommand {
         /// Name of the part
         name: PartName,
     },
-    /// Restore what was removed or replaced last under this name
+    /// Restore the part that was last removed or replaced under this name
     Restore {
         /// Name of the part
         name: PartName,
@@ -289,7 +289,7 @@ fn remove(
         trash.display()
     ));
     console.line(&format_args!(
-        "To enrol it again: partsight library restore {name}, or move that folder back to {}",
+        "To restore it: partsight library restore {name}, or move that folder back to {}",
         folder.path().join(name.as_str()).display()
     ));
     for reference in folder.references_of(name).advised()? {
@@ -314,7 +314,7 @@ fn rename(
     if (to, title, notes) == (&None, &None, &None) {
         return Err(advised_error(
             format!("nothing to change about {name}"),
-            "Give what it is to be called: --to NAME, --title TEXT or --notes TEXT",
+            "Give --to NAME, --title TEXT or --notes TEXT",
         ));
     }
     let folder = choice.open_to_change()?;
@@ -326,9 +326,9 @@ fn rename(
     };
     let renamed = folder.rename(name, &words).advised()?;
     if words.name != *name {
-        console.line(&format_args!("Renamed {name}: it is {} now", words.name));
+        console.line(&format_args!("Renamed {name} to {}", words.name));
     } else if to.is_some() {
-        console.line(&format_args!("{name} is named so already"));
+        console.line(&format_args!("{name} already has this name"));
     }
     match title.as_deref() {
         Some("") => console.line(&format_args!("{} has no title now", words.name)),
@@ -355,7 +355,7 @@ fn rename(
     }
     if let Some(former) = renamed.former {
         console.line(&format_args!(
-            "  as it was it is kept in {}",
+            "  the previous version is kept in {}",
             former.display()
         ));
     }
@@ -377,7 +377,7 @@ fn restore(
     console.line(&format_args!("Restored {name}"));
     if let Some(former) = restored.replaced {
         console.line(&format_args!(
-            "  the one that it replaced is kept in {}",
+            "  the part that it replaced is kept in {}",
             former.display()
         ));
     }

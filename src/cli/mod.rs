@@ -71,8 +71,8 @@ Exit codes: 0 every input accepted, 1 something was not accepted, 2 could not ru
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Without a command: the library's folder; without it your own, which starts with the shipped parts
-    // A separate id, since the commands' own --library is global and its value would appear here.
+    /// Without a command: folder of the library; default: your own, which starts with the shipped parts
+    // Named apart from the commands' own: that one is global to them, and would come up here.
     #[arg(id = "bare_library", long = "library", value_name = "DIR")]
     library: Option<PathBuf>,
     /// Without a command: open this captured scene, or the scan in this folder, in the window
@@ -133,8 +133,8 @@ pub fn run(cli: Cli) -> Outcome {
     }
     let ran = match cli.command {
         Some(_) if cli.library.is_some() => Err(advised_error(
-            "--library stands before the command",
-            "Put it behind the command, for example partsight inspect FILE --library DIR",
+            "--library must come after the command",
+            "Put it after the command, for example partsight inspect FILE --library DIR",
         )),
         Some(_) if cli.open.is_some() => Err(advised_error(
             "--open is for the window, not for a command",
@@ -238,7 +238,7 @@ fn window(
 /// Which library.
 #[derive(Debug, Args)]
 struct LibraryChoice {
-    /// The library's folder; without it your own, which starts with the shipped parts
+    /// Folder of the library; default: your own, which starts with the shipped parts
     #[arg(long, value_name = "DIR", global = true)]
     library: Option<PathBuf>,
 }
@@ -316,7 +316,7 @@ fn hint(folder: &LibraryFolder) -> Option<String> {
     let meant = meant.display();
     Some(if folder.is_itself_a_part() {
         let path = folder.path().display();
-        format!("{path} is a part, not a library: give the folder it lies in, --library {meant}")
+        format!("{path} is a part, not a library: give the folder that holds it, --library {meant}")
     } else {
         format!("Give the folder that holds the parts: --library {meant}")
     })

@@ -18,13 +18,13 @@ use crate::{
 /// Where verdicts and states are published.
 #[derive(Clone, Debug, Args)]
 pub(super) struct MqttChoice {
-    /// Publish every verdict and the state of the cell at this MQTT broker; poses as --as
+    /// Publish every verdict and the state of the cell to this MQTT broker; poses in the convention of --as
     #[arg(long, value_name = "mqtt[s]://[USER@]HOST[:PORT]/PREFIX")]
     mqtt: Option<String>,
-    /// The file whose first line is the user's password at the broker
+    /// File whose first line is the user's password for the broker
     #[arg(long, value_name = "FILE", requires = "mqtt")]
     mqtt_password_file: Option<PathBuf>,
-    /// Certificates, PEM, of the authority that signed the broker's; without it the system's own
+    /// PEM file with the certificates of the authority that signed the broker's; default: the system's own
     #[arg(long, value_name = "FILE", requires = "mqtt")]
     mqtt_ca: Option<PathBuf>,
 }
@@ -53,7 +53,7 @@ impl MqttChoice {
         let broker = address.parse::<BrokerAddress>().advised()?;
         let Some(convention) = convention else {
             return Err(advised_error(
-                "--mqtt publishes poses, and no convention is chosen",
+                "--mqtt publishes poses, but no convention is chosen",
                 "Choose one with --as; partsight report --conventions explains all of them",
             ));
         };

@@ -15,7 +15,7 @@ use crate::{
 /// The numbers of poses and parts.
 #[derive(Debug, Args)]
 pub(super) struct NumbersChoice {
-    /// The convention of poses; the protocols eki and urscript of serve have their own
+    /// Convention of the poses; the protocols eki and urscript of serve have their own
     #[arg(long = "as", value_name = "CONVENTION", value_parser = parse_convention)]
     pub(super) convention: Option<Convention>,
     /// Which pose is given; default: robot-from-part
@@ -87,7 +87,7 @@ impl NumbersChoice {
             let is_same = |other: &PartNumber| other.name == *name || other.number == *number;
             if given[..i].iter().any(is_same) {
                 return Err(advised_error(
-                    format!("--number {name}={number}: the part or the number was given before"),
+                    format!("--number {name}={number}: the part or the number was already given"),
                     "Give each part one number of its own",
                 ));
             }

@@ -19,7 +19,7 @@ Examples:
   partsight path export front_door --as krl --calibration cell.toml --output paint.src
   partsight path fit stripe.csv --coat primer --output my_primer.toml
 
-Exit codes: 0 every point is reached, or 90 % of the film is within its tolerance; 1 not so; 2 could not run.")]
+Exit codes: 0 every point is reached, or 90 % of the film is within its tolerance; 1 otherwise; 2 could not run.")]
 pub(super) struct PathArgs {
     #[command(flatten)]
     library: LibraryChoice,

@@ -29,7 +29,7 @@ pub(super) struct ProgramOptions {
     /// The tool on the controller: a number for KUKA, FANUC and Yaskawa, a name for ABB and Doosan
     #[arg(long, value_name = "TOOL", requires = "program")]
     tool: Option<String>,
-    /// Where the nozzle is on the flange, z the way it points: `kuka X Y Z A B C`, or 16 numbers of a matrix
+    /// Pose of the nozzle on the flange, with z the way it points: `kuka X Y Z A B C`, or the 16 numbers of a matrix
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true, requires = "program")]
     nozzle: Option<WrittenPose>,
     /// Number of the digital output that opens the gun
@@ -43,7 +43,7 @@ pub(super) struct ProgramOptions {
         requires = "program"
     )]
     speed: f64,
-    /// How far before the first and behind the last point the program begins and ends, mm
+    /// Distance of the approach points from the path's first and last point, mm
     #[arg(long, value_name = "MM", default_value_t = 100.0, requires = "program")]
     approach: f64,
     /// Radius within which the robot may cut corners, mm
@@ -54,7 +54,7 @@ pub(super) struct ProgramOptions {
     arm: Option<String>,
     #[command(flatten)]
     cell: CellChoice,
-    /// Write the program in spite of a doubt about part, capture or reach; the program says which
+    /// Write the program despite doubts about part, capture or reach; the program names them
     #[arg(long, requires = "program")]
     force: bool,
 }
@@ -62,9 +62,9 @@ pub(super) struct ProgramOptions {
 /// The rail that an arm stands on, and what gun and arm have to stay clear of beside the part.
 #[derive(Debug, Args)]
 pub(super) struct CellChoice {
-    /// The rail that the arm stands on: its axis in the frame of the calibration (x, y, z, -x, -y or -z), where it begins and
-    /// ends in mm from where the cell was calibrated, and, if it moves along the path, its top speed in mm/s and its greatest
-    /// acceleration in mm/s², as in y,-2000,2000,1000,2000. It takes the place of the rail in the arm's file
+    /// Rail that the arm stands on: its axis in the calibration's frame (x, y, z, -x, -y or -z), its start and end in
+    /// mm from where the cell was calibrated and, if the arm moves along it on the path, its maximum speed in mm/s and
+    /// acceleration in mm/s², as in y,-2000,2000,1000,2000. Overrides the rail in the arm's file
     #[arg(
         long,
         value_name = "AXIS,FROM,TO[,SPEED[,ACCELERATION]]",
@@ -72,13 +72,14 @@ pub(super) struct CellChoice {
         requires = "arm"
     )]
     rail: Option<String>,
-    /// Boxes of the cell and its floor that gun and arm must not run into: a TOML file. The part is checked without it
+    /// TOML file with the boxes and floor of the cell that gun and arm must not run into. The part is checked in any
+    /// case
     #[arg(long, value_name = "FILE", requires = "arm")]
     obstacles: Option<PathBuf>,
-    /// How near gun and arm may come to part, boxes and floor, mm
+    /// Minimum distance of gun and arm from part, boxes and floor, mm
     #[arg(long, value_name = "MM", default_value_t = 20.0, requires = "arm")]
     clearance: f64,
-    /// What the gun fills around the line from the flange to the nozzle's mouth, mm
+    /// Radius of the gun around the line from the flange to the nozzle's mouth, mm
     #[arg(long, value_name = "MM", default_value_t = 50.0, requires = "arm")]
     gun_radius: f64,
 }
@@ -198,9 +199,7 @@ impl ProgramFile {
             } else {
                 "Move the arm's base (path check says where to), or change the path"
             };
-            console.note(&format_args!(
-                "  to do: {advice}; --force writes it all the same"
-            ));
+            console.note(&format_args!("  to do: {advice}; --force writes it anyway"));
             return Ok(Outcome::NotAccepted);
         }
         let program = Program {

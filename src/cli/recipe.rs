@@ -20,10 +20,10 @@ use crate::{
 pub(super) struct RecipeChoice {
     #[command(flatten)]
     from: RecipeSource,
-    /// What ranks the enrolled parts; without it what the recipe says
+    /// How the enrolled parts are ranked; default: as in the recipe
     #[arg(long, value_enum)]
     matcher: Option<MatcherChoice>,
-    /// What finds the pose; without it what the recipe says
+    /// How the pose is found; default: as in the recipe
     #[arg(long, value_enum)]
     pose: Option<PoseArg>,
 }
@@ -82,14 +82,14 @@ impl RecipeChoice {
 /// A recipe, and parameters that are given another value.
 #[derive(Clone, Debug, Default, Args)]
 pub(super) struct RecipeSource {
-    /// The recipe, by its name (partsight recipe list) or as a file; without it your default recipe
+    /// Recipe, by name (partsight recipe list) or as a file; default: your default recipe
     #[arg(long, value_name = "NAME|FILE")]
     recipe: Option<String>,
     #[arg(long, value_name = "NAME=VALUE", value_parser = parse_setting::<Recipe>, help = SET_HELP)]
     set: Vec<Setting>,
 }
 
-const SET_HELP: &str = "Give a parameter another value, in its own unit, such as segment.plane_distance=12; may be given \
+const SET_HELP: &str = "Set a parameter, in its own unit, such as segment.plane_distance=12; may be given \
     several times. docs/guide/parameters.md lists names, units and ranges";
 
 impl RecipeSource {

@@ -33,9 +33,9 @@ Examples:
   partsight recipe import /media/stick/glossy.toml
   partsight inspect door.pcd --recipe glossy
 
-A recipe is a file with the parameters that differ from the program's own. Yours lie in your data folder, beside the
+A recipe is a file with the parameters that differ from their defaults. Yours are in your data folder, beside the
 library; the window saves and opens the same ones. built-in is the program's own recipe: every parameter at its default.
-What looks like a name is one; a file is named with its folder or ending: ./glossy or glossy.toml.")]
+A plain word is taken as a recipe's name; give a file with its folder or ending: ./glossy or glossy.toml.")]
 pub(super) struct RecipeArgs {
     #[command(subcommand)]
     command: RecipeCommand,
@@ -62,7 +62,7 @@ enum RecipeCommand {
         json: bool,
     },
     Save(SaveArgs),
-    /// Give a recipe another name; if it is the default, it stays that
+    /// Rename a recipe; if it is the default, it stays the default
     Rename {
         /// Name of the recipe
         name: PartName,
@@ -79,11 +79,11 @@ enum RecipeCommand {
         /// Name of the recipe
         name: Option<PartName>,
     },
-    /// Keep a recipe file among yours
+    /// Add a recipe file to your recipes
     Import {
         /// The file
         file: PathBuf,
-        /// Keep it under another name
+        /// Name to save it under; default: the one in the file
         #[arg(long)]
         name: Option<PartName>,
         /// Replace a recipe of the same name
@@ -106,7 +106,7 @@ struct SaveArgs {
     name: PartName,
     #[command(flatten)]
     recipe: RecipeChoice,
-    /// Anything worth remembering; without it the notes of the recipe that it is made from
+    /// Anything worth remembering; default: the notes of the recipe that it is based on
     #[arg(long, value_name = "TEXT", value_parser = parse_notes)]
     notes: Option<String>,
     /// Replace a recipe of the same name
@@ -283,7 +283,7 @@ fn keep(file: &RecipeFile, replace: bool, console: &mut Console) -> anyhow::Resu
         num_changed(&kept.recipe)
     ));
     console.line(&format_args!(
-        "  it lies in  {}",
+        "  stored in   {}",
         folder.file(&kept.name).display()
     ));
     Ok(())
@@ -302,7 +302,7 @@ fn save(asked: &SaveArgs, console: &mut Console) -> anyhow::Result<()> {
 fn rename(name: &PartName, to: &PartName, console: &mut Console) -> anyhow::Result<()> {
     let folder = folder()?;
     folder.rename(name, to).advised()?;
-    console.line(&format_args!("Recipe {name} is named {to} now"));
+    console.line(&format_args!("Recipe {name} is now named {to}"));
     if folder.default_name().advised()? == to.as_str() {
         console.note(&"It stays the default recipe");
     }

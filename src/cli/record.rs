@@ -31,7 +31,7 @@ use crate::{
 /// Where the history is.
 #[derive(Clone, Debug, Args)]
 pub(super) struct HistoryChoice {
-    /// The folder of the history; without it your own, as in the window
+    /// Folder of the history; default: your own, which the window uses too
     #[arg(long, value_name = "DIR", global = true)]
     history: Option<PathBuf>,
 }
@@ -81,8 +81,9 @@ impl HistoryRecorder {
         };
         let keeper = Arc::new(HistoryBuffer::new(Some(folder)));
         let Ok(writer) = Writer::start(Arc::clone(&keeper), || ()) else {
-            console
-                .note(&"warning: the history is not written: the system starts no thread for it");
+            console.note(
+                &"warning: the history is not written: the system cannot start a thread for it",
+            );
             return None;
         };
         let titles = library.parts.iter();

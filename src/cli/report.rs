@@ -38,7 +38,7 @@ use crate::{
     },
 };
 
-/// Write the pose report of captured scenes: which part, where, and in the robot's convention
+/// Write a pose report for captured scenes: which part it is, and its pose in the robot's convention
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -49,8 +49,8 @@ Examples:
   partsight report --conventions
   partsight report --schema > pose-report.schema.json
 
-Per file FILE.pose.json and FILE.pose.pdf; as CSV one row more in poses.CONVENTION.csv. A part that is not accepted is
-reported too, without numbers that a robot could move by.
+Writes FILE.pose.json and FILE.pose.pdf for each file; csv appends a row to poses.CONVENTION.csv. A part that is not
+accepted is reported too, without numbers that a robot could move by.
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read or written.")]
 pub(super) struct ReportArgs {
@@ -80,7 +80,7 @@ pub(super) struct ReportArgs {
     /// Mark the scenes as simulated in the reports; files of partsight simulate are marked already
     #[arg(long)]
     simulated: bool,
-    /// Print a JSON schema, and nothing else; without a name that of a report
+    /// Print a JSON schema, and nothing else; default: that of a report
     #[arg(long, value_enum, value_name = "NAME", num_args = 0..=1, require_equals = true, default_missing_value = "pose-report", exclusive = true)]
     schema: Option<Schema>,
     /// Print what each convention's numbers mean, and nothing else
@@ -287,7 +287,7 @@ impl Reporter<'_> {
             let csv = self.folder.csv(self.args.convention);
             if let CsvAppended::SetAside(aside) = append_csv(&csv, report).advised()? {
                 console.note(&format_args!(
-                    "note: the last row of {} had no end; it was set aside in {}",
+                    "note: the last row of {} was incomplete; it was set aside in {}",
                     csv.display(),
                     aside.display()
                 ));

@@ -23,12 +23,12 @@ use crate::{
 /// Where the camera was for each frame of a scan.
 #[derive(Debug, Args)]
 pub(super) struct PosesChoice {
-    /// With a scan: where the camera or the flange was for each frame (see partsight help scan); without it poses.json
-    /// beside the frames
+    /// With a scan: pose of the camera or flange for each frame (see partsight help scan); default: poses.json beside
+    /// the frames
     #[arg(long, value_name = "FILE")]
     poses: Option<PathBuf>,
-    /// With a scan whose poses are the flange's: where the camera sits on it, as written by `calibrate`; without it your
-    /// own, if there is one
+    /// With a scan given by flange poses: where the camera sits on the flange, as written by `calibrate`; default: your
+    /// own calibration, if there is one
     #[arg(
         id = "scan_calibration",
         long = "scan-calibration",
@@ -37,7 +37,7 @@ pub(super) struct PosesChoice {
     calibration: Option<PathBuf>,
 }
 
-/// Put several frames of one part together, each taken at a known pose of the camera on the robot
+/// Fuse several frames of one part, each taken at a known pose of the camera on the robot
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -52,8 +52,8 @@ Where the robot gives the flange's pose, write base_from_flange instead; the han
 camera sits. A recording made with partsight capture --robot-poses needs no such file.
 The poses may be off by some millimetres and tenths of a degree: they are refined against each other. A frame that does
 not fit is named and left out.
-The cloud is written in the robot's base frame, in metres, with normals; per point num_shots says how many frames saw
-it, bit k of seen_by that frame k did (of frames 32 and up seen_by_high), and part is 1 on the part.
+The cloud is written in the robot's base frame, in metres, with normals. For each point, num_shots is the number of frames
+that saw it, bit k of seen_by is set if frame k did (seen_by_high for frames 32 and up), and part is 1 on the part.
 Exit codes: 0 every frame was used, 1 some were left out or no part was found, 2 it could not run.")]
 pub(super) struct ScanArgs {
     /// A folder of frames, a recording, or the frames themselves
@@ -89,7 +89,7 @@ pub(super) fn run(args: &ScanArgs, console: &mut Console) -> anyhow::Result<Outc
     if written.cloud.points.is_empty() {
         return Err(advised_error(
             "no frame shows a part before the background",
-            "Leave --part-only out to see what was put together",
+            "Leave --part-only out to see the fused cloud",
         ));
     }
     write(&args.out, written).advised()?;

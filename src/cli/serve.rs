@@ -50,17 +50,17 @@ Examples:
   partsight serve --source simulated:fender --as kuka --calibration cell.toml --json
   printf 'TRIGGER\\n' | nc 127.0.0.1 30100
 
-Protocols, each at a port of its own; docs/guide/robots_that_ask.md describes them in full:
+Protocols, each on its own port; docs/guide/robots_that_ask.md describes them in full:
   ascii                lines of fields between semicolons, for PLCs
-  binary, binary-be    frames of 256 bytes with a checksum, least or greatest byte first, for PLCs
+  binary, binary-be    frames of 256 bytes with a checksum, little- or big-endian, for PLCs
   eki                  XML for KUKA's option package Ethernet KRL; poses as kuka
   urscript             lists of numbers for Universal Robots; poses as universal-robots
-Requests: TRIGGER takes a frame captured from now on and inspects it, LAST gives that answer again, STATUS tells how the
-camera is, and PATH the points of the part's spray path as it hangs now.
-Every answer has a verdict, the age of its frame and a sequence number. Only an accepted part whose frame is not older than
---max-age has numbers. Triggers wait in the order in which they come; each gets a frame of its own.
+Requests: TRIGGER inspects a frame captured from then on, LAST repeats that answer, STATUS gives the state of the camera,
+and PATH the points of the part's spray path, for where the part hangs now.
+Every answer has a verdict, the age of its frame and a sequence number. Poses are given only for an accepted part whose
+frame is not older than --max-age. Triggers are answered in the order in which they come, each with a frame of its own.
 Poses are in the robot's base frame, so a calibration is needed: partsight calibrate --help
-Every inspection is written into the history, a row for each trigger. Ctrl-C ends the service.
+Every inspection is written to the history, one row for each trigger. Ctrl-C ends the service.
 Connections are neither encrypted nor authenticated. Without an address, only programs on this computer can connect.
 Exit codes: 0 ended by Ctrl-C, 2 could not run.")]
 pub(super) struct ServeArgs {
@@ -72,16 +72,16 @@ pub(super) struct ServeArgs {
     listen: Vec<ListenAddress>,
     #[command(flatten)]
     numbers: NumbersChoice,
-    /// A pose from an older frame is stale and not given, seconds (0.1 to 3600)
+    /// Maximum age of a frame whose pose is given, seconds (0.1 to 3600)
     #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = |text: &str| within(text, &(0.1..=3600.0)))]
     max_age: f64,
     /// How long a trigger waits for its frame, seconds (0.1 to 600)
     #[arg(long, value_name = "SECONDS", default_value_t = 5.0, value_parser = |text: &str| within(text, &(0.1..=600.0)))]
     frame_timeout: f64,
-    /// Connections at a time, of all ports together (1 to 256)
+    /// Maximum number of connections at a time, on all ports together (1 to 256)
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u16).range(1..=256))]
     max_clients: u16,
-    /// A connection without a request for so long is closed, seconds (1 to 86400)
+    /// Time without a request after which a connection is closed, seconds (1 to 86400)
     #[arg(long, value_name = "SECONDS", default_value_t = 600.0, value_parser = |text: &str| within(text, &(1.0..=86_400.0)))]
     idle_timeout: f64,
     #[cfg(feature = "plant")]
@@ -136,7 +136,8 @@ fn parse_running_source(text: &str) -> Result<SourceSpec, String> {
             pace: Some(Pace::Step),
             ..
         }) => Err(
-            "a recording without its pauses has no frame that is captured after a trigger\n  to do: Leave pace=step out, or give frames a second such as pace=10"
+            "a recording without its pauses has no frame that is captured after a trigger\n  to do: Leave pace=step \
+             out, or give frames per second such as pace=10"
                 .into(),
         ),
         spec => Ok(spec),
@@ -161,7 +162,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let Some(robot) = args.calibration.frame(console)? else {
         return Err(advised_error(
-            "poses are given in the robot's base frame, and no calibration says where the camera sits",
+            "poses are given in the robot's base frame, but no calibration says where the camera sits",
             "Make one with partsight calibrate, or name one with --calibration",
         ));
     };

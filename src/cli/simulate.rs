@@ -34,11 +34,12 @@ Examples:
   partsight simulate --cases tried --part objects,empty --num 9 --clutter on-floor
   partsight simulate --cases booth --booth --num 80
 
-The same arguments give the same file. Cases are added to those of the folder; their truth is held against the shipped
+The same arguments give the same file. Cases are added to those already in the folder; their truth refers to the shipped
 parts, and partsight evaluate counts how often they are recognised.
-Of the doors and the fender only the left ones are shipped: a right one is not recognised until it is enrolled.")]
+Only the left doors and the left fender are shipped: a right one is not recognised until it is enrolled.")]
 pub(super) struct SimulateArgs {
-    /// Which part, or what else: objects are eight things that are no part of the eight. With --cases several, all parts without
+    /// What hangs in the cell; objects stands for the eight things that are not shipped parts. With --cases several may
+    /// be given; default: all parts
     #[arg(long, value_name = "NAME", value_delimiter = ',', required_unless_present = "cases", value_parser = PossibleValuesParser::new(subject_names()))]
     part: Vec<String>,
     /// Side of the car, for doors and fenders
@@ -59,7 +60,7 @@ pub(super) struct SimulateArgs {
         conflicts_with = "placement"
     )]
     pose: Option<GivenPose>,
-    /// How far from square-on the pose is drawn; with --cases several
+    /// How far from square-on the random pose may be; with --cases several may be given
     #[arg(long, value_enum, value_delimiter = ',', default_value = "placed")]
     placement: Vec<PlacementChoice>,
     /// What else is in the cell
@@ -68,7 +69,8 @@ pub(super) struct SimulateArgs {
     /// What holds the part
     #[arg(long, value_enum, default_value_t = StandChoice::None)]
     stand: StandChoice,
-    /// A paint booth in front of a camera on the robot's flange: cut by the picture, readings that end inside it, tubes and clamps that touch the part. The seed draws the pose, the stand and the walls
+    /// A paint booth seen from the robot's flange: the part cut off by the picture, a field of view smaller than the
+    /// picture, tubes and clamps that touch the part. The seed sets the pose, the stand and the walls
     #[arg(long, conflicts_with_all = ["placement", "clutter", "stand"])]
     booth: bool,
     /// Camera noise as a multiple of a Kinect's; 0 is none
@@ -83,17 +85,17 @@ pub(super) struct SimulateArgs {
     /// Instead of one file: write cases with their truth into this folder
     #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "truth", "pose"])]
     cases: Option<PathBuf>,
-    /// Instead of one file: write frames from several sides into this folder, with the poses that a robot would report, for
-    /// partsight scan; the cell is another one
+    /// Instead of one file: write frames from several sides into this folder, with the poses that a robot would report,
+    /// for partsight scan; in a cell of their own
     #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "truth", "pose", "cases"])]
     scan: Option<PathBuf>,
-    /// With --scan: how many frames
+    /// With --scan: number of frames
     #[arg(long, value_name = "N", default_value_t = 8, requires = "scan", value_parser = parse_shots)]
     shots: usize,
-    /// With --cases: how many in all; the seeds follow each other
+    /// With --cases: total number of cases; their seeds are consecutive
     #[arg(long, value_name = "N", default_value_t = 40, requires = "cases", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     num: u64,
-    /// With --cases: how hard they are, in words; without it the placement
+    /// With --cases: how hard they are, in words; default: the placement
     #[arg(long, value_name = "WORDS", requires = "cases")]
     difficulty: Option<String>,
 }
@@ -248,7 +250,7 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
     let (&[subject], &[placement], Some(out)) = (&subjects[..], &args.placement[..], out) else {
         return Err(advised_error(
             "one file shows one part at one placement",
-            "Name one of each, or write cases: partsight simulate --cases DIR",
+            "Give one of each, or write cases: partsight simulate --cases DIR",
         ));
     };
     check_outputs_differ(args, out)?;
@@ -312,7 +314,7 @@ fn check_outputs_differ(args: &SimulateArgs, out: &Path) -> anyhow::Result<()> {
     if is_same_file(truth, out) {
         return Err(advised_error(
             "--out and --truth are the same file",
-            "Name two",
+            "Give two different files",
         ));
     }
     let camera = intrinsics_path(out);

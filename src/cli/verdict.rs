@@ -92,7 +92,7 @@ pub(super) fn show_card(
     if let Some(([x, y, z], [rx, ry, rz])) = place_of(inspection, library) {
         line(
             "middle",
-            format!("x {x:.1}  y {y:.1}  z {z:.1} mm, in the camera's space"),
+            format!("x {x:.1}  y {y:.1}  z {z:.1} mm, in the camera's frame"),
         );
         line(
             "turn",
@@ -102,7 +102,8 @@ pub(super) fn show_card(
         );
     }
     if let (Some(Ok(_)), Some(other)) = (&inspection.pose, inspection.other_reference()) {
-        let text = format!("{other}, one more of this part, with a standard position of its own");
+        let text =
+            format!("{other}, another reference of this part, with a standard position of its own");
         line("reference", text);
     }
     if let Some(Ok(pose)) = &inspection.pose {

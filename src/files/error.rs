@@ -108,7 +108,7 @@ pub enum FileError {
         what: String,
     },
     /// The file has more of something than is read from one file.
-    #[error("{}: {found} {what}, at most {limit} are read", path.display())]
+    #[error("{}: {found} {what}, but at most {limit} are read", path.display())]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -120,7 +120,7 @@ pub enum FileError {
         limit: u64,
     },
     /// The file is larger than files of this kind ever are.
-    #[error("{}: {found} bytes, at most {limit} are read of a file of this kind", path.display())]
+    #[error("{}: {found} bytes, but at most {limit} are read from a file of this kind", path.display())]
     TooLong {
         /// The file.
         path: PathBuf,
@@ -193,7 +193,7 @@ pub enum FileError {
     },
     /// The lens distortion is not one-to-one inside the picture.
     #[error(
-        "{}: bad intrinsics: the distortion folds back inside the picture, so that some pixels see no ray",
+        "{}: bad intrinsics: the distortion folds back inside the picture, so that some pixels have no ray",
         path.display()
     )]
     FoldingDistortion {
@@ -217,13 +217,13 @@ pub enum FileError {
         found: String,
     },
     /// The file name's ending is not a format that can be written.
-    #[error("{}: no format to write for this name, expected {ENDINGS}", path.display())]
+    #[error("{}: no format belongs to this name, expected {ENDINGS}", path.display())]
     UnknownEnding {
         /// The path as it was given.
         path: PathBuf,
     },
     /// Writing the camera of a depth image would overwrite a file that is not a camera.
-    #[error("{}: there already, and not the camera of a depth image; the camera of {} would overwrite it", path.display(), image.display())]
+    #[error("{}: exists already and is not the camera of a depth image; the camera of {} would overwrite it", path.display(), image.display())]
     ForeignSidecar {
         /// The JSON file that exists.
         path: PathBuf,
@@ -374,7 +374,7 @@ impl Advice for FileError {
             ),
             Self::MissingIntrinsics { json, .. } => {
                 format!(
-                    "Put the camera's numbers into {}, for example {EXAMPLE_JSON}",
+                    "Put the camera's intrinsics into {}, for example {EXAMPLE_JSON}",
                     json.display()
                 )
             }

@@ -107,12 +107,12 @@ pub struct ImportOptions {
 
 /// An import option behind a path has an unknown value.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no way to read a file: {0:?}")]
+#[error("not an import option: {0:?}")]
 pub struct BadImportOption(pub String);
 
 impl Advice for BadImportOption {
     fn advice(&self) -> String {
-        "Write #units=m, cm, mm or in, and #up=-y, y or z behind the path".into()
+        "Write #units=m, cm, mm or in, and #up=-y, y or z after the path".into()
     }
 }
 

@@ -48,16 +48,14 @@ pub enum FileWarning {
         share: f64,
     },
     /// Rows and columns are not the picture of a pinhole camera at the origin.
-    #[error(
-        "its rows and columns are not the picture of a camera without distortion at the origin"
-    )]
+    #[error("its rows and columns are not those of an undistorted camera at the origin")]
     NoPinholeCamera,
 }
 
 impl Advice for FileWarning {
     fn advice(&self) -> String {
         match self {
-            Self::TooWideForMetres { .. } => "Read it as millimetres: --units mm, or #units=mm behind its path".into(),
+            Self::TooWideForMetres { .. } => "Read it as millimetres: --units mm, or #units=mm after its path".into(),
             Self::SurplusBytes { .. } => {
                 "Copy or export the file again from the program that made it".into()
             }

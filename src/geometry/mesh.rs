@@ -29,7 +29,7 @@ pub struct TriangleMesh {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum MeshError {
     /// A triangle refers to a vertex that does not exist.
-    #[error("triangle {triangle} has vertex {index}, of {num_vertices}")]
+    #[error("triangle {triangle} refers to vertex {index}, but there are {num_vertices}")]
     NoSuchVertex {
         /// Index of the triangle.
         triangle: usize,

@@ -27,7 +27,7 @@ pub struct UnitDoubt {
 
 impl Advice for UnitDoubt {
     fn advice(&self) -> String {
-        "Write the unit behind the number: deg or rad, mm, cm or m".into()
+        "Write the unit after the number: deg or rad, mm, cm or m".into()
     }
 }
 

@@ -96,7 +96,7 @@ pub enum HistoryError {
         number: i64,
     },
     /// The system names no folder for user data.
-    #[error("this system names no folder for a user's data")]
+    #[error("this system has no folder for user data")]
     NoUserFolder,
 }
 
@@ -153,7 +153,7 @@ impl Advice for HistoryError {
             Self::ReadOnly { .. } => {
                 "Make its folder writable, or ask for access to this one".into()
             }
-            Self::Busy { .. } => "Close other windows of Partsight, or wait for them".into(),
+            Self::Busy { .. } => "Close other windows of Partsight, or wait until they are done".into(),
             Self::Damaged { .. } => {
                 "Close every other window of Partsight and start it again: the file is then set aside and a new one started".into()
             }

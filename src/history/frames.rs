@@ -284,7 +284,7 @@ pub fn read_by(
     };
     let bytes = content(&path)?;
     if crc32(&bytes) != frame.crc32 {
-        return Err(damaged("it does not have its checksum"));
+        return Err(damaged("its checksum does not match"));
     }
     let original = match (frame.metres_per_unit, frame.camera) {
         (Some(metres_per_unit), Some(intrinsics)) => {
@@ -331,7 +331,7 @@ fn cell_of(path: &Path, bytes: &[u8], checksum: Option<u32>) -> Result<EmptyCell
         what: what.to_owned(),
     };
     if checksum.is_some_and(|checksum| checksum != crc32(bytes)) {
-        return Err(damaged("it does not have its checksum"));
+        return Err(damaged("its checksum does not match"));
     }
     let cell = EmptyCell::of_cloud(&cloud_of(path, bytes)?);
     cell.ok_or_else(|| damaged("the empty cell has no rows and columns"))

@@ -61,13 +61,13 @@ pub enum LibraryError {
         name: PartName,
     },
     /// The trash has no such entry.
-    #[error("{}: nothing that was removed lies there", kept.display())]
+    #[error("{}: no removed part is kept there", kept.display())]
     NotInTrash {
         /// The path asked for.
         kept: PathBuf,
     },
     /// The system names no folder for user data.
-    #[error("this system names no folder for a user's data")]
+    #[error("this system has no folder for user data")]
     NoUserFolder,
 }
 

@@ -54,7 +54,7 @@ pub enum BadName {
         character: char,
     },
     /// The name is a device name of Windows.
-    #[error("{name:?} is not a valid name: Windows keeps it for a device")]
+    #[error("{name:?} is not a valid name: Windows reserves it for a device")]
     Reserved {
         /// The name given.
         name: String,

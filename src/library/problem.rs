@@ -123,7 +123,7 @@ pub enum EntryIssue {
         file: &'static str,
     },
     /// A file that can be made again from the cloud is damaged or does not match it.
-    #[error("{file} does not belong to the cloud; the cloud counts")]
+    #[error("{file} does not belong to the cloud; the cloud is used")]
     Stale {
         /// The file.
         file: &'static str,
@@ -135,7 +135,7 @@ pub enum EntryIssue {
         why: String,
     },
     /// An interrupted replacement left the part under another folder name.
-    #[error("an interrupted replacement left it aside; the next enrolment puts it back")]
+    #[error("an interrupted replacement set it aside; the next enrolment puts it back")]
     LeftAside,
 }
 

@@ -30,7 +30,7 @@ pub enum PaintError {
     #[error("the surface has no side that faces one way: it is folded or closed")]
     Folded,
     /// A parameter of the coat is out of its range.
-    #[error("the coat's {name} is {value}, which no path can be made of")]
+    #[error("the coat's {name} is {value}, with which no path can be planned")]
     BadCoat {
         /// Key of the parameter.
         name: &'static str,
@@ -41,7 +41,7 @@ pub enum PaintError {
     #[error("no row lies over the surface")]
     NoRows,
     /// The path has more points than can be stored.
-    #[error("the path would have {found} points, at most {MAX_PATH_POINTS} are stored")]
+    #[error("the path would have {found} points, but at most {MAX_PATH_POINTS} are stored")]
     TooLong {
         /// Number of points.
         found: usize,
@@ -64,7 +64,7 @@ impl Advice for PaintError {
                 "Enrol the part again from a capture, a scan or a mesh".into()
             }
             Self::TooFew { .. } => {
-                "Enrol the part with the side to be painted towards the camera, nearer or from a mesh".into()
+                "Enrol the part with the side to be painted towards the camera, from closer or from a mesh".into()
             }
             Self::Extent { .. } => {
                 "Check the unit the part was enrolled in, for example partsight enrol part.stl --units mm".into()
@@ -74,7 +74,7 @@ impl Advice for PaintError {
                 format!("Give {name} a value within the range that docs/guide/paint.md lists")
             }
             Self::NoRows => {
-                "Make the keep-out regions smaller, or the overrun and the row spacing fit the part".into()
+                "Make the keep-out regions smaller, or adapt the overrun and the row spacing to the part".into()
             }
             Self::TooLong { .. } => "Raise point_spacing or spacing: --set point_spacing=50".into(),
             Self::BadRegion { .. } => {

@@ -142,7 +142,7 @@ impl Advice for StripeError {
         match self {
             Self::File(error) => error.advice(),
             Self::NoColumns { .. } => {
-                "Begin the file with a line offset_mm,thickness_um, then one place a line".into()
+                "Begin the file with a line offset_mm,thickness_um, then write one place per line".into()
             }
             Self::NoNumbers { .. } => "Correct the line; nothing was written".into(),
             Self::Count { .. } => {

@@ -1,12 +1,12 @@
-//! By what a recipe is known again.
+//! The identity of a recipe: a checksum of its parameters.
 
 use super::Recipe;
 use crate::files::crc32;
 
 impl Recipe {
-    /// Eight hexadecimal digits that are the same for the same parameters and differ when one of them does: the CRC-32
-    /// of the recipe as JSON, in the order of its fields. It tells recipes apart by chance, not against forgery; a
-    /// version of the program that adds a parameter gives another.
+    /// Returns eight hexadecimal digits that depend on all parameters: the CRC-32 of the recipe as JSON, in the order
+    /// of its fields. Collisions are unlikely, but nothing prevents forgery. A version of the program that adds a
+    /// parameter gives another identity.
     pub fn identity(&self) -> String {
         let json = serde_json::to_vec(self).expect("numbers and names have a JSON form");
         format!("{:08x}", crc32(&json))

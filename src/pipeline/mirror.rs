@@ -1,8 +1,9 @@
-//! What fits only in a mirror: a part of the other side of the car, or an image whose left and right are exchanged.
+//! Parts that fit only as their mirror image: a part of the other side of the car, or an image with left and right
+//! exchanged.
 //!
-//! One capture tells the two apart only where a part of the other side cannot be: of a part that a car has once, as its
-//! name says, and of one that is nearly its own mirror image. An image of a part that is exactly symmetric looks right
-//! either way. Several captures tell more, see [`MirrorTally`].
+//! One capture tells the two apart only if the part has no other side: because a car has it once, according to its
+//! name, or because it is nearly its own mirror image. An image of an exactly symmetric part looks right either way.
+//! Several captures tell more, see [`MirrorTally`].
 
 use std::collections::BTreeSet;
 
@@ -15,12 +16,12 @@ use super::{
 };
 use crate::{error::Advice, library::Library, stages::scene::SceneCloud};
 
-/// A mirror image must score this much more than the part itself to be spoken of.
+/// Least lead of a mirror image's score over that of the part itself.
 const MIRROR_LEAD: f64 = 0.3;
-/// Where the part itself is nearly as good, its mirror image must be this many times closer to it.
+/// Where the part itself fits nearly as well, its mirror image must deviate less by this factor.
 const CLOSER: f64 = 2.0;
 
-/// Says so if the mirror image of an enrolled part fits, and the part itself does not.
+/// Rejects the best guess as mirrored if the mirror image of an enrolled part fits and the part itself does not.
 pub(super) fn check_mirror_image(
     inspection: &mut Inspection,
     scene: &SceneCloud,
@@ -70,7 +71,7 @@ pub(super) fn check_mirror_image(
     Ok(())
 }
 
-/// The mirror image of a part that is nothing like the part itself.
+/// The rejection where the mirror image fits and the part itself is nothing like it.
 fn mirror_only_match(found: &SurfaceResult, least: f64) -> Option<Rejection> {
     let seen = found.ranking.entries.first()?;
     let (part, score) = (seen.part.clone(), seen.score);
@@ -83,7 +84,7 @@ fn mirror_only_match(found: &SurfaceResult, least: f64) -> Option<Rejection> {
     })
 }
 
-/// The mirror image of a part that is nearly symmetric: such a part has no other side.
+/// The rejection where the mirror image of a nearly symmetric part fits better; such a part has no other side.
 fn closer_mirror_match(
     inspection: &Inspection,
     found: &SurfaceResult,
@@ -124,16 +125,16 @@ const SIDES: [&str; 9] = [
     "left", "right", "l", "r", "lh", "rh", "side", "corner", "driver",
 ];
 
-/// True if the name says that a car has the part once, in its middle.
+/// True if by its name a car has the part once, in its middle.
 fn is_central(part: &str) -> bool {
     let mut words = part.split(|c: char| !c.is_ascii_alphabetic());
     words.clone().any(|word| CENTRAL.contains(&word)) && !words.any(|word| SIDES.contains(&word))
 }
 
-/// What the captures of one call or one source say about their images being mirrored.
+/// Counts mirrored verdicts over the captures of one call or one source.
 ///
-/// A single part of the other side is common, and so are many captures of it. Parts of several names that all fit only
-/// in a mirror, with none that fits as it is, are more often the images.
+/// A single part of the other side is common, and so are many captures of it. If parts of several names all fit only
+/// as mirror images and none fits as it is, the images are more likely mirrored.
 #[derive(Clone, Debug, Default)]
 pub struct MirrorTally {
     num_mirrored: usize,
@@ -141,10 +142,11 @@ pub struct MirrorTally {
     is_any_straight: bool,
 }
 
-/// All that was recognised was recognised in a mirror.
+/// Everything that was recognised fits only as its mirror image.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "everything that was recognised ({num_captures} captures: {}) fits only as its mirror image: left and right may be exchanged in the images",
+    "everything that was recognised ({num_captures} captures: {}) fits only as its mirror image: left and right may \
+     be swapped in the images",
     parts.join(", ")
 )]
 pub struct OnlyMirrored {
@@ -161,7 +163,8 @@ impl Advice for OnlyMirrored {
 }
 
 /// How an image is put right whose left and right are exchanged.
-pub(super) const PUT_RIGHT: &str = "compare an image with the part, and if left and right are exchanged, add \"mirrored\": true \
+pub(super) const PUT_RIGHT: &str = "compare an image with the part, and if left and right are swapped, add \
+    \"mirrored\": true \
      to the JSON with the camera's intrinsics (see partsight help inspect)";
 
 impl MirrorTally {
@@ -181,7 +184,7 @@ impl MirrorTally {
         }
     }
 
-    /// The suspicion, if there is one.
+    /// Returns the suspicion that the images are mirrored, if there is one.
     pub fn suspicion(&self) -> Option<OnlyMirrored> {
         (self.parts.len() >= 2 && !self.is_any_straight).then(|| OnlyMirrored {
             num_captures: self.num_mirrored,

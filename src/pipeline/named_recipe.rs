@@ -1,6 +1,7 @@
-//! A recipe with its name, and the file that it is kept in.
+//! Named recipes and their files.
 //!
-//! A recipe file is TOML and holds only the parameters that differ from the program's own, as `--set` takes them:
+//! A recipe file is TOML and holds only the parameters that differ from the built-in recipe, with values as in
+//! `--set`:
 //!
 //! ```toml
 //! schema = 1
@@ -31,20 +32,20 @@ use crate::{
     library::PartName,
 };
 
-/// The name of the program's own recipe. No file has it.
+/// Name of the built-in recipe; no file has it.
 pub const BUILT_IN: &str = "built-in";
 
-/// The version of the file.
+/// Version of the file format.
 pub(super) const SCHEMA: u32 = 1;
-/// A larger file is no recipe.
+/// Maximum size of a recipe file.
 const MAX_BYTES: u64 = 1 << 16;
-/// Longest notes, in characters.
+/// Maximum length of the notes, characters.
 pub const MAX_NOTES: usize = 1000;
 
-/// By which name a recipe goes.
+/// Name of a recipe, and whether its parameters were changed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecipeLabel {
-    /// The name that it is kept under.
+    /// Name that the recipe is saved under.
     pub name: String,
     /// True if its parameters are not those kept under the name.
     #[serde(default)]
@@ -67,7 +68,7 @@ impl fmt::Display for RecipeLabel {
     }
 }
 
-/// Parameters, and by which name they go.
+/// Parameters of an inspection with the name of their recipe.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NamedRecipe {
     /// The name.
@@ -134,12 +135,12 @@ impl From<&NamedRecipe> for RecipeBlock {
     }
 }
 
-/// What a recipe file holds.
+/// Contents of a recipe file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecipeFile<R = Recipe> {
     /// The name.
     pub name: PartName,
-    /// What a person remarks; may be empty.
+    /// Remarks of the user; may be empty.
     pub notes: String,
     /// All parameters.
     pub recipe: R,
@@ -158,14 +159,14 @@ struct Written {
     parameters: toml::Table,
 }
 
-/// All that every version of the file has.
+/// The fields that every version of the file has.
 #[derive(Deserialize)]
 struct Versioned {
     schema: u32,
 }
 
 impl RecipeFile {
-    /// The program's own recipe, as if it were in a file.
+    /// The built-in recipe, as if read from a file.
     pub fn built_in() -> Self {
         Self {
             name: PartName::new(BUILT_IN).expect("it keeps the rules of names"),
@@ -176,12 +177,12 @@ impl RecipeFile {
 }
 
 impl<R: Parameters> RecipeFile<R> {
-    /// Reads a file; one bad parameter, and nothing of it counts.
+    /// Reads a file. A single bad parameter makes the whole file an error.
     pub fn read(path: &Path) -> Result<Self, RecipeError> {
         Self::parse(path, &read_text(path, MAX_BYTES)?)
     }
 
-    /// The recipe in a text; errors name it as this file.
+    /// Parses a recipe from text; errors name `path` as its file.
     pub(crate) fn parse(path: &Path, text: &str) -> Result<Self, RecipeError> {
         let garbled = |error: toml::de::Error| {
             let message = error.message();
@@ -218,7 +219,7 @@ impl<R: Parameters> RecipeFile<R> {
         })
     }
 
-    /// What the file holds, as text.
+    /// The contents of the file as text.
     pub fn text(&self) -> String {
         let string = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let mut text = format!(
@@ -229,13 +230,13 @@ impl<R: Parameters> RecipeFile<R> {
         );
         for parameter in changed(&self.recipe) {
             let value = string(&parameter.setting_text(&self.recipe));
-            // Writing to memory does not fail.
+            // Writing to memory cannot fail.
             let _ = writeln!(text, "{} = {value}", parameter.key);
         }
         text
     }
 
-    /// Writes the file, whole or not at all, and gives back the parameters as it holds them.
+    /// Writes the file atomically, and returns the recipe as the file holds it.
     pub fn write(&self, path: &Path) -> Result<Self, RecipeError> {
         let found = self.notes.chars().count();
         if found > MAX_NOTES {
@@ -248,7 +249,7 @@ impl<R: Parameters> RecipeFile<R> {
     }
 }
 
-/// Every value of nested tables as `NAME=VALUE`.
+/// Appends every value of nested tables as `NAME=VALUE`.
 fn flatten(table: &toml::Table, prefix: &str, settings: &mut Vec<String>) {
     for (key, value) in table {
         let name = format!("{prefix}{key}");
@@ -346,8 +347,8 @@ mod tests {
             (&with("accept.min_scor = 1"), "nearest is accept.min_score"),
             (&with("accept.min_score = 1.5"), "from 0 to 1"),
             (&with("accept.min_score = nan"), "from 0 to 1"),
-            (&with("accept.min_score = true"), "no value of"),
-            (&with("accept.min_score = [1]"), "no value of"),
+            (&with("accept.min_score = true"), "not a value of"),
+            (&with("accept.min_score = [1]"), "not a value of"),
             (&with("accept = 1"), "no parameter accept"),
             (&with("icp.max_iterations = 1.5"), "whole numbers"),
             (

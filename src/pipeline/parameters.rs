@@ -1,8 +1,8 @@
-//! The parameters of a [`Recipe`], as a person sees them: name, unit, range, default and what each does.
+//! The parameters of a [`Recipe`] as shown to a person: name, unit, range, default and effect of each.
 //!
 //! [`PARAMETERS`] is their only list. The sliders of the window, the option `--set` ([`Setting`]) and the tables of
-//! `docs/guide/parameters.md` follow from it; defaults are those of `Recipe::default()`. Other recipes have lists of their
-//! own by [`Parameters`], and the same settings and files.
+//! `docs/guide/parameters.md` follow from it; defaults are those of `Recipe::default()`. Other kinds of recipe
+//! implement [`Parameters`] with lists of their own and share settings and files.
 
 mod table;
 
@@ -12,11 +12,11 @@ pub use self::table::PARAMETERS;
 use super::Recipe;
 use crate::{error::Advice, files::nearest_name};
 
-/// What is made of parameters, such as a [`Recipe`].
+/// A set of parameters, such as a [`Recipe`].
 pub trait Parameters: Clone + Default + PartialEq + 'static {
-    /// What its parameters are grouped by.
+    /// Groups of the parameters.
     type Group: Copy + std::fmt::Debug + 'static;
-    /// All of them, group by group.
+    /// All parameters, group by group.
     const ALL: &'static [Parameter<Self>];
 }
 
@@ -28,21 +28,21 @@ impl Parameters for Recipe {
 /// Where in the flow a parameter acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// Wall and floor away, one surface left.
+    /// Removal of wall and floor, and choice of one surface.
     Segmentation,
-    /// The part in its plane.
+    /// Projection of the part to a binary image.
     BinaryImage,
     /// Outline, openings and rays.
     Contour,
-    /// Which parts are alike.
+    /// Ranking of the references.
     Match,
-    /// The best few put in their place.
+    /// Confirmation and pose of the best references.
     Pose,
     /// ICP with a genetic algorithm, Algorithm 3.
     IcpGa,
-    /// When a verdict counts.
+    /// Limits for accepting a verdict.
     Acceptance,
-    /// How far the taught path would be off.
+    /// Stand-off along the taught path.
     StandOff,
 }
 
@@ -59,7 +59,7 @@ impl Group {
         Self::StandOff,
     ];
 
-    /// What a person calls it.
+    /// Title shown to the user.
     pub fn title(self) -> &'static str {
         match self {
             Self::Segmentation => "Segmentation",
@@ -74,16 +74,16 @@ impl Group {
     }
 }
 
-/// Whether a parameter is in front or in the fold of its group.
+/// Whether a parameter is always shown, or only in the unfolded group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// Always seen.
+    /// Always shown.
     Front,
-    /// In the fold.
+    /// Shown in the unfolded group.
     Fold,
 }
 
-/// The unit that a value is shown in; inside it is metres, square metres or radians.
+/// The unit that a value is shown in; unless stated, it is stored in metres, square metres or radians.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DisplayUnit {
     /// A plain number.
@@ -96,18 +96,18 @@ pub enum DisplayUnit {
     SquareMillimetres,
     /// Degrees.
     Degrees,
-    /// Millimetres a second; inside it is metres a second.
+    /// Millimetres per second; stored in metres per second.
     MillimetresPerSecond,
-    /// Millilitres a minute; inside it is cubic metres a second.
+    /// Millilitres per minute; stored in cubic metres per second.
     MillilitresPerMinute,
-    /// Thousandths of a millimetre.
+    /// Micrometres.
     Micrometres,
-    /// Hundredths; inside it is a share of 1.
+    /// Per cent; stored as a share of 1.
     Percent,
 }
 
 impl DisplayUnit {
-    /// Its sign, after a number; empty for a plain one.
+    /// The sign to put after a number, with its space; empty for a plain number.
     pub fn sign(self) -> &'static str {
         match self {
             Self::None => "",
@@ -122,7 +122,7 @@ impl DisplayUnit {
         }
     }
 
-    /// How many of it are one of the unit used inside.
+    /// Factor from the stored unit to this one.
     pub fn per_inner(self) -> f64 {
         match self {
             Self::None => 1.0,
@@ -136,55 +136,55 @@ impl DisplayUnit {
     }
 }
 
-/// A number among the parameters, in the unit it is shown in.
+/// A parameter that is a number.
 #[derive(Debug)]
 pub struct Number<R = Recipe> {
-    /// The unit.
+    /// Unit that it is shown in.
     pub unit: DisplayUnit,
-    /// Least and greatest valid value.
+    /// Least and greatest valid value, in the unit shown.
     pub range: [f64; 2],
-    /// Digits after the point.
+    /// Digits shown after the point.
     pub decimals: usize,
-    /// Reads it, in the unit used inside.
+    /// Reads it, in the stored unit.
     pub get: fn(&R) -> f64,
-    /// Writes it, in the unit used inside.
+    /// Writes it, in the stored unit.
     pub set: fn(&mut R, f64),
 }
 
-/// A choice among the parameters.
+/// A parameter that is one of several options.
 #[derive(Debug)]
 pub struct Choice<R = Recipe> {
-    /// The options, as a person reads them.
+    /// The options, as shown and as written in settings.
     pub options: &'static [&'static str],
-    /// Reads the place of the option.
+    /// Reads the index of the chosen option.
     pub get: fn(&R) -> usize,
-    /// Takes the option at a place.
+    /// Chooses the option at this index.
     pub set: fn(&mut R, usize),
 }
 
-/// What a parameter is.
+/// The kind of a parameter, with its unit and range, or its options.
 #[derive(Debug)]
 pub enum Kind<R = Recipe> {
     /// A number.
     Number(Number<R>),
-    /// One of a few.
+    /// One of several options.
     Choice(Choice<R>),
 }
 
 /// A parameter of the recipe.
 #[derive(Debug)]
 pub struct Parameter<R: Parameters = Recipe> {
-    /// Its path in the recipe as it is written, such as `segment.plane_distance`.
+    /// Path in the recipe as written in settings and files, such as `segment.plane_distance`.
     pub key: &'static str,
-    /// What a person calls it.
+    /// Name shown to the user.
     pub name: &'static str,
     /// What it does, and what raising it costs.
     pub help: &'static str,
-    /// Where it acts.
+    /// Group in which it is shown.
     pub group: R::Group,
-    /// Where it is found.
+    /// Place in its group.
     pub place: Place,
-    /// What it is.
+    /// Number or choice.
     pub kind: Kind<R>,
 }
 
@@ -192,7 +192,7 @@ pub struct Parameter<R: Parameters = Recipe> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BadValue {
     /// Outside the valid range.
-    #[error("{name} cannot be {found}: it goes from {range}")]
+    #[error("{name} cannot be {found}: it ranges from {range}")]
     OutOfRange {
         /// The parameter.
         name: String,
@@ -201,7 +201,7 @@ pub enum BadValue {
         /// The valid range, in words.
         range: String,
     },
-    /// There is no such option, or the parameter is of another kind.
+    /// There is no option at this index.
     #[error("{name} has no such value")]
     NoSuchOption {
         /// The parameter.
@@ -210,7 +210,7 @@ pub enum BadValue {
 }
 
 impl BadValue {
-    /// The same of a parameter that was written by its key.
+    /// The same error with the parameter's key before its name.
     fn written_as(mut self, key: &str) -> Self {
         let (Self::OutOfRange { name, .. } | Self::NoSuchOption { name }) = &mut self;
         *name = format!("{key} ({name})");
@@ -230,10 +230,10 @@ impl<R: Parameters> Parameter<R> {
         R::ALL.iter().find(|parameter| parameter.key == key)
     }
 
-    /// Its number in the unit shown, or the place of its option.
+    /// The value in the unit shown, or the index of the option.
     pub fn value(&self, recipe: &R) -> f64 {
         match &self.kind {
-            // 0.01 is 10 mm, not 10.000000000000002.
+            // Shows 0.01 as 10 mm, not as 10.000000000000002.
             Kind::Number(number) => {
                 round_to_12_digits((number.get)(recipe) * number.unit.per_inner())
             }
@@ -241,7 +241,7 @@ impl<R: Parameters> Parameter<R> {
         }
     }
 
-    /// Gives it a number in the unit shown, or an option by its place; what is not valid is refused.
+    /// Sets a number in the unit shown, or an option by its index; fails if the value is not valid.
     pub fn set(&self, recipe: &mut R, value: f64) -> Result<(), BadValue> {
         match &self.kind {
             Kind::Number(number) => {
@@ -267,7 +267,7 @@ impl<R: Parameters> Parameter<R> {
         Ok(())
     }
 
-    /// Gives it the value that it has in another recipe.
+    /// Copies its value from one recipe to another.
     pub fn copy(&self, from: &R, to: &mut R) {
         match &self.kind {
             Kind::Number(number) => (number.set)(to, (number.get)(from)),
@@ -275,7 +275,7 @@ impl<R: Parameters> Parameter<R> {
         }
     }
 
-    /// True if the two recipes differ in it.
+    /// True if the two recipes differ in this parameter.
     pub fn differs(&self, a: &R, b: &R) -> bool {
         self.value(a).to_bits() != self.value(b).to_bits()
     }
@@ -291,7 +291,7 @@ impl<R: Parameters> Parameter<R> {
         }
     }
 
-    /// Its value in words.
+    /// The value as shown, with its unit.
     pub fn text(&self, recipe: &R) -> String {
         let value = self.value(recipe);
         match &self.kind {
@@ -305,7 +305,7 @@ impl<R: Parameters> Parameter<R> {
 }
 
 impl<R: Parameters> Parameter<R> {
-    /// Its value as a [`Setting`] takes it, with all digits.
+    /// The value as in a [`Setting`], with all digits.
     pub fn setting_text(&self, recipe: &R) -> String {
         match &self.kind {
             Kind::Number(number) => format!("{}{}", self.value(recipe), number.unit.sign()),
@@ -315,13 +315,13 @@ impl<R: Parameters> Parameter<R> {
 }
 
 impl<R> Number<R> {
-    /// A value with its unit.
+    /// Formats a value with its unit.
     pub fn text(&self, value: f64) -> String {
         format!("{value:.*}{}", self.decimals, self.unit.sign())
     }
 }
 
-/// Twelve digits: what a change of units leaves behind is gone.
+/// Rounds to twelve digits, which removes the errors of a conversion of units.
 fn round_to_12_digits(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
@@ -332,7 +332,7 @@ pub fn changed<R: Parameters>(recipe: &R) -> impl Iterator<Item = &'static Param
     R::ALL.iter().filter(move |p| p.differs(recipe, &default))
 }
 
-/// The parameters of [`changed`] but those of these keys, as `--set` takes them.
+/// The parameters of [`changed`] except those of these keys, as `--set` takes them.
 pub fn changed_settings(recipe: &Recipe, left_out: &[&str]) -> Vec<String> {
     let listed = changed(recipe).filter(|parameter| !left_out.contains(&parameter.key));
     listed
@@ -340,35 +340,35 @@ pub fn changed_settings(recipe: &Recipe, left_out: &[&str]) -> Vec<String> {
         .collect()
 }
 
-/// How many there are.
+/// Number of parameters in which a recipe differs from the default one.
 pub fn num_changed<R: Parameters>(recipe: &R) -> usize {
     changed(recipe).count()
 }
 
-/// A parameter with a valid value for it, written as `segment.plane_distance=12`: the value in the unit of the
-/// parameter, which may follow it, or the name of an option.
+/// A parameter with a valid value, written as `segment.plane_distance=12`. The value is the name of an option, or a
+/// number in the parameter's unit, which may follow it.
 #[derive(Clone, Debug)]
 pub struct Setting<R: Parameters = Recipe> {
     parameter: &'static Parameter<R>,
-    /// As [`Parameter::set`] takes it.
+    /// Value for [`Parameter::set`].
     value: f64,
 }
 
 impl<R: Parameters> Setting<R> {
-    /// Gives the recipe this value.
+    /// Sets the value in a recipe.
     pub fn apply(&self, recipe: &mut R) {
         let is_set = self.parameter.set(recipe, self.value);
         assert!(is_set.is_ok(), "checked when it was read");
     }
 }
 
-/// Why a text is no [`Setting`].
+/// Why a text is not a [`Setting`].
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SettingError {
-    /// No equals sign.
+    /// The text has no equals sign.
     #[error("there is no = between name and value")]
     NoEquals,
-    /// No parameter of this name.
+    /// There is no parameter of this name.
     #[error("there is no parameter {name}; the nearest is {nearest}")]
     UnknownName {
         /// The name given.
@@ -377,7 +377,7 @@ pub enum SettingError {
         nearest: &'static str,
     },
     /// Neither a number, nor an option of the parameter.
-    #[error("{found} is no value of {key}, which goes from {range}")]
+    #[error("{found} is not a value of {key}, which ranges from {range}")]
     NotANumber {
         /// The parameter.
         key: &'static str,
@@ -387,7 +387,7 @@ pub enum SettingError {
         range: String,
     },
     /// Not one of the options.
-    #[error("{found} is no value of {key}, which is one of {options}")]
+    #[error("{found} is not a value of {key}, which is one of {options}")]
     NotAnOption {
         /// The parameter.
         key: &'static str,
@@ -397,14 +397,14 @@ pub enum SettingError {
         options: String,
     },
     /// A fraction of what is counted.
-    #[error("{found} is no value of {key}, which takes whole numbers")]
+    #[error("{found} is not a value of {key}, which takes whole numbers")]
     NotWhole {
         /// The parameter.
         key: &'static str,
         /// The value given.
         found: String,
     },
-    /// Outside the valid range.
+    /// The value is outside the valid range.
     #[error(transparent)]
     BadValue(#[from] BadValue),
 }
@@ -458,7 +458,7 @@ impl<R: Parameters> FromStr for Setting<R> {
     }
 }
 
-/// The key that is most like a name, or ends with it.
+/// The key that ends with the name, or else the one most like it.
 fn nearest_key<R: Parameters>(name: &str) -> &'static str {
     let keys = || R::ALL.iter().map(|parameter| parameter.key);
     let ends_so = keys().find(|key| key.rsplit('.').next() == Some(name));
@@ -476,9 +476,9 @@ mod tests {
     use super::*;
     use crate::{pipeline::PoseChoice, stages::pose::PoseMethod};
 
-    /// The paths of all numbers and words; an object of further ones is gone into.
+    /// Collects the paths of all values, descending into objects.
     fn leaves(value: &Value, path: &str, found: &mut BTreeSet<String>) {
-        // The pose is one choice, however it is written.
+        // The pose is one choice, even where it is written as an object.
         match value {
             Value::Object(fields) if path != "pose" => {
                 for (name, value) in fields {

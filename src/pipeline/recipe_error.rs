@@ -1,4 +1,4 @@
-//! What can go wrong with recipe files.
+//! Errors of recipes and their files.
 
 use std::path::PathBuf;
 
@@ -19,14 +19,14 @@ pub enum RecipeError {
     #[error(transparent)]
     File(#[from] FileError),
     /// Not what a recipe file looks like.
-    #[error("{} is no recipe: {reason}", path.display())]
+    #[error("{} is not a recipe: {reason}", path.display())]
     Garbled {
         /// The file.
         path: PathBuf,
-        /// What the reader said.
+        /// What the parser reported.
         reason: String,
     },
-    /// Another version of the format.
+    /// The file has another version of the format.
     #[error("{}: the recipe has schema {found}, this program reads {SCHEMA}", path.display())]
     OtherSchema {
         /// The file.
@@ -34,19 +34,19 @@ pub enum RecipeError {
         /// Its schema.
         found: u32,
     },
-    /// A parameter that does not exist, or a value that it cannot have.
+    /// A parameter does not exist, or cannot have this value.
     #[error("{}: {source}", path.display())]
     BadParameter {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The underlying error.
         source: SettingError,
     },
-    /// No name for a recipe.
+    /// The name is not valid.
     #[error(transparent)]
     BadName(#[from] BadName),
     /// Notes too long to keep.
-    #[error("the notes have {found} characters, at most {MAX_NOTES} are kept")]
+    #[error("the notes have {found} characters, but at most {MAX_NOTES} are kept")]
     LongNotes {
         /// Characters given.
         found: usize,
@@ -56,15 +56,15 @@ pub enum RecipeError {
     NotFound {
         /// The name given.
         name: String,
-        /// Those that are there.
+        /// Names of the recipes that exist.
         available: Vec<String>,
     },
-    /// The recipe that is used by default is gone.
+    /// The default recipe is missing or cannot be read.
     #[error("the default recipe {name} cannot be used: {reason}")]
     NoDefault {
         /// Its name.
         name: String,
-        /// Why.
+        /// Why it cannot be used.
         reason: String,
     },
     /// Another recipe has the name.
@@ -74,10 +74,10 @@ pub enum RecipeError {
         name: String,
     },
     /// The program's own recipe cannot be changed.
-    #[error("{BUILT_IN} is the program's own recipe and stays as it is")]
+    #[error("{BUILT_IN} is the program's own recipe and cannot be changed")]
     BuiltIn,
     /// No place for the user's recipes.
-    #[error("the system names no folder for your data")]
+    #[error("this system has no folder for user data")]
     NoUserFolder,
 }
 
@@ -89,10 +89,11 @@ impl Advice for RecipeError {
                 "Give a file that Partsight exported, or write one as docs/guide/files.md shows".into()
             }
             Self::OtherSchema { .. } => {
-                "Use the version of Partsight that wrote it, or export the recipe again from this one".into()
+                "Use the version of Partsight that wrote it, or save the recipe again with this one".into()
             }
             Self::BadParameter { .. } => {
-                "Correct the file, nothing of it was used; docs/guide/parameters.md lists names, units and ranges".into()
+                "Correct the file (none of it was used); docs/guide/parameters.md lists names, units and \
+                 ranges".into()
             }
             Self::BadName(error) => error.advice(),
             Self::LongNotes { .. } => "Shorten the notes".into(),

@@ -1,4 +1,4 @@
-//! The folder of named recipes: a file each, and which of them is used where none is named.
+//! The folder of named recipes: one file for each, and one that names the default recipe.
 
 use std::{
     fs, io,
@@ -18,29 +18,29 @@ const ENDING: &str = "toml";
 /// The file that names the default recipe.
 const DEFAULT: &str = "default";
 
-/// A folder of recipes; it need not be there until the first is saved.
+/// A folder of recipes; it need not exist before the first recipe is saved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecipeFolder {
     path: PathBuf,
 }
 
-/// What lies in a folder of recipes.
+/// The contents of a folder of recipes.
 #[derive(Debug, Default)]
 pub struct RecipeList {
-    /// The recipes, in the order of their names, the program's own left out.
+    /// The recipes in the order of their names, without the built-in one.
     pub recipes: Vec<RecipeFile>,
-    /// What is used where no recipe is named.
+    /// Name of the default recipe.
     pub default: String,
-    /// What could not be read.
+    /// One error for each recipe that could not be read.
     pub problems: Vec<RecipeError>,
 }
 
-/// Whether a recipe may take the place of another of the same name.
+/// Whether saving may replace a recipe of the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Replace {
-    /// It is an error if there is one.
+    /// An existing recipe is an error.
     No,
-    /// It is replaced.
+    /// An existing recipe is replaced.
     Yes,
 }
 
@@ -50,24 +50,24 @@ impl RecipeFolder {
         Self { path: path.into() }
     }
 
-    /// The user's own, beside the library in the folder that the system keeps for a user's data.
+    /// The user's own folder, beside the library in the system's folder for user data.
     pub fn of_user() -> Result<Self, RecipeError> {
         let folders =
             directories::ProjectDirs::from("", "", "partsight").ok_or(RecipeError::NoUserFolder)?;
         Ok(Self::at(folders.data_dir().join("recipes")))
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Where the recipe of this name is kept.
+    /// Path of the file of the recipe of this name.
     pub fn file(&self, name: &PartName) -> PathBuf {
         self.path.join(format!("{name}.{ENDING}"))
     }
 
-    /// The recipes; what is damaged is named, the others are there.
+    /// Reads all recipes. A damaged one becomes a problem of the list and does not affect the others.
     pub fn list(&self) -> Result<RecipeList, RecipeError> {
         let mut list = RecipeList {
             default: self.default_name()?,
@@ -82,7 +82,7 @@ impl RecipeFolder {
         Ok(list)
     }
 
-    /// The names, in their order. A folder that is not there holds none.
+    /// The sorted names; none if the folder does not exist.
     fn names(&self) -> Result<Vec<PartName>, RecipeError> {
         let reading = |error| FileError::reading(&self.path, error);
         let entries = match fs::read_dir(&self.path) {
@@ -102,7 +102,8 @@ impl RecipeFolder {
         Ok(names)
     }
 
-    /// The recipe of this name. The name of its file counts, not the one inside: the file may have been copied.
+    /// Reads the recipe of this name. The file name counts, not the name inside, because the file may have been
+    /// copied.
     pub fn read(&self, name: &PartName) -> Result<RecipeFile, RecipeError> {
         if name.as_str() == BUILT_IN {
             return Ok(RecipeFile::built_in());
@@ -123,7 +124,7 @@ impl RecipeFolder {
         }
     }
 
-    /// Keeps a recipe under its name, and gives it back as its file holds it.
+    /// Saves a recipe under its name, and returns it as its file holds it.
     pub fn save(&self, recipe: &RecipeFile, replace: Replace) -> Result<RecipeFile, RecipeError> {
         let path = self.changeable(&recipe.name)?;
         if replace == Replace::No && path.symlink_metadata().is_ok() {
@@ -134,12 +135,12 @@ impl RecipeFolder {
         recipe.write(&path)
     }
 
-    /// Removes a recipe; if it was the default, the program's own is that again.
+    /// Removes a recipe; if it was the default, the built-in recipe becomes the default.
     pub fn remove(&self, name: &PartName) -> Result<(), RecipeError> {
         let path = self.changeable(name)?;
         match disk::remove_file(&path) {
             Ok(()) => {}
-            // Names those that are there.
+            // The error of `read` names the recipes that exist.
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 self.read(name)?;
             }
@@ -152,7 +153,7 @@ impl RecipeFolder {
         Ok(())
     }
 
-    /// Gives a recipe another name; if it was the default, it stays that.
+    /// Renames a recipe; if it was the default, it stays the default.
     pub fn rename(&self, from: &PartName, to: &PartName) -> Result<RecipeFile, RecipeError> {
         self.changeable(from)?;
         let was_default = self.default_name()? == from.as_str();
@@ -168,12 +169,12 @@ impl RecipeFolder {
         Ok(renamed)
     }
 
-    /// The recipe that is used where none is named.
+    /// Name of the default recipe.
     pub fn default_name(&self) -> Result<String, RecipeError> {
         match read_text(&self.path.join(DEFAULT), 1000) {
             Ok(text) => Ok(text.trim().to_owned()),
             Err(FileError::NotFound { .. }) => Ok(BUILT_IN.into()),
-            // A file lies where the folder could be.
+            // A file is in place of a parent folder.
             Err(FileError::Read { source, .. })
                 if source.kind() == io::ErrorKind::NotADirectory =>
             {
@@ -183,7 +184,7 @@ impl RecipeFolder {
         }
     }
 
-    /// Uses this recipe where none is named.
+    /// Makes this recipe the default.
     pub fn set_default(&self, name: &PartName) -> Result<(), RecipeError> {
         self.read(name)?;
         self.make()?;
@@ -193,7 +194,7 @@ impl RecipeFolder {
         Ok(())
     }
 
-    /// The recipe that is used where none is named, read.
+    /// Reads the default recipe.
     fn read_default(&self) -> Result<RecipeFile, RecipeError> {
         let name = self.default_name()?;
         let recipe = PartName::new(&name)
@@ -205,7 +206,7 @@ impl RecipeFolder {
         })
     }
 
-    /// The file of a recipe that may be changed.
+    /// Path of the file of a recipe, unless it is the built-in one, which cannot be changed.
     fn changeable(&self, name: &PartName) -> Result<PathBuf, RecipeError> {
         if name.as_str() == BUILT_IN {
             return Err(RecipeError::BuiltIn);
@@ -220,8 +221,8 @@ impl RecipeFolder {
     }
 }
 
-/// The recipe of a name in this folder, or in a file: whatever cannot be a name is a path. Without either the one that
-/// is used by default; where the system has no folder for it, the program's own.
+/// Opens the recipe of this name in the folder, or the recipe file at this path; a text that cannot be a name is a
+/// path. Without either it opens the default recipe, or the built-in one if there is no folder.
 pub fn open_recipe(
     folder: Result<RecipeFolder, RecipeError>,
     given: Option<&str>,
@@ -341,7 +342,7 @@ mod tests {
         assert_eq!(default(), "shiny");
         folder.remove(&name("shiny")).expect("removed");
         assert_eq!(default(), BUILT_IN);
-        // Removed by hand, or damaged: nothing is inspected with other parameters than were chosen.
+        // If the default was removed by hand or is damaged, no other recipe is used in its place.
         for contents in ["glossy\n", "../glossy", "\u{0}"] {
             fs::write(folder.path().join(DEFAULT), contents).expect("written");
             let error = open_recipe(Ok(folder.clone()), None).expect_err(contents);
@@ -397,7 +398,7 @@ mod tests {
                 |folder| folder.save(&recipe("matt", 0.9), Replace::Yes).map(|_| ()),
                 &[],
             ),
-            // Under both names before it is under one.
+            // The recipe exists under both names before the old one is removed.
             (
                 |folder| folder.rename(&name("matt"), &name("silk")).map(|_| ()),
                 &[
@@ -405,7 +406,7 @@ mod tests {
                     "matt 0.5, silk 0.5, default silk",
                 ],
             ),
-            // Without its file the program's own is the default.
+            // The file is removed before the default changes; the order on disk may differ.
             (
                 |folder| folder.remove(&name("matt")),
                 &["matt 0.5, default built-in", "default matt"],
@@ -413,7 +414,7 @@ mod tests {
         ];
         let at = |folder: &Path| RecipeFolder::at(folder.join("recipes"));
         for (number, (change, between)) in changes.iter().enumerate() {
-            // The process that is to be killed knows which of them by its folder alone.
+            // The process to be killed recognises its change by its folder alone.
             let is_mine = |folder: &Path| folder.join(number.to_string()).exists();
             Writer {
                 test: TEST,

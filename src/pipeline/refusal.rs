@@ -1,6 +1,6 @@
-//! Why a scene was not accepted, whatever the reason: as the history keeps it and statistics count it.
+//! Why a scene was not accepted, as the history stores it and statistics count it.
 //!
-//! As JSON it is the object of the [`Rejection`] or the [`Unrecognisable`].
+//! Its JSON is that of the [`Rejection`] or the [`Unrecognisable`].
 
 use std::fmt;
 
@@ -21,7 +21,7 @@ use crate::{
 #[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Refusal {
-    /// The best guess is not accepted.
+    /// The best guess was rejected.
     #[error(transparent)]
     Rejected(#[from] Rejection),
     /// Nothing could be recognised.
@@ -29,7 +29,7 @@ pub enum Refusal {
     Unrecognisable(#[from] Unrecognisable),
 }
 
-/// Which [`Rejection`] or [`Unrecognisable`], without its figures.
+/// The kind of a [`Rejection`] or [`Unrecognisable`], without its figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[expect(missing_docs, reason = "the variants of both have them")]
@@ -67,21 +67,21 @@ pub enum RefusalKind {
 }
 
 impl RefusalKind {
-    /// The kind of this name; `None` of one that this program does not know.
+    /// The kind of this name; `None` if this version of the program does not know it.
     pub fn named(name: &str) -> Option<Self> {
         Self::deserialize(StrDeserializer::<Error>::new(name)).ok()
     }
 }
 
 impl fmt::Display for RefusalKind {
-    /// The name as in the JSON.
+    /// Writes the name as in the JSON.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.serialize(f)
     }
 }
 
 impl Refusal {
-    /// The same with other words for the parts, such as their titles.
+    /// Replaces the names of the parts, for instance by their titles.
     #[must_use]
     pub fn renamed(self, word_of: impl Fn(&str) -> String) -> Self {
         match self {
@@ -90,7 +90,7 @@ impl Refusal {
         }
     }
 
-    /// What refusals are counted by.
+    /// The kind, by which statistics count refusals.
     pub fn kind(&self) -> RefusalKind {
         match self {
             Self::Rejected(why) => match why {
@@ -158,7 +158,7 @@ mod tests {
         units::Metres,
     };
 
-    /// Every refusal.
+    /// A refusal of every kind.
     fn refusals() -> Vec<Refusal> {
         let rejected = rejections().into_iter().map(Refusal::Rejected);
         let fault = guarded(|| panic!("no ray at all")).expect_err("a panic");
@@ -182,7 +182,7 @@ mod tests {
             assert_eq!(RefusalKind::named(&kind.to_string()), Some(kind));
             kinds.insert(kind.to_string());
         }
-        // What serde expects in place of an unknown kind are all of them.
+        // serde's error for an unknown kind lists all kinds.
         let unknown = serde_json::from_str::<RefusalKind>("\"\"").expect_err("no kind");
         let unknown = unknown.to_string();
         let all: BTreeSet<String> = unknown
@@ -203,7 +203,7 @@ mod tests {
         assert_eq!(RefusalKind::named("bewitched"), None);
     }
 
-    /// Histories hold these: a name that changes makes them unreadable.
+    /// Histories store these names: they become unreadable if one changes.
     #[test]
     fn refusals_are_written_with_units_in_their_names() {
         let written = |why| to_value(Refusal::Rejected(why)).expect("written");

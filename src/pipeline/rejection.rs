@@ -1,6 +1,7 @@
 //! Why a part was not accepted, or nothing could be recognised, and what to do about it.
 //!
-//! As JSON each is an object with its `kind`: histories keep it, so a kind and its fields keep their names and units.
+//! In JSON each is an object with its `kind`. Histories store it, so a kind and its fields must keep their names and
+//! units.
 
 use super::{mirror::PUT_RIGHT, unsound::RANGE};
 use crate::{
@@ -29,7 +30,7 @@ pub enum Rejection {
         /// Least score.
         threshold: f64,
     },
-    /// Only a piece of it is seen, and that is too little.
+    /// Only a piece of it is in sight, and that is too little.
     #[error(
         "only a piece of {part} is in sight ({:.0} % of it hidden, {:.0} % beyond the picture); it scores {score:.2}, below the threshold of {threshold:.2}",
         hidden * 100.0,
@@ -47,7 +48,7 @@ pub enum Rejection {
         /// Share beyond the picture.
         outside: f64,
     },
-    /// It would be seen too little to be told from something else.
+    /// Too little of it would be in sight to tell it from something else.
     #[error("what may be {part} is hardly in sight: seen nearly edge-on, or cut off on most sides")]
     HardlySeen {
         /// Best match.
@@ -55,7 +56,7 @@ pub enum Rejection {
         /// Its score.
         score: f64,
     },
-    /// Of its type, but of another car model.
+    /// A part of the same type, but of another car model.
     #[error(
         "it is like {part}, but not the same: its surface is off by {relief}, its outline by {outline}, and {:.1} % of it is missing; another model, the pose is approximate",
         missing * 100.0
@@ -63,28 +64,27 @@ pub enum Rejection {
     AnotherModel {
         /// Best match.
         part: String,
-        /// Root mean square of how far patches of the surface are off.
+        /// Root mean square deviation of patches of the surface.
         #[serde(rename = "relief_m")]
         relief: Metres,
-        /// Root mean square of how far stretches of the outline are off.
+        /// Root mean square deviation of stretches of the outline.
         #[serde(rename = "outline_m")]
         outline: Metres,
-        /// Share of the reference that is not there, 0..1.
+        /// Share of the reference that is missing, 0..1.
         missing: f64,
     },
     /// Of its type, but of another make: its dimensions or its shape differ.
-    #[error(
-        "it is of the type of {part}, but not the enrolled one: another make, of other dimensions or another shape"
-    )]
+    #[error("it resembles {part}, but is of another make, with other dimensions or another shape")]
     AnotherMake {
-        /// The enrolled part of its type.
+        /// The enrolled part of the same type.
         part: String,
-        /// The probability that it is of this type, 0..1.
+        /// Probability that it is of this type, 0..1.
         likeness: f64,
     },
-    /// The piece in sight fits as well at another place of the same part.
+    /// The piece in sight fits nearly as well at another place of the same part.
     #[error(
-        "what is in sight of {part} fits almost equally well at another place of it (margin {margin:.2}, needed {threshold:.2})"
+        "the piece of {part} in sight fits almost equally well at another place of it (margin {margin:.2}, needed \
+         {threshold:.2})"
     )]
     AmbiguousPose {
         /// Best match.
@@ -94,20 +94,20 @@ pub enum Rejection {
         /// Least lead.
         threshold: f64,
     },
-    /// What is in sight fits as well at places beside this one.
+    /// What is in sight also fits with the part moved.
     #[error("the pose of {part} is unconstrained by what is in sight: {freedom}")]
     Unconstrained {
         /// Best match.
         part: String,
-        /// How it can move and still fit.
+        /// How the part can move and still fit.
         freedom: FreeMotion,
     },
-    /// The pose is not known exactly enough.
+    /// The pose is too uncertain.
     #[error("the pose of {part} is uncertain by {shift}, and {limit} is allowed")]
     Uncertain {
         /// Best match.
         part: String,
-        /// Bound of the shift's error, 95 %.
+        /// 95 % bound of the translation error.
         #[serde(rename = "shift_m")]
         shift: Metres,
         /// Largest bound that is accepted.
@@ -115,7 +115,7 @@ pub enum Rejection {
         limit: Metres,
     },
     /// Nothing enrolled is like it.
-    #[error("unknown: nothing enrolled is like it; the nearest, {nearest}, scores {score:.2}")]
+    #[error("unknown: no enrolled part is like it; the nearest, {nearest}, scores {score:.2}")]
     Unknown {
         /// Best match.
         nearest: String,
@@ -124,7 +124,7 @@ pub enum Rejection {
     },
     /// Its mirror image is enrolled.
     #[error(
-        "it looks like the mirror image of {part} (which scores {score:.2}): the part of the other side of the car"
+        "it looks like the mirror image of {part} (which scores {score:.2}): the part from the other side of the car"
     )]
     Mirrored {
         /// The part whose mirror image it looks like.
@@ -134,7 +134,8 @@ pub enum Rejection {
     },
     /// It is enrolled, and the image shows it mirrored.
     #[error(
-        "it fits {part} only as its mirror image (which scores {score:.2}), and {part} has no other side: left and right are probably exchanged in the image"
+        "it fits {part} only as its mirror image (which scores {score:.2}), and {part} has no other side: left and \
+         right are probably swapped in the image"
     )]
     MirroredImage {
         /// The part that the mirrored image shows.
@@ -156,7 +157,7 @@ pub enum Rejection {
         /// Least lead.
         threshold: f64,
     },
-    /// The paper's matcher was asked alone.
+    /// The paper's matcher ran alone, without a pose.
     #[error(
         "{part} is the nearest outline; the paper's matcher alone cannot tell it from an unknown part"
     )]
@@ -164,7 +165,7 @@ pub enum Rejection {
         /// Best match.
         part: String,
     },
-    /// It would be where no depth camera reads.
+    /// It lies outside the range of depth cameras.
     #[error(
         "what may be {part} is {:.2} m from the camera: depth cameras read from {} to {} m",
         depth.0,
@@ -174,39 +175,39 @@ pub enum Rejection {
     OutOfRange {
         /// Best match.
         part: String,
-        /// The middle one of its points' depths.
+        /// Median depth of its points.
         #[serde(rename = "depth_m")]
         depth: Metres,
     },
     /// The points are not in the space of a camera.
-    #[error("{:.1} % of the points lie behind the camera, so that it is not known where {part} is", share * 100.0)]
+    #[error("{:.1} % of the points lie behind the camera, so it is not known where {part} is", share * 100.0)]
     BehindCamera {
         /// Best match.
         part: String,
-        /// Share of the points.
+        /// Share of the scene's points.
         share: f64,
     },
-    /// The file has more in it than its header says.
+    /// The file holds more than its header says.
     #[error(
-        "{num} bytes follow the last point of the file: it is damaged, and what may be {part} with it"
+        "{num} bytes follow the last point of the file: it is damaged, and with it what may be {part}"
     )]
     SurplusBytes {
         /// Best match.
         part: String,
-        /// Bytes behind the last point.
+        /// Bytes after the last point.
         num: u64,
     },
     /// The pose could not be estimated.
     #[error("no pose was found: {0}")]
     NoPose(#[from] PoseError),
     /// It moves, or moved a moment ago.
-    #[error("{part} does not hang still yet")]
+    #[error("{part} is not hanging still yet")]
     NotSteady {
         /// Best match.
         part: String,
     },
     /// It hangs still, and too few frames were seen since.
-    #[error("{part} hangs still, and {num_frames} of {needed} frames were inspected since")]
+    #[error("{part} hangs still, but only {num_frames} of {needed} frames were inspected since")]
     FewFrames {
         /// Best match.
         part: String,
@@ -216,7 +217,7 @@ pub enum Rejection {
         needed: usize,
     },
     /// Frames of a scene that does not move say different things.
-    #[error("{num_agreeing} of {num_frames} frames accept {part}, {needed} are needed")]
+    #[error("{num_agreeing} of {num_frames} frames accept {part}, but {needed} are needed")]
     Undecided {
         /// The part that most frames name.
         part: String,
@@ -227,9 +228,9 @@ pub enum Rejection {
         /// Frames needed.
         needed: usize,
     },
-    /// Frames of a scene that does not move put the part in different places.
+    /// Frames of a still scene put the part in different places.
     #[error(
-        "the poses of {part} lie together in {num_agreeing} of {num_frames} frames, {needed} are needed"
+        "the poses of {part} agree in {num_agreeing} of {num_frames} frames, but {needed} are needed"
     )]
     PosesApart {
         /// The part.
@@ -244,7 +245,7 @@ pub enum Rejection {
 }
 
 impl Rejection {
-    /// The same with other words for the parts, such as their titles.
+    /// Replaces the names of the parts, for instance by their titles.
     #[must_use]
     pub fn renamed(mut self, word_of: impl Fn(&str) -> String) -> Self {
         let [first, second] = self.names_mut();
@@ -288,22 +289,22 @@ pub enum Unrecognisable {
     /// Nothing is enrolled.
     #[error("no part is enrolled in the library")]
     EmptyLibrary,
-    /// A mistake in the program, met at this scene.
+    /// The program failed at this scene.
     #[error(transparent)]
     Fault(Fault),
-    /// Segmentation left nothing.
+    /// Segmentation found no part.
     #[error(transparent)]
     #[serde(untagged)]
     NoPart(#[from] NoPart),
-    /// No projection.
+    /// The projection failed.
     #[error(transparent)]
     #[serde(untagged)]
     Project(#[from] ProjectError),
-    /// No contour.
+    /// No contour was found.
     #[error(transparent)]
     #[serde(untagged)]
     Contour(#[from] ContourError),
-    /// No signature.
+    /// The signature could not be computed.
     #[error(transparent)]
     #[serde(untagged)]
     Signature(#[from] SignatureError),
@@ -313,10 +314,10 @@ impl Advice for Rejection {
     fn advice(&self) -> String {
         match self {
             Self::LowScore { .. } => {
-                "Check that this part is enrolled, that nothing covers it, and capture again".into()
+                "Check that this part is enrolled and that nothing covers it, then capture again".into()
             }
             Self::SmallMargin { .. } => {
-                "Turn the part so that its face looks at the camera and capture again; if both names stand for the same part, \
+                "Turn the part to face the camera and capture again; if both names stand for the same part, \
                  remove one of them from the library"
                     .into()
             }
@@ -334,7 +335,7 @@ impl Advice for Rejection {
                 format!("{what} and capture again")
             }
             Self::HardlySeen { .. } => {
-                "Turn the part so that its face looks at the camera, all of it inside the picture, and capture again".into()
+                "Turn the part to face the camera, all of it inside the picture, and capture again".into()
             }
             Self::AmbiguousPose { .. } | Self::Unconstrained { .. } | Self::Uncertain { .. } => {
                 "Move the camera so that it sees a corner or another edge of the part, and capture again".into()
@@ -363,10 +364,12 @@ impl Advice for Rejection {
             Self::NotSteady { .. } => "Let the part hang still for a second".into(),
             Self::FewFrames { .. } => "Wait a moment".into(),
             Self::Undecided { .. } => {
-                "Wait a moment; if it stays so, turn the part's face to the camera and take away what stands in front of it".into()
+                "Wait a moment; if it persists, turn the part's face to the camera and take away what stands \
+                 in front of it".into()
             }
             Self::PosesApart { .. } => {
-                "Hang the part so that nothing can swing, and wait a moment; if it stays so, turn its face to the camera".into()
+                "Hang the part so that nothing can swing, and wait a moment; if it persists, turn its face to \
+                 the camera".into()
             }
         }
     }

@@ -1,9 +1,9 @@
 //! The inspection of a scan: several frames, one verdict, one pose.
 //!
-//! Every frame is inspected by itself. What each finds is carried into the base space, refined to the points and edges
-//! that all frames see of the part, and held against all frames: a point of the reference is there if any frame sees it,
-//! missing if a frame looks through it and none sees it, hidden or outside only if it is so for all. The score and the
-//! verdict follow from this evidence as those of a single frame.
+//! Each frame is inspected by itself. The poses found are transformed to the base frame, refined to the points and
+//! edges of the part from all frames, and checked against all frames: a point of the reference is present if any
+//! frame sees it, missing if a frame looks through it and none sees it, hidden or outside only if it is so for all.
+//! Score and verdict follow from this evidence as for a single frame.
 
 use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
@@ -33,30 +33,30 @@ use crate::{
     units::Metres,
 };
 
-/// What the inspection of a scan found.
+/// The result of inspecting a scan.
 #[derive(Clone, Debug)]
 pub struct ScanInspection {
-    /// The whole as an inspection of the first frame that was used: ranking, pose and verdict are those of all frames.
+    /// The result as an inspection of the first used frame; ranking, pose and verdict rest on all frames.
     pub inspection: Inspection,
-    /// The number of that frame among all shots.
+    /// Number of that frame's shot among all shots.
     pub first: usize,
-    /// Where the part is: takes part space to the robot's base.
+    /// Pose of the part in the robot's base frame.
     pub base_from_part: Option<RigidTransform>,
-    /// Each frame's own inspection, by the number of its shot.
+    /// Each frame's own inspection, with the number of its shot.
     pub frames: Vec<(usize, Inspection)>,
 }
 
-/// Points of the part that references are refined to.
+/// Points of the part, approximately, that references are refined to.
 const NUM_SURFACE: usize = 1500;
-/// Edge points of each frame.
+/// Edge points of each frame, approximately.
 const NUM_EDGES: usize = 120;
-/// An edge point of a frame further than this from the fused part is that of something else, metres.
+/// An edge point further than this from the fused part belongs to something else, metres.
 const NEAR_PART: f32 = 0.015;
-/// References of a frame whose poses are held against the others.
+/// First entries of a frame's ranking whose poses the joint fit starts from.
 const NUM_ENTRIES: usize = 6;
-/// Points of a reference that are looked for in all frames.
+/// Points of a reference, approximately, that are looked for in all frames.
 const NUM_LOOKED_FOR: usize = 2000;
-/// A surface seen at a flatter angle than this (cosine) is often lost by the camera, so its absence says nothing.
+/// A camera often loses a surface seen at a flatter angle than this (cosine), so its absence says nothing.
 const LEAST_FACING: f64 = 0.3;
 
 /// Recognises the part of a scan from all its frames together.
@@ -111,7 +111,7 @@ pub fn run_scan(
         match &best.pose {
             Some(pose) => Some(Ok(pose.clone())),
             None if is_flat => Some(Err(PoseError::NoReferenceCloud)),
-            // Its score was too low for a pose to be looked for, or no frame found one.
+            // Its score was too low for a pose search, or no frame found a pose.
             None => None,
         }
     });
@@ -138,7 +138,7 @@ fn nothing_in_common(recipe: &Recipe) -> NoPart {
     }
 }
 
-/// What all frames see of the part; `None` without enough of it.
+/// The part as all frames see it; `None` if they see too little of it.
 fn joint_part(scan: &Scan, frames: &[(usize, Inspection)], recipe: &Recipe) -> Option<JointPart> {
     let fused = scan.cloud.part();
     let points = &fused.cloud.points;
@@ -193,10 +193,10 @@ fn joint_part(scan: &Scan, frames: &[(usize, Inspection)], recipe: &Recipe) -> O
     })
 }
 
-/// What the score of one frame is worth where no pose fits all of them.
+/// Factor on the score of a single frame where no pose fits all frames.
 const NO_JOINT_FIT: f64 = 0.3;
 
-/// One reference held against all frames; `None` if no frame ranked it.
+/// Checks one reference against all frames; `None` if no frame ranked it.
 fn entry_of(
     scan: &Scan,
     frames: &[(usize, Inspection)],
@@ -260,7 +260,7 @@ fn entry_of(
     })
 }
 
-/// What the frames see where a point of a reference should be, counted over its points.
+/// Numbers of points of a reference, by what the frames see in their places.
 #[derive(Default)]
 struct VisibilityCounts {
     confirmed: f64,
@@ -270,7 +270,7 @@ struct VisibilityCounts {
     outside: f64,
 }
 
-/// The shots that were used, each with the pose of the part before its camera.
+/// The used shots, each with the pose of the part in its camera frame.
 fn shots_of<'a>(
     scan: &'a Scan,
     base_from_part: &RigidTransform,
@@ -280,14 +280,14 @@ fn shots_of<'a>(
         .collect()
 }
 
-/// What all shots together see where a point of a reference should be; `None` where it faces away from all cameras.
+/// What all shots together see in the place of a reference point; `None` if it faces away from all cameras.
 fn seen_together(
     shots: &[(&ScannedShot, RigidTransform)],
     point: &Point3<f32>,
     normal: &Vector3<f32>,
     tolerance: Metres,
 ) -> Option<Visibility> {
-    // What says more about the point comes first.
+    // In order of how much it says about the point.
     let rank = |look: &Visibility| match look {
         Visibility::Here(_) => 0,
         Visibility::Through => 1,
@@ -312,8 +312,8 @@ fn seen_together(
     looks.min_by_key(rank)
 }
 
-/// The places of the points of a reference at its pose that no shot shows: hidden, outside every picture, without a
-/// reading, or facing away from all cameras.
+/// Indices of the reference points that no shot shows at this pose: hidden, outside every picture, without a reading,
+/// or facing away from all cameras.
 pub fn unseen_points(
     scan: &Scan,
     reference: &Reference,
@@ -333,8 +333,8 @@ pub fn unseen_points(
         .collect()
 }
 
-/// The evidence of all frames for a reference at its pose; what only a single frame can tell is that of the frame that it
-/// fits best.
+/// The evidence of all frames for a reference at its pose. Figures that need a single frame are those of the frame
+/// with the best score.
 fn evidence(
     scan: &Scan,
     reference: &Reference,
@@ -384,7 +384,7 @@ fn evidence(
         outline_m: fit.outline_m,
         outline_shift_m: None,
         outline_median_m: None,
-        // Each frame may cut the part; together they see what is not outside.
+        // A single frame may cut the part off; for all frames together, `outside` covers it.
         cut: 0.0,
         facing: fit.facing,
         ..*of_frame

@@ -1,4 +1,4 @@
-//! What the stages after segmentation make of one surface of a scene.
+//! The stages after segmentation, for one surface of a scene.
 
 use super::{
     Inspection, PoseChoice, Recipe,
@@ -21,7 +21,7 @@ use crate::{
     },
 };
 
-/// What the stages after segmentation make of one surface.
+/// Results of the stages after segmentation, for one surface.
 #[derive(Default)]
 pub(super) struct SurfaceResult {
     plane: Option<PlaneImage>,
@@ -57,7 +57,7 @@ impl SurfaceResult {
     }
 }
 
-/// The stages after segmentation, on one surface, of which a score below `least_score` is of no use.
+/// Runs the stages after segmentation on one surface. A score below `least_score` is of no use to the caller.
 pub(super) fn inspect_surface(
     part: &SegmentedPart,
     scene: &SceneCloud,
@@ -83,7 +83,7 @@ pub(super) fn inspect_surface(
     Ok(surface)
 }
 
-/// Each stage leaves its result in the surface.
+/// Runs the stages and stores the result of each in `inspection`.
 fn recognise(
     inspection: &mut SurfaceResult,
     part: &SegmentedPart,
@@ -131,7 +131,7 @@ fn recognise(
             if pose == Err(PoseError::Cancelled) {
                 return Err(Cancelled);
             }
-            // The order is the matcher's; what the first is worth shows at its pose.
+            // The matcher decides the order; the score of the first is the fit at its pose.
             let mut confirmed = ConfirmedRanking::unexamined(&ranking);
             for entry in &mut confirmed.entries {
                 entry.score = 0.0;
@@ -145,7 +145,7 @@ fn recognise(
         PoseChoice::By(PoseMethod::Global) => {
             let mut params = recipe.confirm.clone();
             if recipe.rank.matcher == Matcher::Paper {
-                // The paper's choice stands: only that one is put in its place.
+                // Keep the choice of the paper's matcher: place only that reference.
                 params.num_references = 1;
                 first.placements = place(&query, &references[first.reference], &recipe.rank);
             }

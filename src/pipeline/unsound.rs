@@ -1,16 +1,16 @@
-//! What forbids to act on a verdict however well a part fits: the scene is not what a depth camera sees.
+//! Refuses parts, however well they fit, in scenes that no depth camera can have seen.
 
 use super::{Inspection, rejection::Rejection, verdict::Verdict};
 use crate::{stages::scene::SceneCloud, units::Metres};
 
-/// From where to where depth cameras read. A part elsewhere comes of a wrong unit or of damaged numbers.
+/// Range of depth cameras. A part outside it results from a wrong unit or damaged numbers.
 pub(super) const RANGE: [Metres; 2] = [Metres(0.1), Metres(20.0)];
 /// Share of a part's points that may lie out of range.
 const MAX_OUTSIDE: f64 = 0.01;
-/// Share of a scene's points that may lie behind the camera: single wild readings.
+/// Share of a scene's points that may lie behind the camera, as stray readings do.
 const MAX_BEHIND: f64 = 0.001;
 
-/// Refuses a part that was accepted in a scene that cannot be right.
+/// Rejects an accepted part if its scene cannot be right.
 pub(super) fn refuse_unsound(inspection: &mut Inspection, scene: &SceneCloud) {
     let Ok(found) = &inspection.segmentation.part else {
         return;

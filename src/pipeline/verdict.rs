@@ -1,4 +1,4 @@
-//! The verdict on a scene, and how the evidence comes to it.
+//! The verdict on a scene, and how it follows from the evidence.
 
 use super::{
     Recipe,
@@ -15,31 +15,32 @@ use crate::{
     units::Metres,
 };
 
-/// When a verdict counts.
+/// Limits for accepting a verdict.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct AcceptParams {
     /// Least score, 0..1. Raising it turns wrong verdicts into rejections, and some right ones too.
     pub min_score: f64,
     /// Least lead over the next part of another name, and over another pose of the same part, 0..1. The lead is the
-    /// difference of their probabilities where only one of the two can be right: 0.6 is four times as probable.
+    /// difference of their probabilities, given that only one of the two can be right: 0.6 means four times as
+    /// probable.
     pub min_margin: f64,
-    /// A best guess below this score, 0..1, is not named: what hangs there is more likely unknown. Raising it names
-    /// fewer parts that are half hidden.
+    /// A best guess that scores below this, 0..1, is reported as unknown. Raising it names fewer parts that are half
+    /// hidden.
     pub unknown_below: f64,
-    /// A part that is not an enrolled one is named as another make of it from this likeness on, 0..1. Raising it calls
-    /// more of them unknown, and fewer other things by a part's name.
+    /// Least likeness, 0..1, at which a part that is not enrolled is reported as another make of an enrolled one.
+    /// Raising it reports more such parts as unknown, and fewer other things as parts.
     pub min_likeness: f64,
     /// How far the surface may bulge or sink from the reference's, 0.5..20 mm root mean square beyond the noise; more
-    /// is another model of the part. Raising it accepts other models too, at a pose that is only about right.
+    /// is another model of the part. Raising it accepts other models too, with an approximate pose.
     pub max_relief: Metres,
-    /// Share of the reference that the camera may look past, 0.001..0.1; more is another model of the part, of another
-    /// size. Raising it accepts other models too, at a pose that is only about right.
+    /// Share of the reference that may be missing because the camera sees past it, 0.001..0.1; more is another model
+    /// of the part, of another size. Raising it accepts other models too, with an approximate pose.
     pub max_missing: f64,
-    /// How far stretches of the outline may lie off the reference's, 2..20 mm root mean square; more is another model of
-    /// the part. Raising it accepts other models too, at a pose that is only about right.
+    /// How far stretches of the outline may lie off the reference's, 2..20 mm root mean square; more is another model
+    /// of the part. Raising it accepts other models too, with an approximate pose.
     pub max_outline_shift: Metres,
-    /// Largest bound of the pose's shift, 2..50 mm. Raising it accepts poses that are known less exactly.
+    /// Largest 95 % bound of the translation error, 2..50 mm. Raising it accepts less certain poses.
     pub max_uncertainty: Metres,
 }
 
@@ -61,25 +62,25 @@ impl Default for AcceptParams {
 /// The verdict on a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// There is a part, and this is the best guess.
+    /// A surface was found; this is the best guess for it.
     Part {
         /// Name of the best match.
         part: String,
         /// Its score, 0..1.
         score: f64,
-        /// Lead over the next part, 0..1: the difference of their probabilities where only one of them can hang there.
+        /// Lead over the next part, 0..1: the difference of their probabilities, given that only one can hang there.
         margin: f64,
-        /// `None` when accepted, else why not.
+        /// Why it is not accepted; `None` if it is.
         rejected: Option<Rejection>,
-        /// True if it may be another model of the part, as far as its shape tells: its pose is then only about right.
+        /// True if by its shape it may be another model of the part, so that its pose is only approximate.
         is_approximate: bool,
     },
-    /// Nothing to recognise.
+    /// Nothing could be recognised.
     NoPart(Unrecognisable),
 }
 
 impl Verdict {
-    /// Name of the best guess, accepted or not; `None` where there is no part.
+    /// Name of the best guess, accepted or not; `None` if there is no part.
     pub fn guess(&self) -> Option<&str> {
         match self {
             Self::Part { part, .. } => Some(part),
@@ -87,7 +88,7 @@ impl Verdict {
         }
     }
 
-    /// The best guess's score and its lead over the next.
+    /// Score and margin of the best guess.
     pub fn score(&self) -> Option<[f64; 2]> {
         match self {
             Self::Part { score, margin, .. } => Some([*score, *margin]),
@@ -95,13 +96,13 @@ impl Verdict {
         }
     }
 
-    /// Why it is not accepted, and what to do; `None` if it is.
+    /// Why the verdict is not accepted, and what to do; `None` if it is.
     pub fn complaint(&self) -> Option<[String; 2]> {
         let why = self.refusal()?;
         Some([why.to_string(), why.advice()])
     }
 
-    /// Why it is not accepted, with its figures; `None` if it is.
+    /// Why the verdict is not accepted, with figures; `None` if it is.
     pub fn refusal(&self) -> Option<Refusal> {
         match self {
             Self::Part { rejected, .. } => rejected.clone().map(Refusal::Rejected),
@@ -109,7 +110,7 @@ impl Verdict {
         }
     }
 
-    /// Why the best guess is not accepted; `None` also where there is no part.
+    /// Why the best guess is not accepted; `None` also if there is no part.
     pub fn rejected(&self) -> Option<&Rejection> {
         match self {
             Self::Part { rejected, .. } => rejected.as_ref(),
@@ -117,7 +118,7 @@ impl Verdict {
         }
     }
 
-    /// True if something hangs there that is nothing enrolled.
+    /// True if what hangs there is not enrolled, or fits only as a mirror image.
     pub fn is_unknown(&self) -> bool {
         matches!(self.rejected(), Some(Rejection::Unknown { .. })) || self.is_mirrored()
     }
@@ -130,7 +131,7 @@ impl Verdict {
         )
     }
 
-    /// True if it is like an enrolled part without being it: of another model or make, or its mirror image.
+    /// True if it resembles an enrolled part: another model or make of it, or its mirror image.
     pub(super) fn is_likeness(&self) -> bool {
         matches!(
             self.rejected(),
@@ -138,7 +139,7 @@ impl Verdict {
         ) || self.is_mirrored()
     }
 
-    /// True if it may be another model of the part, so that the pose is only about right.
+    /// True if it may be another model of the part, so that the pose is only approximate.
     pub fn is_approximate(&self) -> bool {
         matches!(
             self,
@@ -155,7 +156,7 @@ impl Verdict {
     }
 }
 
-/// What the results of all stages come to.
+/// Derives the verdict from the ranking and the pose.
 pub(super) fn verdict(
     ranking: &ConfirmedRanking,
     pose: Option<&Result<PoseEstimate, PoseError>>,
@@ -169,7 +170,7 @@ pub(super) fn verdict(
     let margin = lead(best.score, next.map_or(0.0, |n| n.score));
     let unlike = best.evidence.map_or(0.0, |e| model_deviation(&e, accept));
     let other_model = best.evidence.filter(|_| unlike > 1.0);
-    // The other methods' bounds do without the outline, and are wider than need be.
+    // The bounds of the other methods ignore the outline and are wider than necessary.
     let uncertainty = pose
         .and_then(|pose| pose.as_ref().ok())
         .filter(|pose| pose.method == PoseMethod::Global)
@@ -223,23 +224,24 @@ pub(super) fn verdict(
     }
 }
 
-/// How much more probable the first of two is if only one of them can be right, from the probability of each alone.
+/// Difference of the probabilities of two candidates of which only one can be right, from the probability of each
+/// alone.
 fn lead(score: f64, next: f64) -> f64 {
     let odds = |score: f64| score / (1.0 - score).max(f64::EPSILON);
     let (first, second) = (odds(score), odds(next));
     (first - second) / (1.0 + first + second)
 }
 
-/// How much speaks for a part of the same type that is not this one; above 1 it is one.
+/// Largest deviation from the reference as a share of its limit; above 1 it is another model of the part.
 pub(super) fn model_deviation(evidence: &Evidence, accept: &AcceptParams) -> f64 {
     let outline = evidence.outline_shift_m.unwrap_or(0.0) / accept.max_outline_shift.0;
     let surface = surface_deviations(evidence, accept);
     surface.into_iter().fold(outline, f64::max)
 }
 
-/// Relief and missing surface as shares of what another model is refused at.
+/// Relief and missing surface as shares of their limits.
 fn surface_deviations(evidence: &Evidence, accept: &AcceptParams) -> [f64; 2] {
-    // The rim is known to some millimetres only, and the smaller the piece, the more of it is rim.
+    // The rim is known to a few millimetres only, and a smaller piece has more rim for its area.
     let in_sight = (1.0 - evidence.outside) * (1.0 - evidence.hidden);
     [
         evidence.relief_m / accept.max_relief.0,
@@ -247,17 +249,17 @@ fn surface_deviations(evidence: &Evidence, accept: &AcceptParams) -> [f64; 2] {
     ]
 }
 
-/// From this mean of the shares on, a pose is called approximate: three in five of the other models that are accepted
-/// reach it, of the enrolled parts one in nine real frames and one in a hundred simulated ones.
+/// Mean share above which a pose is approximate. Three in five of the other models that are accepted exceed it; of
+/// the enrolled parts, one in nine real frames and one in a hundred simulated ones.
 const APPROXIMATE_FROM: f64 = 0.5;
-/// Limit of the median shift of the outline, as a share of that of the root mean square: the median is some 2 mm on
-/// enrolled parts, and 4 mm on other models.
+/// Limit of the outline's median shift, as a share of the limit of its root mean square. The median is about 2 mm for
+/// enrolled parts and 4 mm for other models.
 const MEDIAN_LIMIT: f64 = 0.3;
 
-/// True if an accepted part may still be another model: on the mean, relief, missing surface and outline come to more
-/// than half of their limits.
+/// True if an accepted part may still be another model: relief, missing surface and outline exceed half of their
+/// limits on average.
 ///
-/// One of them alone says little. On real frames single stretches of the outline are off by centimetres and up to 1 % of
+/// A single one says little. In real frames, single stretches of the outline are off by centimetres and up to 1 % of
 /// the surface is missing at the right pose; another model differs all round, and in more than one way.
 fn may_be_another_model(evidence: &Evidence, accept: &AcceptParams) -> bool {
     let median_limit = MEDIAN_LIMIT * accept.max_outline_shift.0;
@@ -267,12 +269,12 @@ fn may_be_another_model(evidence: &Evidence, accept: &AcceptParams) -> bool {
     shares.iter().sum::<f64>() > APPROXIMATE_FROM * shares.len() as f64
 }
 
-/// Of what is hardly seen, more than this score is a good fit.
+/// Score above which a part that is hardly seen fits well enough to be named.
 const WORTH_NAMING: f64 = 0.3;
-/// A piece is one of which at least this share is hidden or beyond the picture.
+/// Share hidden or beyond the picture from which a part counts as a piece.
 const PIECE: f64 = 0.05;
 
-/// Why a score is too low: nobody knows the part, or too little of it is seen.
+/// The reason for a score that is too low: the part is not enrolled, or too little of it is in sight.
 fn too_low(best: &ConfirmedMatch, accept: &AcceptParams) -> Rejection {
     let (part, score, threshold) = (best.part.clone(), best.score, accept.min_score);
     match best.evidence {
@@ -314,16 +316,16 @@ mod tests {
 
     #[test]
     fn a_lead_is_the_difference_of_probabilities_of_which_one_is_right() {
-        // Alone it is the score.
+        // Without a rival the lead is the score.
         assert!((lead(0.97, 0.0) - 0.97).abs() < 1e-12);
         assert!(lead(0.9, 0.9).abs() < 1e-12);
-        // Odds of 32 and 9 to 1: three times in four it is the first.
+        // Odds of 32 and 9 to 1: the first is right three times in four.
         assert!((lead(0.97, 0.9) - (32.333 - 9.0) / 42.333).abs() < 1e-4);
         assert!(lead(1.0, 0.99) > 0.99);
         assert!(lead(0.5, 0.9) < 0.0);
     }
 
-    /// A good fit of a whole part but for these shares of the limits: relief, missing, and median of the outline.
+    /// A good fit of a whole part, with these shares of the limits: relief, missing, and median of the outline.
     fn evidence(relief: f64, missing: f64, median: Option<f64>) -> Evidence {
         let accept = AcceptParams::default();
         let limit = accept.max_outline_shift.0;

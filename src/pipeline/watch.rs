@@ -1,11 +1,11 @@
-//! Following an inspection: its stages, their times, and how to stop it.
+//! Progress, times and cancellation of an inspection.
 
 use std::{
     cell::Cell,
     time::{Duration, Instant},
 };
 
-/// How long each stage took, over all surfaces of the scene that were looked at.
+/// How long each stage took, over all surfaces of the scene that were tried.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timings {
     /// Segmentation.
@@ -18,13 +18,13 @@ pub struct Timings {
     pub signature: Duration,
     /// Ranking.
     pub rank: Duration,
-    /// Pose, confirmation of the best few included.
+    /// Confirmation and pose.
     pub pose: Duration,
     /// From the scene's points to the verdict.
     pub total: Duration,
 }
 
-/// The stages, as progress is reported.
+/// A stage of an inspection, as reported to a [`ProgressObserver`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Segmentation.
@@ -41,27 +41,27 @@ pub enum Stage {
     Pose,
 }
 
-/// How a caller follows and stops an inspection.
+/// Follows an inspection and can cancel it.
 pub trait ProgressObserver {
-    /// A stage begins.
+    /// Called when a stage begins.
     fn begins(&self, _stage: Stage) {}
-    /// True when the caller has lost interest.
+    /// Returns true once the inspection should stop.
     fn is_cancelled(&self) -> bool {
         false
     }
 }
 
-/// Nobody is watching.
+/// An observer that ignores progress and never cancels.
 pub struct Unwatched;
 
 impl ProgressObserver for Unwatched {}
 
-/// The caller cancelled.
+/// The caller cancelled the inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the inspection was cancelled")]
 pub struct Cancelled;
 
-/// Times stages, tells the watch about them and stops between them when cancelled.
+/// Times stages, reports them to the observer and stops between them when cancelled.
 pub(super) struct StageClock<'a> {
     watch: &'a dyn ProgressObserver,
     started: Instant,

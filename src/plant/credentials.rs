@@ -38,7 +38,7 @@ pub enum CredentialError {
         path: String,
     },
     /// The system's certificate store is empty.
-    #[error("this system has no certificates by which a server could be known")]
+    #[error("this system has no certificates to verify a server with")]
     NoSystemCertificates,
     /// The TLS library rejects the configuration.
     #[error("encrypted connections cannot be prepared: {source}")]
@@ -52,7 +52,7 @@ impl Advice for CredentialError {
     fn advice(&self) -> String {
         match self {
             Self::File(error) => error.advice(),
-            Self::NoPassword { .. } => "Write the password into the file's first line".into(),
+            Self::NoPassword { .. } => "Write the password in the file's first line".into(),
             Self::NoCertificate { .. } => {
                 "Give the certificate of the authority that signed the server's, as PEM".into()
             }

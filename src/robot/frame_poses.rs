@@ -104,7 +104,7 @@ pub enum FramePosesError {
     },
     /// A flange's pose was given without a calibration.
     #[error(
-        "{frame}: the pose is the flange's, and no calibration says where the camera sits on it"
+        "{frame}: the pose is the flange's, but no calibration says where the camera sits on it"
     )]
     NoCalibration {
         /// The frame.
@@ -112,7 +112,7 @@ pub enum FramePosesError {
     },
     /// A flange's pose was given, but the calibration is that of a fixed camera.
     #[error(
-        "{frame}: the pose is the flange's, and by the calibration the camera stands in the cell"
+        "{frame}: the pose is the flange's, but according to the calibration the camera stands in the cell"
     )]
     CameraIsFixed {
         /// The frame.
@@ -124,10 +124,10 @@ pub enum FramePosesError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EntryProblem {
     /// None of the known fields.
-    #[error("no world_from_camera and no base_from_flange")]
+    #[error("neither world_from_camera nor base_from_flange")]
     NoPose,
     /// Both the camera's and the flange's pose, which may contradict each other.
-    #[error("both the camera's and the flange's pose")]
+    #[error("both a camera pose and a flange pose")]
     TwoPoses,
     /// Not 16 numbers.
     #[error("{found} numbers, expected the 16 of a 4×4 matrix")]
@@ -136,7 +136,7 @@ pub enum EntryProblem {
         found: usize,
     },
     /// The numbers are written column by column.
-    #[error("the matrix ends in its shift: it is written column by column, expected row by row")]
+    #[error("the matrix ends with its shift: it is written column by column, expected row by row")]
     ColumnByColumn,
     /// The matrix also stretches or mirrors.
     #[error("the matrix is not rigid: it stretches, mirrors or does not end in 0 0 0 1")]
@@ -363,7 +363,7 @@ mod tests {
         let mirrored = r#"{"world_from_camera": [-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}"#;
         let millimetres = r#"{"world_from_camera": [1,0,0,900, 0,1,0,0, 0,0,1,0, 0,0,0,1]}"#;
         for (entry, expected) in [
-            ("{}", "no world_from_camera"),
+            ("{}", "neither world_from_camera"),
             (r#"{"world_from_camera": [1,2,3]}"#, "3 numbers"),
             (column_by_column, "column by column"),
             (mirrored, "not rigid"),

@@ -53,15 +53,13 @@ pub enum ScanFramesError {
     #[error(transparent)]
     Frames(#[from] CaptureError),
     /// Neither the frames nor a file beside them have poses.
-    #[error(
-        "no poses: neither the frames nor a {FRAME_POSES} beside them say where the camera was"
-    )]
+    #[error("no poses: neither the frames nor a {FRAME_POSES} beside them give the camera's poses")]
     NoPoses,
     /// Poses are missing or unusable.
     #[error(transparent)]
     Poses(#[from] FramePosesError),
     /// The poses are the flange's, and the calibration cannot be read.
-    #[error("the poses are the flange's, and the calibration cannot be used: {0}")]
+    #[error("the poses are the flange's, but the calibration cannot be used: {0}")]
     Calibration(#[from] CalibrationError),
     /// The caller cancelled.
     #[error("reading the frames was cancelled")]

@@ -16,7 +16,7 @@ pub struct WrittenPose {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WrittenPoseError {
     /// The first word is not the name of a convention.
-    #[error("no convention is called {name:?}")]
+    #[error("no convention is named {name:?}")]
     NoSuchConvention {
         /// The first word.
         name: String,

@@ -22,7 +22,7 @@ pub enum ScanError {
     },
     /// A cloud has no rows and columns.
     #[error(
-        "{name}: the points have no rows and columns, so what the camera looked past is not known"
+        "{name}: the points have no rows and columns, so it is not known what the camera saw as empty"
     )]
     NoPicture {
         /// The name of the frame.
@@ -58,7 +58,7 @@ impl Advice for ScanError {
                 "Add frames from other sides, or use the one frame without --scan".into()
             }
             Self::TooFewShots { .. } => "Give the folder that holds the frames".into(),
-            Self::TooManyShots { .. } => "Leave out frames that show what others show".into(),
+            Self::TooManyShots { .. } => "Leave out frames that show the same as others".into(),
             Self::NoPicture { .. } => {
                 "Record depth images, or clouds that keep the camera's rows and columns (organised PCD)".into()
             }

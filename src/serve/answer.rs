@@ -345,11 +345,11 @@ impl Answer {
         let step = usize::try_from(point).ok().and_then(|i| path.get(i - 1));
         let Some(step) = step else {
             self.verdict = VerdictCode::BadRequest;
-            let what = format!("point {point} of a path of {}", path.len());
+            let what = format!("there is no point {point} in a path of {}", path.len());
             let advice = if path.is_empty() {
                 "Store a path: partsight library path NAME path.csv, and start the server again"
             } else {
-                "Ask for the points from 1 to the number of points that PATH answers"
+                "Ask for points from 1 to the number of points in PATH's answer"
             };
             self.trouble = Trouble {
                 reason: "no_such_point".into(),

@@ -129,7 +129,7 @@ pub enum NoFrame {
     #[error("the source has ended")]
     Ended,
     /// No frame arrived in time.
-    #[error("no frame came within {} s of the trigger", waited.as_secs_f64())]
+    #[error("no frame arrived within {} s of the trigger", waited.as_secs_f64())]
     Late {
         /// How long the trigger waited.
         waited: Duration,
@@ -151,7 +151,7 @@ pub enum NoFrame {
         ahead: Duration,
     },
     /// The service is ending.
-    #[error("the service ends")]
+    #[error("the service is stopping")]
     Stopping,
 }
 
@@ -177,12 +177,12 @@ impl Advice for NoFrame {
                 error.advice()
             }
             Self::ClockAhead { .. } => {
-                "Set both clocks by the same time server: the age of a file cannot be known otherwise"
+                "Set both clocks from the same time server: otherwise the age of a file is not known"
                     .into()
             }
-            Self::Ended => "TRIGGER again: the source is opened anew".into(),
+            Self::Ended => "TRIGGER again: the source is being reopened".into(),
             Self::Late { .. } => {
-                "Check that the camera gives frames; a slow one needs a longer --frame-timeout"
+                "Check that the camera delivers frames; a slow one needs a longer --frame-timeout"
                     .into()
             }
             Self::Stopping => "Connect again once the service is running".into(),
@@ -457,7 +457,7 @@ mod tests {
             }
         };
         assert_eq!(why.reason(), "camera_lost");
-        assert!(why.to_string().contains("not there") && !why.advice().is_empty());
+        assert!(why.to_string().contains("does not exist") && !why.advice().is_empty());
         let status = camera.status();
         assert_eq!(status.state, CameraState::Lost);
         assert!(status.trouble.expect("why").message.contains("to do"));

@@ -26,31 +26,31 @@ pub struct ListenAddress {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ListenError {
     /// The text is not of the form `PROTOCOL=ADDRESS`.
-    #[error("{text:?} is no protocol and port")]
+    #[error("{text:?} is not a protocol and port")]
     Unreadable {
         /// The text as given.
         text: String,
     },
     /// The word before the equals sign is not a protocol.
-    #[error("{found:?} is no protocol, expected one of {}", Protocol::ALL.map(Protocol::name).join(", "))]
+    #[error("{found:?} is not a protocol, expected one of {}", Protocol::ALL.map(Protocol::name).join(", "))]
     UnknownProtocol {
         /// The word as given.
         found: String,
     },
     /// The text after the equals sign is not an address.
-    #[error("{found:?} is no port, and no IP address with a port")]
+    #[error("{found:?} is neither a port nor an IP address with a port")]
     NoAddress {
         /// The text as given.
         found: String,
     },
     /// The protocol does not fix the convention, and none was chosen.
-    #[error("{} does not say in which numbers the robot expects a pose", protocol.name())]
+    #[error("{} has no convention of its own for poses, and none is chosen", protocol.name())]
     NoConvention {
         /// The protocol that needs a convention.
         protocol: Protocol,
     },
     /// The convention has more numbers than a binary frame can hold.
-    #[error("{} has {} numbers, a frame of {} has room for {}", convention.title(), convention.names().len(), protocol.name(), MAX_NUMBERS)]
+    #[error("{} has {} numbers, but a frame of {} has room for {}", convention.title(), convention.names().len(), protocol.name(), MAX_NUMBERS)]
     TooManyNumbers {
         /// The binary protocol.
         protocol: Protocol,
@@ -173,7 +173,7 @@ pub struct OpenToNetwork {
 
 impl Advice for OpenToNetwork {
     fn advice(&self) -> String {
-        "Use a network of the cell's own, and let the firewall pass only the robot and the PLC to this port".into()
+        "Use a separate network for the cell, and let the firewall admit only the robot and the PLC to this port".into()
     }
 }
 
@@ -223,16 +223,16 @@ mod tests {
     #[test]
     fn nonsense_is_refused_in_words() {
         for (text, words) in [
-            ("30100", "no protocol and port"),
-            ("", "no protocol and port"),
+            ("30100", "not a protocol and port"),
+            ("", "not a protocol and port"),
             (
                 "modbus=502",
-                "is no protocol, expected one of ascii, binary",
+                "is not a protocol, expected one of ascii, binary",
             ),
-            ("ascii=", "is no port"),
-            ("ascii=70000", "is no port"),
-            ("ascii=robot:30100", "is no port"),
-            ("ascii=-1", "is no port"),
+            ("ascii=", "is neither a port"),
+            ("ascii=70000", "is neither a port"),
+            ("ascii=robot:30100", "is neither a port"),
+            ("ascii=-1", "is neither a port"),
         ] {
             let error = text.parse::<ListenAddress>().expect_err(text);
             assert!(error.to_string().contains(words), "{text}: {error}");

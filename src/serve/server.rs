@@ -159,7 +159,7 @@ fn words_of_bind(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::AddrInUse => "another program listens at this port".into(),
         io::ErrorKind::AddrNotAvailable => "this computer does not have this address".into(),
-        io::ErrorKind::PermissionDenied => "this port is kept for the system".into(),
+        io::ErrorKind::PermissionDenied => "this port is reserved for the system".into(),
         _ => words_of(error),
     }
 }

@@ -123,9 +123,7 @@ pub enum ProjectError {
 impl Advice for ProjectError {
     fn advice(&self) -> String {
         match self {
-            Self::NoPlane { .. } => {
-                "Turn the part so that its face looks at the camera and capture again".into()
-            }
+            Self::NoPlane { .. } => "Turn the part to face the camera and capture again".into(),
             Self::TooLarge { .. } => {
                 "Check that the file is in metres, or clear everything but the part from the scene"
                     .into()

@@ -1,7 +1,7 @@
-//! One library for many cells: the built program publishes to a folder and to S3, and takes from there.
+//! One library for many cells: the built program publishes versions to a folder and to S3, and takes them from there.
 //!
-//! The S3 server is moto (`pip install "moto[server]"`), started by each test at a free port. Without it those tests say that
-//! they were skipped; with `PARTSIGHT_REQUIRE_S3=1` that is a failure. Encrypted connections are not tested here.
+//! The S3 server is moto (`pip install "moto[server]"`), started by each test at a free port. Without it those tests
+//! report that they are skipped; with `PARTSIGHT_REQUIRE_S3=1` they fail. Encrypted connections are not tested here.
 
 #[path = "../kit/mod.rs"]
 mod kit;
@@ -25,13 +25,13 @@ use rand::{RngExt as _, SeedableRng as _};
 
 use self::s3::{ForgetfulServer, S3Server};
 
-/// Never to be seen in a message.
+/// A secret that no message may contain.
 const SECRET: &str = "Zk3-secret-of-the-bucket";
 
-/// A folder with the library `parts` and the keys of whoever publishes.
+/// A folder with the library `parts` and the publisher's keys.
 struct Plant {
     folder: tempfile::TempDir,
-    /// Where S3 is.
+    /// Address of the S3 server.
     endpoint: Option<String>,
 }
 
@@ -86,7 +86,7 @@ impl Plant {
         command
     }
 
-    /// Exit code, and what was said; never a secret.
+    /// Runs a command; returns its exit code and output, which never contain a secret.
     fn run(&self, args: &[&str]) -> (Option<i32>, String) {
         said(&self.command(args).output().expect("ran"))
     }
@@ -113,7 +113,7 @@ impl Plant {
     }
 }
 
-/// What takes from this store into `cell`.
+/// Arguments that take the newest version from this store into `cell`.
 fn take_from(store: &str) -> Vec<&str> {
     let trust = ["--trust", "keys/library.pub", "--library", "cell"];
     [&["take", "--from", store][..], &trust].concat()
@@ -234,10 +234,7 @@ fn of_two_programs_that_publish_to_s3_at_once_none_writes_over_the_other() {
             let (number, _) = number.unwrap_or_else(|| panic!("{text}"));
             versions.push(number.parse::<usize>().expect("a number"));
         } else {
-            assert!(
-                text.contains("published by somebody else meanwhile"),
-                "{text}"
-            );
+            assert!(text.contains("somebody else has published"), "{text}");
         }
     }
     versions.sort_unstable();
@@ -275,7 +272,7 @@ fn without_the_store_there_is_an_error_and_the_library_works_as_before() {
     assert!(text.contains("store: cannot be used"), "{text}");
     assert!(!plant.path("store").exists());
 
-    // Nobody listens at a port that was just free.
+    // No server listens at a port that was just free.
     plant.endpoint = Some(s3::closed_endpoint());
     let text = plant.refused(&take_from("s3://parts"));
     assert!(
@@ -317,7 +314,7 @@ fn what_somebody_changed_in_the_store_is_refused_with_what_to_do() {
     let mut other = take_from("store");
     other[4] = "others/library.pub";
     let text = plant.refused(&other);
-    assert!(text.contains("signed by the key"), "{text}");
+    assert!(text.contains("signed with the key"), "{text}");
     // No key is ever replaced.
     plant.refused(&["keys", "keys"]);
 }
@@ -383,7 +380,7 @@ fn a_program_that_is_killed_while_it_takes_leaves_one_version_whole() {
             .spawn()
             .expect("starts");
         thread::sleep(Duration::from_micros(random.random_range(0..400_000)));
-        // SIGKILL, if it still runs: nothing of it is tidied up.
+        // SIGKILL, if it still runs: the process cannot clean up.
         let _ = child.kill();
         child.wait().expect("ended");
         let load = library.load(&ReferenceParams::default()).expect("listed");

@@ -1,4 +1,4 @@
-//! S3 servers of the test's own.
+//! S3 servers that the tests start.
 
 use std::{
     io::{BufRead as _, BufReader, Read as _, Write as _},
@@ -9,7 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Long enough for a machine at work with other things.
+/// Timeout with room for a busy machine.
 const PATIENCE: Duration = Duration::from_mins(2);
 
 fn free_address() -> SocketAddr {
@@ -17,7 +17,7 @@ fn free_address() -> SocketAddr {
     socket.local_addr().expect("its address")
 }
 
-/// Where nobody listens.
+/// An address at which no server listens.
 pub(crate) fn closed_endpoint() -> String {
     format!("http://{}", free_address())
 }
@@ -29,7 +29,7 @@ pub(crate) struct S3Server {
 }
 
 impl S3Server {
-    /// `None`, with a word about it, where there is no moto.
+    /// Starts a server; `None`, with a message, if moto is not installed.
     #[expect(
         clippy::print_stdout,
         reason = "a test that checks nothing must say so"
@@ -83,14 +83,14 @@ impl Drop for S3Server {
     }
 }
 
-/// A server with an empty bucket that accepts whatever is written, as stores do that do not know `If-None-Match`.
+/// A server with an empty bucket that accepts every write, like stores that do not know `If-None-Match`.
 pub(crate) struct ForgetfulServer {
     address: SocketAddr,
     written: Arc<Mutex<Vec<String>>>,
 }
 
 impl ForgetfulServer {
-    /// Its thread ends with the test program.
+    /// Starts the server; its thread ends with the test program.
     pub(crate) fn start() -> Self {
         let socket = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a free port");
         let address = socket.local_addr().expect("its address");

@@ -1,4 +1,4 @@
-//! Laying clouds over each other.
+//! `partsight align`.
 
 use crate::workplace::{Workplace, matrix};
 
@@ -42,7 +42,7 @@ fn a_cloud_is_aligned_with_itself_moved() {
         "--initial",
         "5deg -11deg 22deg 50mm 20mm -100mm",
     ];
-    // The nearest valley of E is some centimetres off, and nothing holds the fender there: that is said.
+    // The nearest minimum of E is some centimetres off and leaves the fender unconstrained, which is reported.
     let slid = place.run(&started);
     assert_eq!(slid.code, 1);
     assert!(slid.out.contains("mm rms") && slid.err.contains("slide"));

@@ -1,4 +1,4 @@
-//! What is measured, and drawn of it.
+//! `partsight bench`: its measurements and pictures.
 
 use std::fs;
 
@@ -96,7 +96,7 @@ fn recognition_is_measured_beside_the_other_systems_and_its_worst_confusions_are
 
     let gone = place.run(&["bench", "speed", "--only-ours"]);
     assert_eq!(gone.code, 2);
-    assert!(gone.err.contains("go with recognition"), "{}", gone.err);
+    assert!(gone.err.contains("are for recognition"), "{}", gone.err);
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
         (&set["set"], &set["num_frames"]),
         (&"placed".into(), &8.into())
     );
-    // As if it had taken a thousand times as long.
+    // Pretend that it took a thousand times as long.
     let median = set["median_ms"].as_f64().expect("a number");
     set["median_ms"] = (1000.0 * median).into();
     fs::write(place.path("before.json"), before.to_string()).expect("written");

@@ -1,4 +1,4 @@
-//! The cell's calibration.
+//! Calibration of the cell.
 
 use std::{fmt::Write as _, fs};
 
@@ -24,7 +24,7 @@ fn numbers(convention: Convention, pose: &RigidTransform) -> String {
     numbers.join(", ")
 }
 
-/// Poses of a target before the camera that turn about all axes.
+/// Poses of a target in front of the camera, with rotations about all axes.
 fn target_poses() -> Vec<RigidTransform> {
     [
         [0.0, 0.0, 0.0, 0.0, 0.0, 1.2],
@@ -40,7 +40,7 @@ fn target_poses() -> Vec<RigidTransform> {
     .collect()
 }
 
-/// A table of pairs, eye to hand, in KUKA's numbers.
+/// A table of pairs, eye to hand, in KUKA's convention.
 fn pairs(robot_from_camera: &RigidTransform, seen: &[RigidTransform]) -> String {
     let flange_from_target = from_euler_zyx([0.3, 0.2, -0.5, 0.02, -0.03, 0.1]);
     let mut text = String::from("# robot: kuka\n# camera: quaternion-xyzw\n");
@@ -115,7 +115,7 @@ fn pairs_make_a_calibration_that_inspect_uses() {
         found * pose * found.inverse()
     ));
 
-    // The same by hand, in the robot's own numbers; what was there is kept.
+    // Enter the same by hand, in the robot's convention; the former file is kept.
     let by_hand = format!("kuka {}", numbers(Convention::Kuka, &robot_from_camera()));
     let made = shop.coded(0, &["calibrate", "set", &by_hand, "--mount", "eye-to-hand"]);
     assert!(made.out.contains("cell.former.toml"), "{}", made.out);
@@ -161,7 +161,7 @@ fn a_wrong_pair_is_named_and_can_be_left_out() {
     let wrong: Vec<String> = text
         .lines()
         .map(|line| match line.strip_prefix("p3, ") {
-            // 40 mm aside.
+            // Off by 40 mm.
             Some(rest) => {
                 let (x, rest) = rest.split_once(',').expect("numbers");
                 let x: f64 = x.parse().expect("a number");
@@ -280,7 +280,8 @@ fn bad_input_is_refused_with_its_line() {
     assert!(ran.err.contains("newer version"), "{}", ran.err);
 }
 
-/// The target is a simulated fender that the arm shows the camera in eight poses: what a shop without a checkerboard does.
+/// The target is a simulated fender that the arm shows to the camera in eight poses, as in a shop without a
+/// checkerboard.
 #[test]
 fn an_enrolled_part_on_the_flange_is_target_enough() {
     let shop = Workplace::new();
@@ -343,7 +344,7 @@ fn an_enrolled_part_on_the_flange_is_target_enough() {
         shop.read("cell.toml")
             .contains("pairs_file = \"poses.csv\"")
     );
-    // Where the target is on the flange comes out too, up to the part's own frame.
+    // The pose of the target on the flange results too, except for the choice of the part's frame.
     let target = transform(&line["flange_from_target"]);
     let off = (target.translation.vector - flange_from_part.translation.vector).norm();
     assert!(off < 0.3, "{target}");
@@ -377,7 +378,7 @@ fn a_stored_spray_path_is_carried_into_the_robots_frame() {
         "--spray-as",
         "kuka",
     ];
-    // Nothing is stored: one start before the middle.
+    // Without a stored path there is one start, in front of the middle.
     let ran = shop.coded(0, &inspect);
     assert!(ran.err.contains("no spray path"), "{}", ran.err);
     let start = shop.read("out.csv");
@@ -386,7 +387,8 @@ fn a_stored_spray_path_is_carried_into_the_robots_frame() {
         "{start}"
     );
     let row = start.lines().last().expect("a line");
-    // The shipped parts hung square on, 1.3 m before the camera: the nozzle is 15 cm before the one point of that start.
+    // The shipped parts were enrolled square to the camera, 1.3 m away: the nozzle is 15 cm in front of that start's
+    // only point.
     let cells: Vec<f64> = row
         .split(',')
         .take(7)
@@ -489,7 +491,7 @@ fn of_what_is_not_accepted_no_spray_path_is_left() {
         let arguments = ["simulate", "--part", part, "--placement", "facing", "--out"];
         shop.coded(0, &[&arguments[..], &["door.pcd"]].concat());
     };
-    // Not accepted, then not even readable.
+    // First not accepted, then not even readable.
     for is_readable in [true, false] {
         hang("front_door");
         shop.coded(0, &inspect);
@@ -504,7 +506,7 @@ fn of_what_is_not_accepted_no_spray_path_is_left() {
         }
         assert!(!shop.path("out.csv").exists());
     }
-    // What is no spray path is not taken away.
+    // A file that is not a spray path is not removed.
     shop.write("notes.csv", "mine");
     shop.coded(2, &["inspect", "door.pcd", "--spray", "notes.csv"]);
     assert_eq!(shop.read("notes.csv"), "mine");

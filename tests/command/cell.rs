@@ -1,4 +1,4 @@
-//! The daily check of the cell.
+//! The check of the cell.
 
 use crate::workplace::Workplace;
 
@@ -47,13 +47,13 @@ fn a_part_that_moved_is_found_told_and_listed() {
     let table = place.read("drift.csv");
     let rows: Vec<usize> = table.lines().map(|row| row.split(',').count()).collect();
     assert_eq!(rows, [12, 12, 12], "{table}");
-    // A check of files, which is not to be listed.
+    // A check of files, kept out of the list.
     let pose = "5deg -10deg 3deg 20mm -30mm 1400mm";
     place.accepted(&[
         "simulate", "--part", "fender", "--pose", pose, "--out", "now.pcd",
     ]);
     let told = place.run(&["cell", "check", "now.pcd", "--no-list"]);
-    // The wall stands elsewhere in a cell of another seed.
+    // In a cell of another seed the wall stands elsewhere.
     assert!(told.out.contains("in place"), "{}", told.out);
     assert_eq!(place.accepted(&["cell", "list", "--json"]).out, lines);
 }

@@ -1,4 +1,4 @@
-//! The documentation: links lead somewhere, and the commands that it shows are commands.
+//! The documentation: links are valid, and the commands shown exist.
 
 use std::{
     fs,
@@ -28,7 +28,7 @@ fn pages() -> Vec<(PathBuf, String)> {
     pages.map(read).collect()
 }
 
-/// The anchor of a heading, as web views of repositories name it.
+/// The anchor that web views of repositories give a heading.
 fn anchor_of(heading: &str) -> String {
     let title = heading.trim_start_matches('#').trim().to_lowercase();
     let is_kept = |c: &char| c.is_alphanumeric() || matches!(c, '-' | '_');
@@ -61,11 +61,11 @@ fn every_relative_link_leads_to_a_file_and_a_heading() {
     assert!(num_links > 30, "{num_links} links");
 }
 
-/// The words of a command, without the comment behind it.
+/// The words of a command, without a comment after it.
 fn words(line: &str) -> Vec<&str> {
     let line = line.split(" #").next().unwrap_or("");
     let pieces = line.split('"').enumerate();
-    // Every second piece stands in quotes and is one word.
+    // Every second piece is quoted and is one word.
     let words = pieces.map(|(i, piece)| match i % 2 {
         0 => piece.split_whitespace().collect(),
         _ => vec![piece],

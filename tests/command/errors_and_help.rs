@@ -1,4 +1,4 @@
-//! What is said of bad input, in help and in errors.
+//! Messages for bad input, and help texts.
 
 use std::{fs, process::Stdio};
 
@@ -45,7 +45,7 @@ fn bad_arguments_and_folders_end_with_two_and_say_why() {
         assert_eq!(ran.out, "", "{args:?}");
     }
     assert!(fs::read_dir(place.path("")).expect("listed").all(|f| {
-        // Nothing was made but, at most, the user's library.
+        // At most the user's library was created.
         f.expect("an entry").file_name() == "data"
     }));
 }

@@ -1,4 +1,4 @@
-//! `partsight evaluate`: cases are simulated, inspected, held against an earlier run, and damaged.
+//! `partsight evaluate`: cases are simulated, inspected, compared with an earlier run, and damaged.
 
 use std::{
     fs,
@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::workplace::{Ran, Workplace};
 
-/// Two placements of three parts, and a box: seven cases.
+/// Simulates seven cases: two placements of three parts, and a box.
 fn with_cases(place: &Workplace) {
     let parts = ["--part", "fender,grille,front_door", "--num", "6"];
     let simulate = ["simulate", "--cases", "cases", "--seed", "40"];
@@ -20,7 +20,7 @@ fn with_cases(place: &Workplace) {
     place.accepted(&[&simulate[..], &other].concat());
 }
 
-/// What lies in the folder and among its cases.
+/// Names of the files in the folder and among its cases.
 fn names(place: &Workplace) -> Vec<String> {
     let names = |folder: &Path| -> Vec<String> {
         let entries = fs::read_dir(folder).expect("listed");
@@ -29,13 +29,13 @@ fn names(place: &Workplace) -> Vec<String> {
     };
     let mut all = names(&place.path(""));
     all.extend(names(&place.path("cases")));
-    // The program's own.
+    // The program's data folder.
     all.retain(|name| name != "data");
     all.sort();
     all
 }
 
-/// All but the times.
+/// The cases without their times.
 fn cases_of(record: &Value) -> Vec<Value> {
     let mut cases = record["cases"].as_array().expect("cases").clone();
     for case in &mut cases {
@@ -113,7 +113,7 @@ fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
     place.accepted(&["evaluate", "cases", "--json", "now.json"]);
     let mut record = place.json("now.json");
 
-    // As if a fender had been refused before: mended since.
+    // Pretend that a fender was refused before, so that it has improved since.
     let mut cases = record["cases"].as_array_mut().expect("cases").iter_mut();
     let fender = cases.find(|case| case["name"] == "fender_facing_40");
     let found = &mut fender.expect("there")["found"];
@@ -128,7 +128,7 @@ fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
         "{out}"
     );
 
-    // Without a pose, the paper's matcher accepts nothing: every part that was right is worse.
+    // Without a pose, the paper's matcher accepts nothing, so every part that was right is worse.
     let worse = [
         "--against",
         "now.json",
@@ -153,7 +153,7 @@ fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
         "{line}"
     );
 
-    // Said to be the box: now it is accepted as what it is not.
+    // Labelled as not enrolled, the grille is now a false accept.
     let toml = place.path("cases/grille_placed_44/case.toml");
     let text = fs::read_to_string(&toml).expect("read");
     let text = text.replace("is = \"part\"\npart = \"grille\"", "is = \"not_enrolled\"");
@@ -213,7 +213,7 @@ fn what_cannot_be_evaluated_is_said_in_words() {
         ),
         (
             &["evaluate", "cases", "--json", "x", "--report", "x"],
-            "Name two",
+            "Give two different files",
         ),
         (
             &["simulate", "--part", "all", "--out", "x.pcd"],
@@ -236,7 +236,7 @@ fn what_cannot_be_evaluated_is_said_in_words() {
     assert_eq!(names(&place), ["cases", "newer.json", "other.json"]);
 }
 
-/// Another seed for each case: a folder of cases can be made again to the last byte.
+/// Each case has its own seed, so that a folder of cases can be reproduced to the last byte.
 #[test]
 fn the_same_arguments_make_the_same_cases() {
     let place = Workplace::new();
@@ -261,7 +261,7 @@ fn ctrl_c_leaves_nothing_half_written() {
     let place = Workplace::new();
     let simulate = ["simulate", "--cases", "cases", "--num", "24"];
     place.accepted(&[&simulate[..], &["--placement", "facing"]].concat());
-    // Fills the library.
+    // Creates the library.
     place.accepted(&["library", "list"]);
     let before = names(&place);
     let mut running = place
@@ -276,7 +276,7 @@ fn ctrl_c_leaves_nothing_half_written() {
         .status();
     assert!(killed.expect("kill").success());
     let status = running.wait().expect("ended");
-    // A machine that is quick enough to have ended before has written both.
+    // On a quick machine it may have ended before the kill, and written both.
     if status.signal().is_some() {
         assert_eq!(names(&place), before);
     } else {

@@ -1,4 +1,4 @@
-//! The history: what the built program writes and reads, and what it does when the disk says no.
+//! The history as the built program writes and reads it, also with a failing disk.
 
 use std::{
     fs,
@@ -28,7 +28,7 @@ use crate::{
     workplace::Workplace,
 };
 
-/// With a captured fender and a thing that nobody enrolled.
+/// A place with captures of a fender and of a part that is not enrolled.
 fn with_captures() -> Workplace {
     let place = Workplace::new();
     for (part, file) in [("fender", "fender.pcd"), ("hood", "hood.png")] {
@@ -62,7 +62,7 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
 
     let listed = place.accepted(&["history", "list", "--json"]).lines();
     assert_eq!(listed.len(), 2);
-    // The newest first; of what was not accepted the frame is kept.
+    // The newest comes first; the frame of a refused one is kept.
     assert_eq!(
         (&listed[0]["number"], &listed[0]["scene"]),
         (&2.into(), &"hood.png".into())
@@ -89,7 +89,7 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
     let none = place.accepted(&["history", "list", "--until", "2020-01-01", "--json"]);
     assert_eq!(none.out, "");
 
-    // The line is the one that inspect wrote.
+    // The line is the one that `inspect` wrote.
     let shown = place
         .accepted(&["history", "show", "1", "--json"])
         .lines()
@@ -101,7 +101,7 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
         "{card}"
     );
 
-    // The same recipe and library find the same in the kept frame, to the last digit.
+    // The same recipe and library give the same result for the kept frame, to the last digit.
     let again = place
         .accepted(&["history", "show", "2", "--again", "--json"])
         .lines()
@@ -176,8 +176,8 @@ fn programs_read_why_an_inspection_was_not_accepted_as_a_kind() {
     assert_eq!(ends, [Some("reason_kind"), Some(""), Some("unknown")]);
 }
 
-/// Parts that come in from the right one after the other, ten frames a second, hang still and leave to the left; where
-/// `rests` is false it does not stop.
+/// Records parts that come in from the right one after the other, ten frames a second, hang still and leave to the
+/// left. A part whose flag is false does not stop.
 fn record_line(folder: &Path, parts: &[(PartKind, bool)]) {
     let recorder = Recorder::create(folder, "a line", "simulated", true);
     let mut recorder = recorder.expect("a folder");
@@ -232,7 +232,7 @@ fn a_followed_source_writes_one_row_for_each_part_that_hung_there() {
         ".",
     ];
     let ran = place.run(&source);
-    // Every frame is told as before.
+    // Every frame is still reported.
     assert_eq!(ran.lines().len(), 38 * 3 + 14, "{}", ran.err);
     let rows = place
         .accepted(&["history", "list", "--json", "--history", "."])
@@ -249,7 +249,7 @@ fn a_followed_source_writes_one_row_for_each_part_that_hung_there() {
             ["front_door", "accepted"]
         ]
     );
-    // The last one never hung still: the frame that showed it best speaks for it.
+    // The last one never hung still: it is represented by its best frame.
     assert_eq!((found.len(), found[3][0]), (4, "back_door"));
     for row in &rows {
         assert_eq!(
@@ -257,7 +257,7 @@ fn a_followed_source_writes_one_row_for_each_part_that_hung_there() {
             (&0.into(), &true.into())
         );
     }
-    // What counted rests on the frame that is kept.
+    // The kept frame gives the verdict that counted.
     let again = [
         "history",
         "show",
@@ -269,7 +269,7 @@ fn a_followed_source_writes_one_row_for_each_part_that_hung_there() {
     ];
     let again = place.accepted(&again).lines().remove(0);
     assert_eq!(again["again"]["verdict"], "accepted");
-    // Followed once more they are other parts: nobody knows that it is the same recording.
+    // Followed once more, they are new parts: the program cannot know that it is the same recording.
     place.run(&source);
     let listed = place.accepted(&["history", "list", "--history", "."]);
     assert!(listed.err.contains("8 of 8 parts shown"), "{}", listed.err);
@@ -318,13 +318,13 @@ fn a_history_that_cannot_be_written_is_a_warning_and_the_exit_code_stays() {
     assert_eq!(unknown.code, 2);
 }
 
-/// A disk of its own, for whoever may mount one.
+/// A separate file system, if this user may mount one.
 struct Disk {
     folder: tempfile::TempDir,
 }
 
 impl Disk {
-    /// `None`, and why, where it cannot be.
+    /// Mounts a file system; `None`, with the reason printed, if that is not possible.
     #[expect(clippy::print_stderr, reason = "what was not tried is said")]
     fn of_kilobytes(size: u32) -> Option<Self> {
         let folder = tempfile::tempdir().expect("a folder");
@@ -359,7 +359,7 @@ impl Disk {
 
 impl Drop for Disk {
     fn drop(&mut self) {
-        // Not mounted, there is nothing to be taken away.
+        // This fails if nothing is mounted.
         let _ = Command::new("umount").arg("-l").arg(self.path()).output();
     }
 }
@@ -391,7 +391,7 @@ fn num_failures(news: &[HistoryEvent]) -> usize {
     news.iter().filter(is_failure).count()
 }
 
-/// Longer than it is waited before it is tried again.
+/// Longer than the pause before the next attempt.
 const LATER: Duration = Duration::from_mins(5);
 
 #[test]
@@ -416,7 +416,7 @@ fn a_full_disk_is_said_once_and_inspections_are_kept_until_there_is_room() {
         (num as usize, num as usize)
     );
     assert!(keeper.num_waiting() > 0 && keeper.num_waiting() < num as usize);
-    // Still full: nothing more is said.
+    // Still full: the failure is not reported again.
     keeper.retry(begun + LATER);
     assert_eq!(keeper.take_news(), []);
 
@@ -487,14 +487,14 @@ fn on_a_full_disk_the_history_is_listed_and_exported_and_nothing_says_to_move_it
     let shown = place.run(&["history", "show", "2", "--history", &folder]);
     assert_eq!(shown.code, 0, "{}", shown.err);
 
-    // The window too shows what it can read.
+    // The window also shows what it can read.
     let keeper = HistoryBuffer::new(Some(disk.path().to_owned()));
     let begun = Instant::now();
     keeper.open(begun);
     let page = keeper.page(&Filter::default(), 0, 10).expect("asked");
     assert_eq!(page.num_all, 3);
     assert_eq!(num_failures(&keeper.take_news()), 1);
-    // Nothing waits, and it still does not work.
+    // Nothing is waiting, and the disk still fails.
     keeper.retry(begun + LATER);
     assert_eq!(keeper.take_news(), []);
     fs::remove_file(disk.path().join("filling")).expect("removed");
@@ -558,7 +558,7 @@ fn a_write_protected_history_can_be_read_and_is_written_again_later() {
         keeper.add(ticket, entry, begun);
     }
     assert_eq!(num_failures(&keeper.take_news()), 1);
-    // What was written before is shown meanwhile, below what waits.
+    // Meanwhile the rows written before are shown below those waiting.
     let page = keeper.page(&Filter::default(), 0, 10).expect("asked");
     assert_eq!((page.num_all, page.rows[2].number), (5, 3));
     keeper.retry(begun + LATER);
@@ -622,7 +622,7 @@ fn serial_number_order_and_operator_stand_in_history_table_and_report() {
     place.accepted(&report.concat());
     let report = place.json("reports/fender.pose.json");
     assert_eq!(report["traceability"]["operator"], "Kim, early");
-    // A serial number is of one part.
+    // A serial number belongs to one part.
     let refused = place.coded(2, &["inspect", "fender.pcd", "hood.png", "--serial", "1"]);
     assert!(
         refused.err.contains("--serial names one part"),

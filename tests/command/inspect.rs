@@ -25,7 +25,8 @@ fn the_pose_is_that_of_the_simulation() {
     let truth: Value =
         serde_json::from_slice(&fs::read(place.path("truth.json")).expect("written"))
             .expect("JSON");
-    // Part space is that of the enrolment, 1.4 m before the camera: the truth's of the model, in its middle.
+    // Part space is the camera frame at enrolment, 1.4 m in front of the part; the truth refers to the model's frame
+    // in its middle.
     let model = matrix(&truth["camera_from_model"]);
     for row in 0..3 {
         let [c, d] = [2, 3].map(|column| found[row * 4 + column]);
@@ -78,7 +79,7 @@ fn one_bad_file_does_not_stop_the_others() {
 fn an_empty_cell_and_an_unknown_part_are_not_accepted() {
     let place = Workplace::new();
     place.with_part("grille");
-    // Far too high: only wall and floor are left in the picture.
+    // The part is far too high: only wall and floor are in the picture.
     let away = [
         "simulate",
         "--part",
@@ -143,7 +144,7 @@ fn what_stands_in_the_empty_cell_is_no_part_and_a_second_reference_names_its_par
         place.accepted(&[&simulate, options].concat());
     };
     seen("scene.pcd", &["--seed", "8"]);
-    // Known to the cell as it hangs there, the fender is furniture.
+    // If the empty cell contains the fender, it is background.
     let inspect = ["inspect", "scene.pcd", "--json", "--library", "parts"];
     let empty = place.run(&[&inspect[..], &["--empty-cell", "scene.pcd"]].concat());
     assert_eq!(empty.code, 1, "{}", empty.err);
@@ -172,11 +173,12 @@ fn what_stands_in_the_empty_cell_is_no_part_and_a_second_reference_names_its_par
         (&"fender".into(), &true.into())
     );
     assert_eq!(line["ranking"].as_array().map(Vec::len), Some(1));
-    // The pose is in the coordinates of the reference, which are not those of the part's own.
+    // The pose is in the coordinates of this reference, not in those of the part's first one.
     assert_eq!(line["pose"]["reference"], "fender_b");
     let told = place.accepted(&["inspect", "other_scene.pcd", "--library", "parts"]);
     assert!(
-        told.out.contains("fender_b, one more of this part"),
+        told.out
+            .contains("fender_b, another reference of this part"),
         "{}",
         told.out
     );
@@ -233,7 +235,7 @@ fn any_parameter_can_be_set_and_what_is_no_value_is_refused() {
     let icp = with(&["--json", "--set", "pose=icp", "--set", "rank.matcher=paper"]);
     assert_eq!(place.run(&icp).lines()[0]["pose"]["method"], "icp");
     for (setting, expected) in [
-        ("segment.plane_distance=90", "it goes from 1 to 50 mm"),
+        ("segment.plane_distance=90", "it ranges from 1 to 50 mm"),
         ("plane_distance=9", "the nearest is segment.plane_distance"),
         ("accept.min_score", "no = between name and value"),
     ] {
@@ -308,7 +310,7 @@ fn a_report_beside_its_captures_leaves_them_as_they_were() {
     let place = Workplace::new();
     place.with_part("fender");
     fs::create_dir(place.path("cap")).expect("made");
-    // The second and third are captures by whose names a report of the first would write.
+    // The second and third captures have the names of files that a report on the first would write.
     let files = ["cap/g1.png", "cap/g1.contour.png", "cap/g1.report.png"];
     for file in files {
         place.accepted(&["simulate", "--part", "fender", "--out", file]);

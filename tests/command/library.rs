@@ -1,4 +1,4 @@
-//! Enrolling parts and keeping the library.
+//! Enrolling parts and managing the library.
 
 use std::fs;
 
@@ -111,7 +111,7 @@ fn without_a_library_the_shipped_parts_are_there() {
 #[test]
 fn a_part_is_enrolled_into_the_users_library_wherever_that_is_done() {
     let place = Workplace::new();
-    // As in the checkout: a library that somebody else keeps under version control.
+    // As in the checkout, where the folder is under version control.
     fs::create_dir(place.path("reference_parts")).expect("made");
     place.accepted(&["simulate", "--part", "grille", "--out", "grille.pcd"]);
     place.accepted(&["enrol", "grille.pcd", "--name", "mine"]);
@@ -352,7 +352,7 @@ fn one_more_reference_of_a_part_is_named_and_goes_with_it() {
         "{}",
         enrolled.out
     );
-    // Named by another reference of it, it is the same part.
+    // The part may be named by any of its references.
     place.accepted(&of("fender_b", "fender_c", "parts"));
     let library = |code: i32, args: &[&str]| {
         place.coded(code, &[&["library", "--library", "parts"], args].concat())
@@ -425,7 +425,7 @@ fn a_title_that_another_part_has_is_warned_about() {
         "{}",
         enrolled.err
     );
-    // References of one part may.
+    // References of one part may share a title.
     let of = ["--as", "fender"];
     let again = place.accepted(&[&enrol[..], &more, &of].concat());
     assert!(!again.err.contains("has the title"), "{}", again.err);

@@ -26,7 +26,7 @@ fn a_path_is_planned_written_read_and_simulated_to_the_same_film() {
     let ran = shop.coded(0, &[&simulate[..], &["--path", "path.csv"]].concat());
     let mean = |line: &serde_json::Value| line["mean_um"].as_f64().expect("a number");
     assert!((mean(&ran.json()) / mean(&planned) - 1.0).abs() < 1e-3);
-    // The same by settings.
+    // The same values given by `--set`.
     let set = ["--set", &spacing, "--set", &speed, "--store", "--json"];
     let again = shop.coded(0, &[&plan[..5], &set].concat()).json();
     assert!((mean(&again) / mean(&planned) - 1.0).abs() < 1e-6);
@@ -73,7 +73,7 @@ fn what_cannot_be_planned_is_refused_with_advice_and_writes_nothing() {
 #[test]
 fn a_gun_is_fitted_to_a_stripe_and_written_as_a_coat_that_plans() {
     let shop = Workplace::new();
-    // 240 mm wide at 180 mm: σ = 60 mm, 40 µm in the middle; every 10 mm.
+    // A pattern 240 mm wide at 180 mm: σ = 60 mm, 40 µm in the middle; sampled every 10 mm.
     let mut table = "offset_mm,thickness_um,remark\n".to_owned();
     for k in -15..=15 {
         let x = 10.0 * f64::from(k);
@@ -107,10 +107,10 @@ fn a_gun_is_fitted_to_a_stripe_and_written_as_a_coat_that_plans() {
     let written = shop.read("my_primer.toml");
     // 40 µm · √(2π) · 60 mm · 200 mm/s of 300 ml/min · 50 %: 48.1 %.
     assert!(written.contains("gun.transfer = \"48.1"), "{written}");
-    // Not over a file that is there, unless asked to.
+    // An existing file is only replaced if asked to.
     let ran = shop.coded(2, &[&fit[..], &write].concat());
     assert!(
-        ran.err.contains("is there already") && ran.err.contains("--force"),
+        ran.err.contains("exists already") && ran.err.contains("--force"),
         "{}",
         ran.err
     );
@@ -175,7 +175,7 @@ fn the_stored_path_is_exported_to_each_controller_unless_the_arm_does_not_reach_
         }
         assert!(!text.contains("FORCED"));
     }
-    // Out of reach: the arm is nowhere near, and the earlier program is gone.
+    // The part is out of the arm's reach, so the earlier program is removed.
     let arm = [
         "-o",
         "paint.src",

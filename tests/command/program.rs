@@ -7,7 +7,7 @@ use std::{
 
 use crate::workplace::Workplace;
 
-/// A cell, a door before its camera, and a stored path of three points.
+/// A place with a calibrated cell, a door in front of its camera, and a stored path of three points.
 fn shop() -> Workplace {
     let shop = Workplace::new();
     let cell = "kuka 1200 -400 1900 86 -5 120";
@@ -84,11 +84,11 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
     store_path(&shop);
     let inspect = ["inspect", "door.pcd", "--program", "paint.src"];
     shop.coded(0, &inspect);
-    // Refused.
+    // A refused part removes the program.
     hang(&shop, "empty");
     shop.coded(1, &inspect);
     assert!(!shop.path("paint.src").exists());
-    // Out of reach: the arm is nowhere near.
+    // The part is out of the arm's reach.
     hang(&shop, "front_door");
     shop.coded(0, &inspect);
     let nozzle = "kuka 0 0 250 0 0 0";
@@ -106,7 +106,7 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
         shop.read("paint.src")
             .contains("FORCED: KUKA KR 6 R900-2 reaches")
     );
-    // Old.
+    // The capture is too old.
     let long_ago = SystemTime::now() - Duration::from_hours(1);
     let file = File::options().write(true).open(shop.path("door.pcd"));
     file.and_then(|file| file.set_modified(long_ago))
@@ -116,7 +116,7 @@ fn of_a_refused_part_an_old_capture_or_an_unreached_path_no_program_is_left_unle
     assert!(!shop.path("paint.src").exists());
     shop.coded(0, &[&inspect[..], &["--force"]].concat());
     assert!(shop.read("paint.src").contains("FORCED: the capture"));
-    // What is no program is not taken away.
+    // A file that is not a program is not removed.
     shop.write("notes.src", "mine");
     shop.coded(1, &["inspect", "door.pcd", "--program", "notes.src"]);
     assert_eq!(shop.read("notes.src"), "mine");
@@ -164,7 +164,7 @@ fn accelerations_are_checked_where_their_limits_are_known() {
     assert!(ran.out.contains(unchecked), "{}", ran.out);
     let line = check(0, "irb4600", &["--json"]).json();
     assert_eq!(line["unchecked_accelerations"], "joints");
-    // The same arm with limits.
+    // The same arm with acceleration limits.
     let arm = |limit: u32| {
         shop.write(
             "arm.toml",
@@ -182,7 +182,7 @@ fn accelerations_are_checked_where_their_limits_are_known() {
     assert!(!ran.out.contains("not checked"), "{}", ran.out);
     let line = check(0, "arm.toml", &["--json"]).json();
     assert!(line["unchecked_accelerations"].is_null(), "{line}");
-    // From the approach into the row and out of it the nozzle turns off by a right angle.
+    // Between approach and row the direction of travel changes by a right angle.
     arm(10);
     let ran = check(1, "arm.toml", &[]);
     assert!(ran.out.contains("degrees/s² and has 10"), "{}", ran.out);
@@ -197,7 +197,7 @@ fn accelerations_are_checked_where_their_limits_are_known() {
 #[test]
 fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
     let shop = Workplace::new();
-    // The camera looks along x of the robot's base, which sees the door 1.7 m ahead.
+    // The camera looks along x of the robot's base; the door is 1.7 m in front of the base.
     let cell = "kuka 470 0 1350 -90 0 -90";
     shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
     hang(&shop, "front_door");
@@ -209,7 +209,7 @@ fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
     assert_eq!(free["num_reached"], 3);
     assert_eq!(free["num_collisions"], 0);
     assert!(free["points"][0]["problem_kind"].is_null(), "{free}");
-    // A box around all that the arm could do; it stays where it is whatever the base.
+    // A box around the whole reach of the arm; its place does not depend on the base.
     shop.write(
         "boxes.toml",
         "[[box]]\nname = \"hall\"\ncentre_mm = [0, 0, 0]\nsize_mm = [20000, 20000, 20000]\n",
@@ -222,11 +222,11 @@ fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
     assert_eq!(hit["points"][0]["problem_kind"], "collision");
     let words = hit["points"][0]["problem"].as_str().expect("a reason");
     assert!(words.ends_with("is too near to the box hall"), "{words}");
-    // The door itself, where the gun has to stay farther from it than its mouth is.
+    // The door itself, with a gun that must keep farther from it than the nozzle is.
     let hit = with(1, &["--gun-radius", "1000", "--clearance", "200"]).json();
     let words = hit["points"][0]["problem"].as_str().expect("a reason");
     assert!(words.ends_with("is too near to the part"), "{words}");
-    // What is no obstacle is refused.
+    // Invalid obstacles are refused.
     for (text, wanted) in [
         ("# nothing\n", "neither a box nor a floor"),
         ("floor_mm = nan\n", "floor_mm is NaN"),
@@ -242,7 +242,7 @@ fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
         let ran = with(2, &[bad]);
         assert!(ran.err.contains("to do: Correct it"), "{}", ran.err);
     }
-    // A program knows the same obstacles.
+    // Writing a program checks the same obstacles.
     let program = ["inspect", "door.pcd", "--program", "paint.src"];
     shop.coded(2, &[&program[..], &boxes].concat());
     let ran = shop.coded(1, &[&program[..], &arm, &boxes].concat());

@@ -1,4 +1,4 @@
-//! Recipes as files: made, used, taken along, and refused.
+//! Recipes as files: made, used, exported, and refused.
 
 use std::fs;
 
@@ -38,7 +38,7 @@ fn a_saved_recipe_is_used_by_name_by_file_and_by_default() {
     assert_eq!(by_name["recipe"]["name"], "strict");
     assert_eq!(by_name["recipe"]["is_changed"], false);
     assert_ne!(by_name["recipe"]["identity"], plain["recipe"]["identity"]);
-    // The references are prepared as the scene is.
+    // References and scene are prepared with the same parameters.
     assert_eq!(by_name["part"], "fender");
     assert_eq!(inspect(1, &strict)["score"], by_name["score"]);
     assert_eq!(
@@ -62,7 +62,7 @@ fn a_saved_recipe_is_used_by_name_by_file_and_by_default() {
         "built-in"
     );
 
-    // The history and the reports know the name.
+    // History and reports hold the name.
     let history = place.accepted(&["history", "show", "1", "--json"]).json();
     assert_eq!(history["recipe_name"], "built-in");
     place.accepted(&["history", "export", "--csv", "all.csv"]);
@@ -182,9 +182,9 @@ fn a_recipe_that_cannot_be_used_stops_the_command_with_advice() {
         assert!(ran.err.contains(words), "{args:?}: {}", ran.err);
     };
     refused(&["save", "glossy"], "--replace");
-    refused(&["save", "built-in"], "stays as it is");
+    refused(&["save", "built-in"], "cannot be changed");
     refused(&["save", "Glossy"], "is not a valid name");
-    refused(&["remove", "built-in"], "stays as it is");
+    refused(&["remove", "built-in"], "cannot be changed");
     refused(&["default", "matt"], "no recipe named matt");
     refused(&["import", "bad.toml"], "from 0 to 1");
     refused(&["export", "glossy", "no/such/folder/x.toml"], "to do: ");
@@ -197,7 +197,7 @@ fn a_recipe_that_cannot_be_used_stops_the_command_with_advice() {
         "pose=none",
     ]);
 
-    // The default is gone: nothing is inspected by other parameters than were chosen.
+    // If the default recipe is missing, no other parameters are used instead.
     place.accepted(&["recipe", "default", "glossy"]);
     fs::remove_file(place.path("data/partsight/recipes/glossy.toml")).expect("there");
     let ran = place.coded(2, &["inspect", "none.pcd"]);
@@ -225,7 +225,7 @@ fn a_renamed_recipe_stays_what_it_is_and_takes_no_other_ones_name() {
     );
     let renamed = place.accepted(&["recipe", "rename", "glossy", "shiny"]);
     assert!(
-        renamed.out.contains("glossy is named shiny now"),
+        renamed.out.contains("glossy is now named shiny"),
         "{}",
         renamed.out
     );

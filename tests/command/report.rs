@@ -20,7 +20,7 @@ fn capture(place: &Workplace, part: &str, side: &str, out: &str) {
     ]);
 }
 
-/// What a person could select on the page; `None` where the program for it is missing.
+/// The selectable text of the page; `None` if the program that reads it is missing.
 #[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn page_text(path: &Path) -> Option<String> {
     let ran = Command::new("pdftotext")
@@ -219,7 +219,7 @@ fn a_folder_that_cannot_be_written_is_said_in_words() {
         "{}",
         ran.err
     );
-    // A table of somebody else's is left alone; the other formats are written.
+    // A foreign table is not changed; the other formats are written.
     fs::create_dir(place.path("out")).expect("made");
     fs::write(place.path("out/poses.matrix.csv"), "mine\n").expect("written");
     let ran = place.run(&[
@@ -244,7 +244,7 @@ fn a_folder_that_cannot_be_written_is_said_in_words() {
     assert!(place.path("out/grille.pose.json").exists());
 }
 
-/// A size limit stands for a full disk: the system refuses the same write.
+/// A limit of the file size acts like a full disk: the system refuses the same write.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_disk_that_is_full_leaves_whole_rows_and_the_next_report_is_written() {
@@ -267,7 +267,7 @@ fn a_disk_that_is_full_leaves_whole_rows_and_the_next_report_is_written() {
     let table = place.path("out/poses.matrix.csv");
     assert_eq!(whole(&table), 2);
     let program = env!("CARGO_BIN_EXE_partsight");
-    // Blocks of 512 bytes: some hundred bytes of the next row fit.
+    // The limit counts blocks of 512 bytes, so part of the next row still fits.
     let blocks = fs::metadata(&table).expect("a table").len().div_ceil(512);
     let limited = format!(
         "trap '' XFSZ; ulimit -f {blocks}; exec {program} {}",

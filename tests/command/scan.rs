@@ -1,4 +1,4 @@
-//! Scans: several frames with poses, put together, enrolled and inspected.
+//! Scans: several frames with poses, fused, enrolled and inspected.
 
 use nalgebra::{Matrix4, Vector4};
 use serde_json::{Value, json};
@@ -17,7 +17,7 @@ fn simulate(place: &Workplace, [part, seed, folder, shots]: [&str; 4]) {
     place.accepted(&[&part[..], &["--scan", folder, "--shots", shots]].concat());
 }
 
-/// Changes the poses of the scan.
+/// Changes the file of the scan's poses.
 fn change_poses(place: &Workplace, change: impl FnOnce(&mut Value)) {
     let mut poses = place.json("frames/poses.json");
     change(&mut poses);
@@ -50,7 +50,7 @@ fn a_scan_is_put_together_and_written() {
     );
     let rms = |which: &str| line[which]["rms_m"].as_f64().expect("a number");
     assert!(rms("after") < rms("before"));
-    // The frames agree better about where the part is; the error that all share remains.
+    // The frames agree better on the part's place; an error common to all of them remains.
     let truth = place.json("frames/poses.json");
     let pose = |numbers: Vec<f64>| Matrix4::from_row_slice(&numbers);
     let named = |k: usize, which: &str| {
@@ -85,7 +85,7 @@ fn a_scan_is_put_together_and_written() {
     ] {
         assert!(head.contains(&expected), "{expected}: {head}");
     }
-    // Another program's cloud of it is a cloud for this one too.
+    // The exported cloud can be read again as a cloud.
     place.accepted(&[
         "enrol",
         "part.ply",
@@ -175,19 +175,19 @@ fn a_scanned_part_is_enrolled_and_recognised_from_all_frames_together() {
         assert!(toml.contains(expected), "{expected}: {toml}");
     }
     place.accepted(&["library", "verify", "--library", "parts"]);
-    // Another scan of the same part, at the same place in the cell.
+    // Another scan of the same part in the same place of the cell.
     simulate(&place, ["front_door", "8", "again", "6"]);
     let inspect = ["inspect", "--scan", "again", "--library", "parts", "--json"];
     let line = place.run(&inspect).json();
     assert_eq!(line["part"], "my_door", "{line}");
     assert_eq!(line["scan"]["used"], 6);
     assert_eq!(line["accepted"], true, "{line}");
-    // Part space is the camera's frame of the first frame that was enrolled, and the door stood still.
+    // Part space is the camera frame of the first enrolled shot, and the door did not move.
     let found = matrix(&line["scan"]["base_from_part"]);
     let poses = place.json("frames/poses.json");
     let expected = matrix(&poses["frames"]["frame-01.png"]["true_world_from_camera"]);
     for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
-        // The robot's errors of both scans remain, as those of a pose 1.4 m away.
+        // The robot's errors in both scans remain, magnified by the distance of 1.4 m.
         assert!(
             (found - expected).abs() < 0.006,
             "number {k}: {found} {expected}"
@@ -260,7 +260,7 @@ fn the_inspection_of_a_scan_is_in_the_history_with_its_shots() {
     assert_eq!(shown["line"], line);
     assert_eq!(shown["shots"].as_array().map(Vec::len), Some(3));
     assert_eq!(shown["again"]["same"], true);
-    // A case has one frame.
+    // A case has a single frame, so a scan cannot become one.
     place.accepted(&["history", "label", "2", "fender"]);
     let err = place
         .coded(2, &["history", "export", "--cases", "cases"])
@@ -289,7 +289,7 @@ fn a_calibration_that_cannot_be_read_is_an_error_of_a_scan_that_needs_it_and_of_
     });
     let ran = place.coded(2, &["scan", "frames", "--out", "fused.ply"]);
     assert!(
-        ran.err.contains("cell.toml: no calibration: line 2"),
+        ran.err.contains("cell.toml: not a calibration: line 2"),
         "{}",
         ran.err
     );

@@ -16,10 +16,10 @@ use serde_json::Value;
 
 use crate::workplace::{Workplace, matrix};
 
-/// Long enough for a machine at work with other things; what is waited for comes at once.
+/// Timeout with room for a busy machine; what is awaited normally comes at once.
 const PATIENCE: Duration = Duration::from_mins(5);
 
-/// A cell whose camera is where the robot stands: the base frame is the camera's.
+/// A cell whose base frame is the camera frame.
 const CALIBRATE: [&str; 7] = [
     "calibrate",
     "set",
@@ -30,10 +30,10 @@ const CALIBRATE: [&str; 7] = [
     "cell.toml",
 ];
 
-/// A service at work.
+/// A running service.
 struct Service {
     child: Child,
-    /// What it wrote to standard error so far.
+    /// Its standard error so far.
     messages: Arc<Mutex<String>>,
     reader: Option<JoinHandle<()>>,
 }
@@ -88,7 +88,7 @@ impl Service {
         BufReader::new(stream)
     }
 
-    /// Ends it as Ctrl-C does: the code it ended with, and its standard output.
+    /// Ends it as Ctrl-C does; returns its exit code, standard output and messages.
     fn interrupt(mut self) -> (Option<i32>, String, String) {
         let sent = Command::new("kill")
             .args(["-INT", &self.child.id().to_string()])
@@ -107,7 +107,7 @@ impl Service {
 
 impl Drop for Service {
     fn drop(&mut self) {
-        // It has ended already where a test came to its end.
+        // It has ended already if the test completed.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -125,7 +125,7 @@ fn asked(stream: &mut BufReader<TcpStream>, request: &str) -> String {
 
 const EKI_TRIGGER: &str = "<Robot><Request>TRIGGER</Request><Point>0</Point></Robot>";
 
-/// Trigger as a binary frame, least byte first; its checksum was counted by another program.
+/// A trigger as a binary frame, little-endian; another program computed its checksum.
 const BINARY_TRIGGER: [u8; 20] =
     *b"PSRQ\x01\x00\x14\x00\x01\x00\x00\x00\x00\x00\x00\x00\xdd\x81\x35\xd0";
 
@@ -154,7 +154,7 @@ fn every_protocol_triggers_the_simulated_camera_and_gets_the_pose() {
     let line = asked(&mut service.connect("ascii"), "TRIGGER\n");
     let fields: Vec<&str> = line.split(';').collect();
     assert_eq!(fields[..3], ["TRIGGER", "accepted", "1"], "{line}");
-    // A pose of a simulated frame, of the part with this number.
+    // The verdict of a simulated frame on the part with this number, with a pose.
     assert_eq!(fields[5..8], ["running", "fender", "7"], "{line}");
     let flags: u32 = fields[8].parse().expect("a number");
     assert_eq!(flags & 5, 5, "{line}");
@@ -211,7 +211,7 @@ fn every_protocol_triggers_the_simulated_camera_and_gets_the_pose() {
             assert!((metres * 1000.0 - mm).abs() < 2e-3, "{line} {told:?}");
         }
     }
-    // Each trigger had a frame of its own, captured after the one before was inspected.
+    // Each trigger had its own frame, captured after the previous inspection.
     let numbers = lines
         .iter()
         .map(|line| line["number"].as_u64().expect("a number"));

@@ -1,4 +1,4 @@
-//! Sources: recorded, replayed, watched and followed by the built program.
+//! Sources that the built program records, replays, watches and follows.
 
 use std::{
     fs,
@@ -12,10 +12,10 @@ use serde_json::Value;
 
 use crate::workplace::{Ran, Workplace};
 
-/// Long enough for a machine at work with other things; what is waited for comes at once.
+/// Timeout with room for a busy machine; what is awaited normally comes at once.
 const PATIENCE: Duration = Duration::from_mins(2);
 
-/// Starts what goes on until it is interrupted.
+/// Starts a command that runs until it is interrupted.
 fn start(place: &Workplace, args: &[&str]) -> Child {
     place
         .command(args)
@@ -29,7 +29,7 @@ fn ended(child: Child) -> Ran {
     child.wait_with_output().expect("it ends").into()
 }
 
-/// The verdict alone: without times, and without what says how it was captured.
+/// The verdict without times and without the origin of the capture.
 fn verdict(line: &str) -> Value {
     let mut line: Value = serde_json::from_str(line).expect("a line of JSON");
     let fields = line.as_object_mut().expect("an object");
@@ -53,7 +53,7 @@ fn num_lines(path: &Path) -> usize {
     })
 }
 
-/// As Ctrl-C does.
+/// Interrupts the process as Ctrl-C does.
 #[cfg(unix)]
 fn interrupt(child: &Child) {
     let sent = Command::new("kill")
@@ -84,7 +84,7 @@ fn a_recording_gives_the_same_verdicts_as_the_cell_itself_bit_for_bit() {
         assert_eq!(line["simulated"], true);
         assert_eq!(line["part"], "fender");
     }
-    // The frames of a live cell are dropped as it pleases the machine; those that were seen both times agree.
+    // Which frames of a live cell are dropped depends on the machine; frames seen both times agree.
     let ran = place.run(&["inspect", "--source", cell, "--frames", "3", "--json"]);
     let direct: Vec<Value> = ran.out.lines().map(verdict).collect();
     assert_eq!(direct.len(), 3, "{}", ran.err);
@@ -97,7 +97,7 @@ fn a_recording_gives_the_same_verdicts_as_the_cell_itself_bit_for_bit() {
         }
     }
     assert!(num_agreeing >= 1, "{direct:?}");
-    // The images of a recording are captures of their own.
+    // The images of a recording can be inspected as files.
     let file = place.run(&["inspect", "tried/frame-000001.png", "--json"]);
     let file = file.json();
     assert_eq!(file["pose"], first[0]["pose"]);
@@ -156,7 +156,7 @@ fn a_watched_folder_is_followed_until_ctrl_c() {
         .stderr(fs::File::create(&messages).expect("a file"))
         .spawn()
         .expect("starts");
-    wait_until(|| said("the folder is not there"));
+    wait_until(|| said("the folder does not exist"));
     fs::create_dir(place.path("scans")).expect("a folder");
     fs::rename(place.path("one.pcd"), place.path("scans/one.pcd")).expect("renamed");
     wait_until(|| num_lines(&verdicts) == 1);
@@ -188,8 +188,8 @@ fn a_watched_folder_is_followed_until_ctrl_c() {
 fn what_cannot_be_opened_is_said_with_what_to_do() {
     let place = Workplace::new();
     for (source, words) in [
-        ("recording:missing", "the folder is not there"),
-        ("recording:.", "no recording, and no file of a camera"),
+        ("recording:missing", "the folder does not exist"),
+        ("recording:.", "neither a recording nor a camera's file"),
     ] {
         let Ran { out, err, .. } = place.coded(2, &["inspect", "--source", source, "--json"]);
         assert_eq!(out, "");
@@ -200,7 +200,7 @@ fn what_cannot_be_opened_is_said_with_what_to_do() {
     }
     let err = place.coded(2, &["inspect", "--source", "camera"]).err;
     assert!(
-        err.contains("is no source") && err.contains("capture --list"),
+        err.contains("is not a source") && err.contains("capture --list"),
         "{err}"
     );
     let out = place.accepted(&["capture", "--list"]).out;

@@ -1,4 +1,4 @@
-//! Where the built program is run.
+//! Folders in which tests run the built program.
 
 use std::{
     fs,
@@ -13,7 +13,7 @@ pub(crate) struct Workplace {
     folder: tempfile::TempDir,
 }
 
-/// What the program left when it ended.
+/// Exit code and outputs of a run.
 pub(crate) struct Ran {
     pub(crate) code: i32,
     pub(crate) out: String,
@@ -31,13 +31,13 @@ impl Workplace {
         self.folder.path().join(name)
     }
 
-    /// A program that takes this folder for the user's own.
+    /// A command of this program, with this folder as the user's own.
     pub(crate) fn command_of(&self, program: &str, args: &[&str]) -> Command {
         let mut command = Command::new(program);
         command
             .args(args)
             .current_dir(self.folder.path())
-            // Also on a desktop: these tests read the terminal.
+            // No window, even on a desktop: these tests read the terminal.
             .env_remove("DISPLAY")
             .env_remove("WAYLAND_DISPLAY")
             .env("XDG_DATA_HOME", self.path("data"))
@@ -53,14 +53,14 @@ impl Workplace {
         self.command(args).output().expect("starts").into()
     }
 
-    /// Runs what must end with this code.
+    /// Runs a command that must end with this code.
     pub(crate) fn coded(&self, code: i32, args: &[&str]) -> Ran {
         let ran = self.run(args);
         assert_eq!(ran.code, code, "{args:?}\n{}\n{}", ran.out, ran.err);
         ran
     }
 
-    /// Runs what must succeed.
+    /// Runs a command that must succeed.
     pub(crate) fn accepted(&self, args: &[&str]) -> Ran {
         self.coded(0, args)
     }

@@ -1,7 +1,7 @@
-//! GenICam cameras, played on this computer's own network by the fake camera that comes with aravis.
+//! GenICam cameras, played on the loopback network by the fake camera of aravis.
 //!
-//! Without it (`apt-get install aravis-tools libaravis-0.8-0`) the tests say that they were skipped; with
-//! `PARTSIGHT_REQUIRE_GENICAM=1` that is a failure.
+//! Without it (`apt-get install aravis-tools libaravis-0.8-0`) the tests report that they are skipped; with
+//! `PARTSIGHT_REQUIRE_GENICAM=1` they fail.
 
 #![cfg(target_os = "linux")]
 
@@ -23,15 +23,15 @@ use partsight::{
     geometry::{cloud::Grid, depth_frame::DepthFrame},
 };
 
-/// Longer than any step of a test takes, so that only one that hangs comes to its end.
+/// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
-/// The description of a 3-D camera, and what stands there for its `Scan3dOutputMode` and its `ReverseX`.
+/// The description of a 3-D camera, with placeholders for its `Scan3dOutputMode` and its `ReverseX`.
 const DEPTH_CAMERA: &str = include_str!("camera.xml");
 const MODE: &str = "THE_MODE";
 const REVERSE: &str = "THE_REVERSE";
 const ID: &str = "Aravis-Fake-PS01";
 
-/// What is missing for a test, said aloud.
+/// Reports what a test lacks; fails if the environment requires it.
 #[expect(
     clippy::print_stdout,
     reason = "a test that checks nothing must say so"
@@ -48,14 +48,14 @@ fn skipped(what: &str) {
 struct FakeCamera(Child);
 
 impl FakeCamera {
-    /// `None`, with a word about it, where there is no such program or no aravis.
+    /// Starts a camera; `None`, with a message, if the program or aravis is missing.
     fn start(description: Option<&Path>) -> Option<Self> {
         let mut command = Command::new("arv-fake-gv-camera-0.8");
         command.args(["-i", "127.0.0.1", "-s", "PS01"]);
         if let Some(path) = description {
             command.arg("-g").arg(path);
         }
-        // It complains of every frame whose pixels it cannot paint.
+        // It writes a message for every frame whose pixel format it cannot paint.
         let started = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn();
         let camera = match started {
             Ok(child) => Self(child),
@@ -83,13 +83,13 @@ impl FakeCamera {
 
 impl Drop for FakeCamera {
     fn drop(&mut self) {
-        // Killed as if its cable were pulled; it may have ended by itself.
+        // Killing it acts like a pulled cable; it may have ended by itself.
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
 }
 
-/// All cameras have the same address, so there is one at a time.
+/// Serialises the tests, because all cameras have the same address.
 fn alone() -> MutexGuard<'static, ()> {
     static ONE: Mutex<()> = Mutex::new(());
     ONE.lock().unwrap_or_else(PoisonError::into_inner)
@@ -99,7 +99,7 @@ fn spec(text: &str) -> SourceSpec {
     text.parse().expect(text)
 }
 
-/// The fake camera's grey values taken for depth in steps of 0.1 mm.
+/// A source that takes the fake camera's grey values for depth in steps of 0.1 mm.
 fn grey_as_depth(folder: &Path) -> SourceSpec {
     let path = folder.join("camera.json");
     let camera = r#"{"width":512,"height":512,"fx":500,"fy":500,"cx":255.5,"cy":255.5,"metres_per_unit":0.0001}"#;
@@ -129,7 +129,7 @@ fn next_capture(source: &mut dyn DepthSource) -> Captured {
         match source.next(Duration::from_millis(50)).expect("no trouble") {
             NextCapture::Captured(captured) => return captured,
             NextCapture::NotYet => {}
-            // A busy computer loses packets.
+            // A busy machine loses packets.
             NextCapture::Skipped(skipped) => assert!(!skipped.name.is_empty()),
             NextCapture::End => panic!("it ended"),
         }
@@ -144,8 +144,8 @@ fn depth_of(captured: Captured) -> DepthFrame {
     }
 }
 
-/// Fails unless the frame is the fake camera's pattern: the same along every diagonal, and 256 more from one to the next,
-/// until it begins again.
+/// Checks that the frame is the fake camera's pattern: constant along every diagonal, and 256 more from one diagonal
+/// to the next until it wraps.
 fn check_pattern(frame: &DepthFrame) {
     let width = frame.intrinsics.width;
     assert_eq!(frame.depth.len(), 512 * 512);
@@ -231,10 +231,10 @@ fn a_3d_camera_says_itself_what_its_values_stand_for() {
     for (told, expected) in told.into_iter().zip([500.5, 500.5, 255.5, 250.0]) {
         assert!((told - expected).abs() < 1e-9, "{told}");
     }
-    // A step of 0.25 mm, and 100 mm more for the largest of 65535 steps.
+    // A step of 0.25 mm, plus 100 mm spread over 65535 steps.
     let expected = 0.000_25 + 0.1 / 65_535.0;
     assert!((frame.metres_per_unit - expected).abs() < 1e-12);
-    // It paints no pixels of this format.
+    // The fake camera does not paint pixels of this format.
     assert!(frame.depth.iter().all(|&depth| depth == 0));
     drop(source);
 
@@ -296,7 +296,7 @@ fn a_camera_that_is_gone_is_lost_and_found_again() {
         matches!(*error, CaptureError::Genicam(GenicamError::Lost { .. })),
         "{error}"
     );
-    // What it had captured before.
+    // Discard the frames captured before.
     while feed.wait(Duration::ZERO).is_some() {}
     let _camera = FakeCamera::start(None).expect("it was there before");
     check_pattern(&depth_of(captured(&feed)));

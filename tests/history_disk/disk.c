@@ -1,11 +1,11 @@
-/* A disk that fails: loaded before the C library, it lets a call that changes a file of the history fail.
+/* Simulates a failing disk: preloaded before the C library, it makes a call that changes a file of the history fail.
  *
- * DISK_FAULT is "KIND NUMBER": what goes wrong, and at which of these calls.
- *   full    half of what is written gets there, and nothing more from then on
- *   broken  an input/output error, from then on
- *   once    an input/output error of that one call
- *   killed  half of what is written gets there, and the program ends
- * DISK_MARK is a file that is made when it happens. */
+ * DISK_FAULT is "KIND NUMBER": the kind of fault, and the number of the call at which it occurs.
+ *   full    half of the data is written, and nothing from then on
+ *   broken  an input/output error at this call and all later ones
+ *   once    an input/output error at this call only
+ *   killed  half of the data is written, and the program is killed
+ * DISK_MARK is a file that is created when the fault occurs. */
 
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -40,7 +40,7 @@ static int is_open_historys(int file) {
     return is_historys(path);
 }
 
-/* Whether this call fails, as which kind. */
+/* 1 if the fault begins at this call, 2 if it began earlier, 0 if the call succeeds. */
 static int fails(const char **kind) {
     static char words[64];
     const char *wanted = getenv("DISK_FAULT");
@@ -58,7 +58,7 @@ static int fails(const char **kind) {
     return number == at ? 1 : 2;
 }
 
-/* The end of the program, or what a failed call answers. */
+/* Kills the program, or sets errno and returns the result of a failed call. */
 static int failed(const char *kind) {
     if (strcmp(kind, "killed") == 0) {
         raise(SIGKILL);
@@ -67,7 +67,7 @@ static int failed(const char *kind) {
     return -1;
 }
 
-/* How many bytes still get to the disk; -1: all, the call does not fail. */
+/* Number of bytes that still reach the disk; -1 if the call does not fail. */
 static ssize_t arriving(int file, size_t size, const char **kind) {
     int turn = is_open_historys(file) ? fails(kind) : 0;
     if (turn == 0) {
@@ -127,7 +127,7 @@ int unlink(const char *path) {
     return REAL(unlink)(path);
 }
 
-/* Only where a file is made: a disk without room opens those that are there. */
+/* Only calls that create a file: a full disk can still open existing ones. */
 #define OPENING(name)                                                  \
     int name(const char *path, int flags, ...) {                       \
         mode_t mode = 0;                                               \

@@ -1,9 +1,9 @@
 //! A history on a disk that fails, wherever `SQLite` itself writes.
 //!
-//! `SQLite` writes by calls of its own. A library made here stands between it and the system (`disk.c`) and lets the n-th
-//! of them fail, for every n: with a full disk, an input/output error once or from then on, or the end of the program.
-//! What is read afterwards is the old history or the new one, and never one that was set aside. Without a C compiler
-//! the tests say that they were skipped; with `PARTSIGHT_REQUIRE_COMPILER=1` that is a failure.
+//! `SQLite` writes by calls of its own. A stub library (`disk.c`) intercepts them and lets the n-th one fail, for
+//! every n: with a full disk, an input/output error once or from then on, or the end of the program. Afterwards the
+//! history read is the old one or the new one, and is never set aside as damaged. Without a C compiler the tests
+//! report that they are skipped; with `PARTSIGHT_REQUIRE_COMPILER=1` they fail.
 
 #![cfg(target_os = "linux")]
 
@@ -18,9 +18,9 @@ use partsight::{
     history::{FILE, Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict},
 };
 
-/// In the environment of the process whose disk fails: its folder.
+/// Environment variable of the process whose disk fails: its folder.
 const BODY: &str = "PARTSIGHT_HISTORY_DISK_TEST";
-/// Longer than any list of calls.
+/// More than the calls of any run.
 const MOST_CALLS: usize = 1000;
 
 const ALL: Retention = Retention {
@@ -31,7 +31,7 @@ const ALL: Retention = Retention {
 
 type Step = fn(&mut History) -> Result<(), HistoryError>;
 
-/// What is done to a history, one after the other.
+/// The changes made to a history, in order.
 const STEPS: [Step; 3] = [
     |history| add(history, 2),
     |history| history.set_remark(1, "seen"),
@@ -43,7 +43,8 @@ fn add(history: &mut History, seconds: i64) -> Result<(), HistoryError> {
     history.add(&entry, &ALL).map(|_| ())
 }
 
-/// What runs on the disk that fails: says after each step that it is done, or why not. What failed once is tried again.
+/// The process on the failing disk: reports after each step that it is done, or why not. Retries a step if the fault
+/// occurs only once.
 #[test]
 fn body() {
     let Some(folder) = env::var_os(BODY) else {
@@ -91,7 +92,7 @@ fn sound(folder: &Path) -> Result<History, HistoryError> {
     Ok(opened.history)
 }
 
-/// What the other process said.
+/// The report of the other process.
 struct Told {
     is_killed: bool,
     num_done: usize,
@@ -123,7 +124,7 @@ fn run(folder: &Path, disk: &Path, fault: &str) -> Told {
         errors: Vec::new(),
         num_read: None,
     };
-    // The first line stands behind the name of the test.
+    // The first line follows the name of the test.
     for line in said
         .lines()
         .map(|line| line.trim_start_matches("test body ... "))
@@ -141,14 +142,14 @@ fn run(folder: &Path, disk: &Path, fault: &str) -> Told {
     told
 }
 
-/// The history that is there afterwards: `told` holds, and nothing else has changed.
+/// Checks the history afterwards: the steps in `told` are done, and nothing else has changed.
 fn check(folder: &Path, num_before: usize, fault: &str, told: &Told) {
     let mut history = open_history(folder);
     let page = history.page(&Filter::default(), 0, 10).expect("asked");
     let first = history.known(1).expect("the first is there");
     let num_added = page.num_all - num_before;
     let is_remarked = first.summary.remark == "seen";
-    // Each step follows the one before: an inspection, a remark, an inspection.
+    // The steps are in order: an inspection, a remark, an inspection.
     let state = match (num_added, is_remarked) {
         (0, false) => 0,
         (1, false) => 1,
@@ -173,8 +174,8 @@ fn check(folder: &Path, num_before: usize, fault: &str, told: &Told) {
     add(&mut history, 9).expect("the disk is well again");
 }
 
-/// Lets every call fail, one after the other, beginning with a history of so many inspections that
-/// `prepare` makes; `is_listed`: they can be read whatever fails.
+/// Lets every call fail, one after the other, starting with a history of `num_before` inspections that `prepare`
+/// makes. With `is_listed`, they must be readable whatever fails.
 fn fails_at_every_call(num_before: usize, is_listed: bool, prepare: impl Fn(&Path)) {
     let tools = tempfile::tempdir().expect("a folder");
     let disk = tools.path().join("libdisk.so");
@@ -199,7 +200,7 @@ fn fails_at_every_call(num_before: usize, is_listed: bool, prepare: impl Fn(&Pat
             }
             let is_cut_off = told.is_killed || told.num_done < STEPS.len();
             assert!(!is_cut_off || has_failed, "{fault}");
-            // What fails once succeeds when it is tried again.
+            // A step that fails once succeeds when it is tried again.
             assert!(kind != "once" || !is_cut_off, "{fault}: {:?}", told.errors);
             match told.num_read {
                 Some(num) => assert!(num >= num_before, "{fault}: {num} read"),

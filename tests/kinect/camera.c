@@ -1,5 +1,5 @@
-/* The functions of libfreenect that Partsight calls, as the real library behaves with a camera plugged in.
-   STUB says what is wrong with it; every call is written to the file that STUB_LOG names. */
+/* Stubs of the libfreenect functions that Partsight calls, which behave like the real library with a camera plugged in.
+   STUB names the fault of the camera; every call is logged in the file that STUB_LOG names. */
 
 #include <stdint.h>
 #include <stdio.h>
@@ -95,7 +95,7 @@ static int open_one(void **device, int index) {
         return refuse("Failed to claim camera interface: LIBUSB_ERROR_BUSY\n");
     called("open", index);
     *device = &the_device;
-    /* The real one keeps a device that fails here in its list, and closes it in its shutdown. */
+    /* The real library keeps a device that fails here in its list, and closes it in its shutdown. */
     return is("half open") ? refuse("freenect_camera_init(): Failed to fetch const shift for device\n") : 0;
 }
 
@@ -168,7 +168,7 @@ int freenect_process_events_timeout(void *context, struct timeval *wait) {
         freenect_stop_depth(&the_device);
         return refuse("USB camera marked dead, stopping streams\n");
     }
-    /* Two at once: the older one is of no use any more. */
+    /* Two frames at once: only the newer one is of use. */
     give(1000 + 2 * calls);
     give(1001 + 2 * calls);
     return 0;
@@ -181,6 +181,6 @@ void freenect_camera_to_world(void *device, int column, int row, int depth, doub
     *y = (row - 240) * factor;
 }
 
-/* Not to be touched. */
+/* Partsight must not call these. */
 int freenect_set_tilt_degs(void *device, double angle) { (void)device, (void)angle; called("tilt", 1); return 0; }
 int freenect_set_led(void *device, int led) { (void)device, (void)led; called("led", 1); return 0; }

@@ -1,4 +1,4 @@
-//! A camera that is plugged in, or goes wrong, played by a library made here.
+//! Cameras that work or fail, played by a stub library compiled here.
 
 use std::{env, ffi::OsStr, fs, time::Duration};
 
@@ -16,10 +16,10 @@ use crate::{
     skipped, trouble, trouble_of,
 };
 
-/// Every call from the start to the end of a stream, each with what it was given.
+/// The calls from the start to the end of a stream, with their arguments.
 const WHOLE: &str = "init 0,select 2,open 0,mode 5,start 1,stop 1,close 1,shutdown 1";
 
-/// Runs a test's body with a camera in that state; in the state "old" its library has a function less.
+/// Runs a test's body with a camera in that state; in the state "old" its library lacks a function.
 fn with_camera(test: &str, state: &str, body: impl FnOnce()) {
     if is_own(test) {
         return body();
@@ -40,7 +40,7 @@ fn with_camera(test: &str, state: &str, body: impl FnOnce()) {
     own_process::run(test, &environment);
 }
 
-/// The calls so far, with commas between them; the next ones begin a new list.
+/// Returns the calls so far, separated by commas, and clears the log.
 fn calls() -> String {
     let path = env::var_os("STUB_LOG").expect("a log");
     let calls = fs::read_to_string(&path).unwrap_or_default();
@@ -135,7 +135,7 @@ fn an_unplugged_camera_is_an_error_that_opening_again_may_help() {
         let error = kinect.next(Duration::from_millis(500)).expect_err("lost");
         assert_eq!(error.recovery(), Recovery::Reopen);
         assert!(error.to_string().contains("marked dead"), "{error}");
-        // The library stopped the stream itself, and we once more, which does nothing.
+        // The library stopped the stream itself; the second stop has no effect.
         let whole = WHOLE.replace("stop 1", "stop 1,stop 1");
         assert_eq!(calls(), whole, "let go at once");
         assert!(matches!(kinect.next(Duration::ZERO), Ok(NextCapture::End)));
@@ -168,14 +168,14 @@ fn a_signal_is_no_trouble() {
     });
 }
 
-/// What is said and done in a state in which the camera does not open.
+/// Checks message, advice and calls in a state in which the camera does not open.
 fn refused(test: &str, state: &str, words: &str, advice: &str, expected_calls: &str) {
     with_camera(test, state, || {
         let error = trouble();
         assert!(error.to_string().contains(words), "{error}");
         assert!(error.advice().contains(advice), "{}", error.advice());
         assert_eq!(calls(), expected_calls);
-        // Nothing is left behind that would keep it from opening once all is well.
+        // The second attempt fails in the same way: nothing is left behind.
         assert_eq!(trouble().to_string(), error.to_string());
     });
 }
@@ -203,7 +203,7 @@ fn no_permission() {
     refused(
         "camera::no_permission",
         "no permission",
-        "does not permit",
+        "does not allow",
         "plug the Kinect in again",
         calls,
     );
@@ -254,7 +254,7 @@ fn no_mode() {
     refused(
         "camera::no_mode",
         "no mode",
-        "in none of the forms",
+        "in none of the supported formats",
         "another build",
         calls,
     );
@@ -266,7 +266,7 @@ fn no_bandwidth() {
     refused(
         "camera::no_bandwidth",
         "no bandwidth",
-        "does not start: Failed to submit",
+        "cannot be started: Failed to submit",
         "another USB socket",
         calls,
     );

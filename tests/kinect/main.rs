@@ -1,9 +1,9 @@
-//! A Kinect without a Kinect: a recorded session played by the fakenect build of libfreenect, a library made here that
-//! behaves as the real one does when a camera is there or something is wrong, and the system's libfreenect itself.
+//! Kinect tests without a Kinect: a recorded session played by the fakenect build of libfreenect, a stub library that
+//! behaves like the real one with a working or failing camera, and the system's libfreenect itself.
 //!
-//! A library once loaded stays in its process with all its state, so every test has a process of its own. Without the
-//! libraries (`apt-get install libfreenect0.5`) or a C compiler the tests say that they were skipped; with
-//! `PARTSIGHT_REQUIRE_KINECT=1` that is a failure.
+//! A loaded library stays in its process with all its state, so every test has a process of its own. Without the
+//! libraries (`apt-get install libfreenect0.5`) or a C compiler the tests report that they are skipped; with
+//! `PARTSIGHT_REQUIRE_KINECT=1` they fail.
 
 #![cfg(target_os = "linux")]
 
@@ -26,20 +26,20 @@ use partsight::capture::{
     SourceSpec, list, open,
 };
 
-/// Longer than any step of a test takes, so that only one that hangs comes to its end.
+/// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
 
-/// The Kinect that the environment provides.
+/// Opens the Kinect that the environment provides.
 fn open_kinect() -> Result<Box<dyn DepthSource>, CaptureError> {
     open(&SourceSpec::Kinect(KinectSpec::default()))
 }
 
-/// Why it does not open.
+/// Returns why the Kinect does not open.
 fn trouble() -> KinectError {
     trouble_of(open_kinect().err().expect("does not open"))
 }
 
-/// The Kinects among the sources, and why one cannot be opened.
+/// The Kinects in the list of sources, including those that cannot be opened.
 fn listed() -> Vec<SourceListing> {
     let is_kinect = |listed: &SourceListing| match &listed.spec {
         Some(spec) => matches!(spec, SourceSpec::Kinect(_)),
@@ -69,7 +69,7 @@ fn next_capture(source: &mut dyn DepthSource) -> Option<Captured> {
     panic!("nothing came");
 }
 
-/// What is missing for a test, said aloud.
+/// Reports what a test lacks; fails if the environment requires it.
 #[expect(
     clippy::print_stdout,
     reason = "a test that checks nothing must say so"
@@ -82,7 +82,7 @@ fn skipped(what: &str) {
     println!("{text}");
 }
 
-/// The folder with the fakenect build; `None`, with a word about it, where there is none.
+/// The folder with the fakenect build; `None`, with a message, if it is not installed.
 fn fakenect() -> Option<PathBuf> {
     let lib = PathBuf::from("/usr/lib");
     let of_machine = format!("{}-linux-gnu/fakenect", std::env::consts::ARCH);

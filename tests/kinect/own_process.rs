@@ -1,4 +1,4 @@
-//! A test's body in a process of its own.
+//! Runs a test's body in a process of its own.
 
 use std::{
     env,
@@ -6,7 +6,7 @@ use std::{
     process::Command,
 };
 
-/// Names the test whose body this process runs.
+/// Environment variable with the test whose body this process runs.
 const BODY: &str = "PARTSIGHT_KINECT_TEST";
 
 /// True in the process that runs the body of that test.
@@ -42,9 +42,9 @@ pub(crate) fn run(test: &str, environment: &[(&str, &OsStr)]) {
         "{}\n{said}\n{errors}",
         output.status
     );
-    // A misspelt name would run nothing.
+    // A misspelt name would run no test.
     assert!(said.contains("1 passed"), "{said}");
-    // The first of them stands behind the name of the test.
+    // The first of them follows the name of the test on its line.
     for line in said
         .lines()
         .filter_map(|line| Some(&line[line.find("figures: ")?..]))

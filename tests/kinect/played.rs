@@ -72,7 +72,7 @@ fn frames_arrive_with_the_depth_that_was_seen_and_the_session_ends() {
     );
 }
 
-/// Nothing but the rounding, to steps of disparity there and to millimetres here, may lie between the two.
+/// Checks that the two differ only by rounding: to steps of disparity in the session, and to millimetres here.
 #[expect(clippy::print_stdout, reason = "figures to be read")]
 fn compare(found: &DepthFrame, seen: &DepthFrame) {
     let camera = found.intrinsics;
@@ -87,7 +87,7 @@ fn compare(found: &DepthFrame, seen: &DepthFrame) {
         }
         let found_mm = f64::from(found_units) * found.metres_per_unit * 1000.0;
         let seen_mm = f64::from(seen_units) * seen.metres_per_unit * 1000.0;
-        // Half a step, which is a little wider behind the reading than before it, and half a millimetre.
+        // Half a step, which is slightly wider behind the reading than before it, and half a millimetre.
         let rounding = 0.505 * step_width(seen_mm) + 0.5;
         let off = (found_mm - seen_mm).abs();
         assert!(off <= rounding, "{found_mm} mm for {seen_mm:.1} mm");
@@ -131,16 +131,16 @@ fn a_part_is_recognised_in_what_the_library_gives() {
 fn stopping_works_from_any_state() {
     let write = |folder: &Path| session::write_endless(folder, &session::frames()[1]);
     with_session("played::stopping_works_from_any_state", write, || {
-        // Opened, and nothing asked of it.
+        // Opened, but no frame requested.
         drop(open_kinect().expect("a session"));
-        // At work, and open once only.
+        // Running; it cannot be opened twice.
         let mut kinect = open_kinect().expect("opened again");
         next_capture(kinect.as_mut()).expect("a frame");
         let error = trouble();
         assert!(matches!(error, KinectError::InUse), "{error}");
         next_capture(kinect.as_mut()).expect("the first is not disturbed");
         drop(kinect);
-        // On the camera's own thread: before anything came, between frames, and after its end.
+        // On the camera's own thread: before the first frame, between frames, and after its end.
         let spec = || SourceSpec::Kinect(KinectSpec::default());
         for num_before in [0, 3] {
             let feed = Feed::start(spec(), BackpressurePolicy::Newest, || {}).expect("a thread");

@@ -10,16 +10,16 @@ use partsight::{
     simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame},
 };
 
-/// A Kinect's distance of projector and camera, cm.
+/// Distance between a Kinect's projector and camera, cm.
 const BASELINE: f64 = 7.5;
-/// Distance of its reference plane, cm.
+/// Distance of the reference plane, cm.
 const REFERENCE: f64 = 120.0;
-/// A pixel of the 1280 across on that plane, cm.
+/// Width of a pixel (1280 across) on that plane, cm.
 const PIXEL: f64 = 0.1042;
 /// No reading.
 const NOTHING: u16 = 2047;
 
-/// The camera with those values.
+/// The camera with these values.
 pub(crate) const CAMERA: Intrinsics = Intrinsics {
     width: 640,
     height: 480,
@@ -30,7 +30,7 @@ pub(crate) const CAMERA: Intrinsics = Intrinsics {
     distortion: Distortion::NONE,
 };
 
-/// What such a camera sees of the simulated cell: a fender, nothing, a front door.
+/// Frames of such a camera in the simulated cell: a fender, nothing, a front door.
 pub(crate) fn frames() -> Vec<DepthFrame> {
     let part = |kind| {
         let mut setup = CellSetup::with_part(kind, Side::Left, 0, 5);
@@ -49,7 +49,7 @@ pub(crate) fn frames() -> Vec<DepthFrame> {
     seen.collect()
 }
 
-/// One frame, so often that no test comes to its end.
+/// Writes one frame so often that no test reaches the end.
 pub(crate) fn write_endless(folder: &Path, frame: &DepthFrame) {
     write(folder, std::slice::from_ref(frame), 0.0);
     let index = folder.join("INDEX.txt");
@@ -57,7 +57,7 @@ pub(crate) fn write_endless(folder: &Path, frame: &DepthFrame) {
     fs::write(&index, line.repeat(20_000)).expect("written");
 }
 
-/// The frames in steps of disparity, so many seconds apart.
+/// Writes frames in steps of disparity, `apart` seconds apart.
 pub(crate) fn write(folder: &Path, frames: &[DepthFrame], apart: f64) {
     let mut index = String::new();
     for (k, frame) in frames.iter().enumerate() {
@@ -75,7 +75,7 @@ pub(crate) fn write(folder: &Path, frames: &[DepthFrame], apart: f64) {
     fs::write(folder.join("INDEX.txt"), index).expect("written");
 }
 
-/// The step of disparity that a Kinect gives for what is so far away; 0 is no reading.
+/// The step of disparity that a Kinect gives for a distance; 0 is no reading.
 pub(crate) fn step(millimetres: f64) -> u16 {
     let shift = BASELINE * (1.0 - REFERENCE / (millimetres / 10.0));
     let step = 4.0 * (shift / PIXEL + 0.375) + 800.0;
@@ -86,7 +86,7 @@ pub(crate) fn step(millimetres: f64) -> u16 {
     }
 }
 
-/// How far apart two steps are at that distance, mm.
+/// Distance between two steps at this depth, mm.
 pub(crate) fn step_width(millimetres: f64) -> f64 {
     millimetres.powi(2) * PIXEL / (4.0 * 10.0 * BASELINE * REFERENCE)
 }

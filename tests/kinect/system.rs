@@ -28,7 +28,7 @@ fn the_systems_library_is_found_by_itself_and_says_whether_a_kinect_is_there() {
         println!("figures: {}: {error}. {}", kinect.title, error.advice());
         match trouble_of(error) {
             KinectError::NoLibrary { .. } => skipped("libfreenect is not installed"),
-            // What a machine without a Kinect, without USB or without the right to it has.
+            // The errors of a machine without a Kinect, without USB, or without permission.
             KinectError::NoDevice
             | KinectError::NoUsb { .. }
             | KinectError::NoPermission { .. } => {}

@@ -1,6 +1,6 @@
-//! What several tests build: scenes, frames, clouds, libraries, inspections of a history.
+//! Test fixtures: scenes, frames, clouds, libraries, inspections of a history.
 //!
-//! One file for the unit tests (`crate::kit`) and for those of this folder.
+//! Shared by the unit tests (`crate::kit`) and the tests of this folder.
 
 #![allow(dead_code, reason = "every test program uses some of it")]
 
@@ -39,7 +39,7 @@ use partsight::{
 };
 use proptest::prelude::*;
 
-/// The eight parts that the program brings along.
+/// Loads the eight shipped parts.
 pub(crate) fn shipped_library() -> Library {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference_parts");
     let folder = LibraryFolder::open(&path).expect("the shipped parts");
@@ -47,7 +47,7 @@ pub(crate) fn shipped_library() -> Library {
     load.library
 }
 
-/// Copies the shipped parts into a new folder, to be changed by a test.
+/// Copies the shipped parts into a new folder, for a test to change.
 pub(crate) fn copy_library(to: &Path) {
     for part in fs::read_dir("reference_parts").expect("the shipped parts") {
         let from = part.expect("a part").path();
@@ -62,20 +62,19 @@ pub(crate) fn copy_library(to: &Path) {
     }
 }
 
-/// The scene that a simulated camera captures.
+/// The scene of a simulated frame.
 pub(crate) fn scene_of(setup: &CellSetup) -> SceneCloud {
     scene_from_frame(&frame(setup).frame)
 }
 
-/// A part before the camera and square to it.
+/// The scene of a part that faces the camera.
 pub(crate) fn facing_part(kind: PartKind, side: Side, seed: u64) -> SceneCloud {
     let mut setup = CellSetup::with_part(kind, side, 0, seed);
     setup.pose = PartPose::Drawn(PoseRange::facing());
     scene_of(&setup)
 }
 
-/// Writes what a camera that has moved back by so many metres sees of a fender that stands still; each seed gives another
-/// noise.
+/// Writes the view of a still fender from a camera moved back by `back` metres, with the noise of this seed.
 pub(crate) fn save_fender_view(path: &Path, noise: u64, back: f64) {
     let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 4);
     let standing = frame(&setup).truth.camera_from_part;
@@ -85,7 +84,7 @@ pub(crate) fn save_fender_view(path: &Path, noise: u64, back: f64) {
     save_cloud(path, &scene_of(&setup).cloud).expect("written");
 }
 
-/// A left part before the camera that moves away from where its seed puts it.
+/// A left part in front of the camera, which moves from the rest pose that its seed draws.
 pub(crate) struct HangingPart {
     pub(crate) setup: CellSetup,
     mesh: TriangleMesh,
@@ -104,7 +103,7 @@ impl HangingPart {
         }
     }
 
-    /// A frame of the part, moved by this from its rest.
+    /// A frame of the part, moved by this from its rest pose.
     pub(crate) fn frame(&self, noise: SensorNoise, moved: &RigidTransform) -> DepthFrame {
         let mut setup = self.setup;
         setup.pose = PartPose::Fixed(moved * self.rest_pose);
@@ -113,7 +112,7 @@ impl HangingPart {
     }
 }
 
-/// A captured frame so small that it can be written down; depths in millimetres.
+/// A small captured frame with these depths in millimetres.
 pub(crate) fn small_frame(width: usize, depth: impl IntoIterator<Item = u16>) -> DepthFrame {
     let depth: Vec<u16> = depth.into_iter().collect();
     DepthFrame {
@@ -128,7 +127,7 @@ pub(crate) fn small_frame(width: usize, depth: impl IntoIterator<Item = u16>) ->
     }
 }
 
-/// A plate of 0.8 by 0.48 m, square on, 1.2 m before the camera.
+/// A plate of 0.8 by 0.48 m, square to the camera at a distance of 1.2 m.
 pub(crate) fn plate() -> Reference {
     let points: Vec<Point3<f32>> = (0..101 * 61)
         .map(|i| {
@@ -145,29 +144,29 @@ pub(crate) fn plate() -> Reference {
     Reference::prepare("plate", cloud, Coverage::OneSide, &params).expect("an outline")
 }
 
-/// The cloud's points after this movement.
+/// The cloud's points, transformed.
 pub(crate) fn moved(cloud: &PointCloud, by: &RigidTransform) -> PointCloud {
     PointCloud::from_points(cloud.points.iter().map(|p| (by * p.cast::<f64>()).cast()))
 }
 
-/// A point at most 1 m from the origin along each axis.
+/// Generates points at most 1 m from the origin along each axis.
 pub(crate) fn any_point() -> impl Strategy<Value = Point3<f32>> {
     prop::array::uniform3(-1.0_f32..1.0).prop_map(Point3::from)
 }
 
-/// A moment, counted in seconds from the first.
+/// The time this many seconds after a fixed one.
 pub(crate) fn moment(seconds: i64) -> Timestamp {
     let first: Timestamp = "2026-03-01T06:00:00Z".parse().expect("a time");
     first + SignedDuration::from_secs(seconds)
 }
 
-/// A scene small enough to be written many times, another for every seed.
+/// A scene small enough to be written many times, different for every seed.
 pub(crate) fn small_scene(seed: u16) -> Arc<SceneCloud> {
     let depth = (0..32 * 24_u32).map(|i| (900 + (i * 7 + u32::from(seed) * 13) % 400) as u16);
     Arc::new(scene_from_frame(&small_frame(32, depth)))
 }
 
-/// A capture of one pixel that arrives now.
+/// A capture of one pixel, arriving now.
 pub(crate) fn captured(number: u64, taken_at: Timestamp) -> Captured {
     Captured {
         number,
@@ -182,7 +181,7 @@ pub(crate) fn captured(number: u64, taken_at: Timestamp) -> Captured {
     }
 }
 
-/// An inspection of that moment, as it is handed to a history.
+/// A history entry for an inspection at that time.
 pub(crate) fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEntry {
     let is_named = matches!(
         verdict,
@@ -218,7 +217,7 @@ pub(crate) fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) ->
             },
             detail: InspectionDetail {
                 nearest: Some(part.to_owned()),
-                // As an earlier program wrote it.
+                // As written by an earlier version of the program.
                 refusal: Some(StoredRefusal {
                     reason: "too low".into(),
                     advice: "look again".into(),
@@ -244,7 +243,7 @@ pub(crate) fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) ->
     }
 }
 
-/// Why an inspection was not accepted, as this program writes it.
+/// The reason for a refusal as the history stores it.
 pub(crate) fn refusal(why: impl Into<Refusal>) -> StoredRefusal {
     let why = why.into();
     StoredRefusal {
@@ -254,7 +253,7 @@ pub(crate) fn refusal(why: impl Into<Refusal>) -> StoredRefusal {
     }
 }
 
-/// A part that scores too little.
+/// The refusal of a part whose score is too low.
 pub(crate) fn low_score(part: &str, score: f64) -> StoredRefusal {
     refusal(Rejection::LowScore {
         part: part.to_owned(),
@@ -263,21 +262,21 @@ pub(crate) fn low_score(part: &str, score: f64) -> StoredRefusal {
     })
 }
 
-/// The history in this folder, which is sound.
+/// Opens the history in this folder, and checks that it is undamaged.
 pub(crate) fn open_history(folder: &Path) -> History {
     let opened = History::open(folder).expect("opened");
     assert_eq!(opened.set_aside, None);
     opened.history
 }
 
-/// A history in a new folder.
+/// Creates a history in a new folder.
 pub(crate) fn new_history() -> (tempfile::TempDir, History) {
     let folder = tempfile::tempdir().expect("a folder");
     let history = open_history(folder.path());
     (folder, history)
 }
 
-/// Every way in which a pose can be free.
+/// All free motions of a pose.
 pub(crate) const FREEDOMS: [FreeMotion; 7] = [
     FreeMotion::Slide(Axis::Long),
     FreeMotion::Slide(Axis::Short),
@@ -288,7 +287,7 @@ pub(crate) const FREEDOMS: [FreeMotion; 7] = [
     FreeMotion::Anyhow,
 ];
 
-/// Every reason for no pose.
+/// Every kind of pose error.
 pub(crate) fn pose_errors() -> Vec<PoseError> {
     let [found, needed] = [3, 12];
     let which = CloudRole::Source;
@@ -321,7 +320,7 @@ pub(crate) fn pose_errors() -> Vec<PoseError> {
     ]
 }
 
-/// Every rejection, those with several texts more than once.
+/// Every rejection; those with several texts more than once.
 pub(crate) fn rejections() -> Vec<Rejection> {
     let part = "Fender, left".to_owned();
     let (score, threshold, margin) = (0.456, 0.9, 0.125);
@@ -424,7 +423,7 @@ pub(crate) fn rejections() -> Vec<Rejection> {
     all
 }
 
-/// Every reason for no verdict but a fault of the program, those with several texts more than once.
+/// Every unrecognisable scene except a fault of the program; those with several texts more than once.
 pub(crate) fn unrecognisables() -> Vec<Unrecognisable> {
     let only_background = |knows_cell| {
         Unrecognisable::NoPart(NoPart::OnlyBackground {
@@ -459,11 +458,11 @@ pub(crate) fn unrecognisables() -> Vec<Unrecognisable> {
     ]
 }
 
-/// Makes a library of a C file, see [`compile_c`].
+/// Options of [`compile_c`] that make a shared library.
 pub(crate) const SHARED: [&str; 2] = ["-shared", "-fPIC"];
 
-/// Makes a program of a C file of this package, or with [`SHARED`] a library; the error says what is missing on this
-/// machine.
+/// Compiles a C file of this package to a program, or with [`SHARED`] to a library. The error says what this machine
+/// lacks.
 pub(crate) fn compile_c(source: &str, made: &Path, options: &[&str]) -> Result<(), String> {
     let compiler = env::var_os("CC").unwrap_or_else(|| OsString::from("cc"));
     let output = Command::new(compiler)
@@ -479,12 +478,12 @@ pub(crate) fn compile_c(source: &str, made: &Path, options: &[&str]) -> Result<(
         return Ok(());
     }
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    // Without the headers of the C library there is nothing to compile against; anything else is a fault of ours.
+    // Missing headers of the C library are a fault of the machine; any other error is a fault of the file.
     assert!(said.contains("No such file or directory"), "{said}");
     Err("no C headers".into())
 }
 
-/// Holds a value against the part of JSON schema that the published ones use.
+/// Checks a value against a JSON schema, as far as the published schemas use its keywords.
 pub(crate) fn conforms(
     value: &serde_json::Value,
     schema: &serde_json::Value,

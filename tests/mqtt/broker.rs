@@ -1,4 +1,4 @@
-//! A mosquitto of the test's own, and who listens there.
+//! A mosquitto that the tests start, and a subscriber.
 
 use std::{
     fs,
@@ -17,7 +17,7 @@ use std::{
 use rumqttc::{Client, Event, MqttOptions, Packet, QoS};
 use serde_json::Value;
 
-/// Long enough for a machine at work with other things, and for the longest pause between two attempts to connect.
+/// Timeout with room for a busy machine and for the longest pause between two attempts to connect.
 const PATIENCE: Duration = Duration::from_mins(2);
 
 /// The password of the cell.
@@ -31,7 +31,7 @@ pub(crate) fn wait_until(what: &str, is_so: impl Fn() -> bool) {
     }
 }
 
-/// A broker that asks for a password; it keeps nothing when it is killed.
+/// A broker that asks for a password; it loses all messages when it is killed.
 pub(crate) struct Broker {
     folder: tempfile::TempDir,
     port: u16,
@@ -44,19 +44,19 @@ fn is_there(program: &str) -> bool {
     command.stderr(Stdio::null()).status().is_ok()
 }
 
-/// Debian has it where only root's path leads.
+/// The name or path of mosquitto; Debian installs it in a folder of root's path only.
 fn mosquitto() -> Option<&'static str> {
     let mut names = ["mosquitto", "/usr/sbin/mosquitto"].into_iter();
     names.find(|name| is_there(name) && is_there("mosquitto_passwd"))
 }
 
-/// A port at which nobody listens.
+/// A port at which no server listens.
 pub(crate) fn free_port() -> u16 {
     let socket = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a free port");
     socket.local_addr().expect("its address").port()
 }
 
-/// True if there is a mosquitto; else it says so, and fails where it is required.
+/// True if mosquitto is installed; otherwise reports it, and fails if it is required.
 #[expect(
     clippy::print_stdout,
     reason = "a test that checks nothing must say so"
@@ -73,7 +73,7 @@ pub(crate) fn has_mosquitto() -> bool {
 }
 
 impl Broker {
-    /// One that is not started yet; `None`, with a word about it, where there is no mosquitto.
+    /// Prepares a broker without starting it; `None`, with a message, if mosquitto is not installed.
     pub(crate) fn prepare() -> Option<Self> {
         if !has_mosquitto() {
             return None;
@@ -85,7 +85,7 @@ impl Broker {
             port,
             child: None,
         };
-        // Started by root it would go on as a user who cannot read the folder.
+        // If started by root, it would otherwise switch to a user who cannot read the folder.
         let config = format!(
             "listener {port} 127.0.0.1\nallow_anonymous false\npassword_file {}\nuser root\n",
             broker.path("passwords").display()
@@ -97,7 +97,7 @@ impl Broker {
         Some(broker)
     }
 
-    /// As [`Self::prepare`], and started.
+    /// Prepares and starts a broker; `None` as for [`Self::prepare`].
     pub(crate) fn start_new() -> Option<Self> {
         let mut broker = Self::prepare()?;
         broker.start();
@@ -108,12 +108,12 @@ impl Broker {
         self.folder.path().join(name)
     }
 
-    /// The address of the cell there.
+    /// The address of the cell at this broker.
     pub(crate) fn address(&self) -> String {
         format!("mqtt://cell@127.0.0.1:{}/hall3/cell7", self.port)
     }
 
-    /// From its next start, or [`Self::reload`], this is the user's password.
+    /// Sets the user's password from the next start or [`Self::reload`] on.
     pub(crate) fn let_in(&self, user: &str, password: &str) {
         let status = Command::new("mosquitto_passwd")
             .arg("-b")
@@ -143,7 +143,7 @@ impl Broker {
         assert!(sent.expect("kill is there").success());
     }
 
-    /// Ends it as a loss of power does.
+    /// Kills it, like a loss of power.
     pub(crate) fn kill(&mut self) {
         if let Some(mut child) = self.child.take() {
             child.kill().expect("killed");
@@ -158,10 +158,10 @@ impl Drop for Broker {
     }
 }
 
-/// What arrived.
+/// A message that arrived.
 #[derive(Clone, Debug)]
 pub(crate) struct Received {
-    /// Without the prefix.
+    /// Topic without the prefix.
     pub(crate) topic: String,
     pub(crate) is_retained: bool,
     pub(crate) json: Value,
@@ -172,7 +172,7 @@ fn listener_name() -> String {
     format!("listener-{}", NUM.fetch_add(1, Ordering::SeqCst))
 }
 
-/// Somebody who subscribes to all topics of the cell, and again after every loss.
+/// A subscriber to all topics of the cell, which subscribes again after every loss of the connection.
 pub(crate) struct Subscriber {
     received: Receiver<Received>,
     num_subscribed: Arc<AtomicU32>,
@@ -181,14 +181,14 @@ pub(crate) struct Subscriber {
 }
 
 impl Subscriber {
-    /// Returns once it is subscribed.
+    /// Starts a subscriber, and returns once it is subscribed.
     pub(crate) fn start(broker: &Broker) -> Self {
         let mut options = MqttOptions::new(listener_name(), "127.0.0.1", broker.port);
         options.set_credentials("listener", "listens");
         Self::start_with(options, "hall3/cell7/")
     }
 
-    /// Of all topics with this prefix, at a broker that lets everybody in.
+    /// Subscribes to all topics with this prefix, at a broker without passwords.
     pub(crate) fn start_at(port: u16, prefix: &'static str) -> Self {
         let options = MqttOptions::new(listener_name(), "127.0.0.1", port);
         Self::start_with(options, prefix)
@@ -218,7 +218,7 @@ impl Subscriber {
                             is_retained: publish.retain,
                             json: serde_json::from_slice(&publish.payload).expect("JSON"),
                         };
-                        // Nobody reads it once the test has ended.
+                        // The receiver is gone once the test has ended.
                         let _ = tell.send(received);
                     }
                     Ok(Err(_)) => thread::sleep(Duration::from_millis(20)),
@@ -236,7 +236,7 @@ impl Subscriber {
         subscriber
     }
 
-    /// Waits until it has subscribed so many times.
+    /// Waits until it has subscribed this many times.
     pub(crate) fn wait_subscribed(&self, num: u32) {
         wait_until("subscribed", || {
             self.num_subscribed.load(Ordering::SeqCst) >= num
@@ -247,7 +247,7 @@ impl Subscriber {
         self.received.recv_timeout(PATIENCE).expect("a message")
     }
 
-    /// The next one of this topic.
+    /// The next message of this topic.
     pub(crate) fn next_of(&self, topic: &str) -> Received {
         loop {
             let received = self.next();
@@ -257,7 +257,7 @@ impl Subscriber {
         }
     }
 
-    /// The state that the broker keeps.
+    /// The state that the broker retains.
     pub(crate) fn retained(broker: &Broker) -> Value {
         let state = Self::start(broker).next_of("state");
         assert!(state.is_retained, "{state:?}");

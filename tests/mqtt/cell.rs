@@ -1,4 +1,4 @@
-//! A cell without a camera: a server that a robot triggers, and what it publishes.
+//! A cell without a camera: a server that a robot triggers, and that publishes its results.
 
 use std::{
     fs,
@@ -28,7 +28,7 @@ use partsight::{
 
 use crate::broker::{Broker, wait_until};
 
-/// A part that hangs as many millimetres from the robot as it has been inspected.
+/// An accepted part, `number` millimetres from the robot.
 pub(crate) fn accepted(number: u32) -> Found {
     let x = f64::from(number) / 1000.0;
     Found {
@@ -49,12 +49,12 @@ pub(crate) fn refused(number: u32) -> Found {
             reason: "low_score".into(),
             message: "too low (to do: Look again)".into(),
         },
-        // What must not go out.
+        // The cell must not publish these.
         ..accepted(number)
     }
 }
 
-/// An inspector that finds what it is told to, and publishes it.
+/// An inspector that returns what it is told to, and publishes it.
 struct Fake {
     number: u32,
     find: fn(u32) -> Found,
@@ -93,7 +93,7 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    /// Accepts every part.
+    /// Starts a cell that accepts every part.
     pub(crate) fn start(broker: &Broker, password: &str) -> Self {
         Self::start_with(
             broker,
@@ -156,7 +156,7 @@ impl Cell {
         }
     }
 
-    /// Triggers an inspection; the verdict as the robot is told.
+    /// Triggers an inspection and returns the verdict that the robot receives.
     pub(crate) fn trigger(&mut self) -> String {
         let robot = self.robot.as_mut().expect("connected");
         robot.get_mut().write_all(b"TRIGGER\n").expect("sent");
@@ -165,7 +165,7 @@ impl Cell {
         line.split(';').nth(1).expect("a verdict").to_owned()
     }
 
-    /// All news so far.
+    /// All events of the link so far.
     pub(crate) fn news(&self) -> Vec<LinkNews> {
         let mut all = self.news.lock().expect("whole");
         while let Some(news) = self.link.news() {

@@ -1,6 +1,6 @@
-//! MQTT against a real broker: mosquitto, started by each test at a free port (`apt-get install mosquitto`). Without it the
-//! tests say that they were skipped; with `PARTSIGHT_REQUIRE_MQTT=1` that is a failure. Encrypted connections are not
-//! tested here.
+//! MQTT against a real broker: mosquitto, started by each test at a free port (`apt-get install mosquitto`). Without
+//! it the tests report that they are skipped; with `PARTSIGHT_REQUIRE_MQTT=1` they fail. Encrypted connections are
+//! not tested here.
 
 // The broker and the program are killed by signals.
 #![cfg(unix)]
@@ -28,14 +28,15 @@ use self::{
     cell::{Cell, accepted, refused},
 };
 
-/// A message of the topic conforms to the published schema.
+/// Checks that a message conforms to the published schema of this name.
 fn assert_conforms(message: &Value, name: &str) {
     let schema: Value = serde_json::from_str(&messages_schema()).expect("JSON");
     let held = kit::conforms(message, &schema["$defs"][name], &schema);
     assert_eq!(held, Ok(()));
 }
 
-/// The sequence numbers of inspections up to this one. Twice in a row is the same message again.
+/// Receives inspections up to this sequence number and returns their numbers. A number twice in a row is a repeated
+/// message.
 fn sequences_up_to(last: u64, subscriber: &Subscriber) -> Vec<u64> {
     let mut found = Vec::new();
     while found.last() != Some(&last) {
@@ -45,7 +46,7 @@ fn sequences_up_to(last: u64, subscriber: &Subscriber) -> Vec<u64> {
     found
 }
 
-/// A broker that lets everybody in but the cell, with somebody who listens.
+/// A broker that refuses only the cell, with a subscriber.
 fn closed_broker() -> Option<(Broker, Subscriber)> {
     let mut broker = Broker::prepare()?;
     broker.let_in("cell", "another");
@@ -109,7 +110,7 @@ fn the_state_is_kept_and_inspections_arrive_in_order() {
         assert_eq!(message["boot"], cell.boot);
         assert_eq!(message["verdict"], *verdict);
         assert_eq!(message["traceability"], json!({"order": "A-17"}));
-        // Numbers go out with an accepted verdict only.
+        // A pose is published only with an accepted verdict.
         assert_eq!(
             message["pose"].is_object(),
             verdict == "accepted",
@@ -159,11 +160,11 @@ fn what_was_inspected_while_the_broker_was_gone_arrives_once_it_is_back() {
     assert_eq!(sequences_up_to(1, &subscriber), [1]);
     broker.kill();
     cell.wait_lost();
-    // Robots are answered all the same.
+    // Robots still get answers.
     for _ in 0..20 {
         assert_eq!(cell.trigger(), "accepted");
     }
-    // The cell comes last, so that the subscriber misses nothing.
+    // The cell connects last, so that the subscriber misses nothing.
     broker.let_in("cell", "another");
     broker.start();
     subscriber.wait_subscribed(2);
@@ -190,7 +191,7 @@ fn what_was_inspected_while_the_broker_was_gone_arrives_once_it_is_back() {
         panic!("one loss, told once: {news:?}");
     };
     assert!(*num_waiting >= 20, "{news:?}");
-    assert!(trouble.advice().contains("by itself"), "{trouble}");
+    assert!(trouble.advice().contains("is retried"), "{trouble}");
     assert_eq!(cell.end(), Ok(()));
 }
 

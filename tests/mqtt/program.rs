@@ -1,4 +1,4 @@
-//! The built program, killed and ended.
+//! The built program, when it is killed and when it ends.
 
 use std::{
     fs,
@@ -77,7 +77,7 @@ impl Service {
         Self { child, messages }
     }
 
-    /// The line of its messages that begins so, without its beginning.
+    /// Waits for the message that begins with `begin`, and returns the rest of its line.
     fn line(&mut self, begin: &str) -> String {
         let mut all = String::new();
         loop {
@@ -131,7 +131,7 @@ fn a_program_that_is_killed_becomes_offline_and_one_that_ends_says_so() {
         (&json!(true), &json!(3))
     );
     assert_eq!(message["pose"]["in_convention"]["convention"], "kuka");
-    // Killed: nobody but the broker can tell.
+    // The program is killed, so only the broker can report it.
     drop(service);
     loop {
         let state = subscriber.next_of("state").json;

@@ -1,4 +1,4 @@
-//! The three simulated cells of `packaging`: the script that starts them, and what compose starts.
+//! The three simulated cells of `packaging`: the script that starts them, and the file for compose.
 
 use std::{
     collections::BTreeSet,
@@ -27,7 +27,7 @@ fn at(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-/// The script at work, ended when dropped.
+/// The running script, ended when dropped.
 struct Script(Child);
 
 impl Drop for Script {
@@ -39,14 +39,14 @@ impl Drop for Script {
     }
 }
 
-/// Processes whose command line names this folder, but for the script itself.
+/// Processes whose command line or environment names this folder, except the script itself.
 fn processes_of(folder: &Path, script: u32) -> Vec<String> {
     let folder = folder.to_str().expect("text");
     let entries = fs::read_dir("/proc").expect("Linux");
     let processes = entries.filter_map(|entry| {
         let path = entry.ok()?.path();
         let id: u32 = path.file_name()?.to_str()?.parse().ok()?;
-        // Of one that has ended nothing can be read, or it is empty.
+        // For a process that has ended these cannot be read, or are empty.
         let command = fs::read(path.join("cmdline")).ok()?;
         let environment = fs::read(path.join("environ")).unwrap_or_default();
         let all = [command.as_slice(), &environment].concat();
@@ -57,14 +57,14 @@ fn processes_of(folder: &Path, script: u32) -> Vec<String> {
     processes.collect()
 }
 
-/// All that arrived, in whichever order the cells sent it.
+/// All messages that arrived, in any order.
 struct Inbox {
     subscriber: Subscriber,
     received: Vec<Received>,
 }
 
 impl Inbox {
-    /// The first message of this topic that is so, waited for if it is not there yet.
+    /// The first message of this topic that meets the condition; waits for it if necessary.
     fn find(&mut self, topic: &str, is_so: impl Fn(&Value) -> bool) -> Value {
         let mut next = 0;
         loop {
@@ -99,7 +99,7 @@ fn three_cells_tell_their_states_and_verdicts_and_end_together() {
     let broker = free_port();
     let ports = [free_port(), free_port(), free_port()];
     let messages = fs::File::create(folder.path().join("messages")).expect("created");
-    // Whoever started this may have Ctrl-C ignored, which a script cannot undo.
+    // The parent process may ignore Ctrl-C, which a script inherits and cannot undo.
     let script = Command::new("env")
         .args(["--default-signal=INT", "bash"])
         .arg(at("packaging/three_cells.sh"))
@@ -138,7 +138,7 @@ fn three_cells_tell_their_states_and_verdicts_and_end_together() {
             (&message["part"], &message["verdict"]),
             (&json!(part), &json!("accepted"))
         );
-        // A folder of its own for each.
+        // Each cell has a folder of its own.
         let library = data.join(cell).join("partsight/library");
         assert!(library.is_dir(), "{}", library.display());
     }
@@ -157,7 +157,7 @@ fn three_cells_tell_their_states_and_verdicts_and_end_together() {
     assert!(left.is_empty(), "{left:?}");
 }
 
-/// `compose.yaml` as JSON; `None`, with a word about it, where nothing reads YAML.
+/// `compose.yaml` as JSON; `None`, with a message, if no Python can read YAML.
 #[expect(
     clippy::print_stdout,
     reason = "a test that checks nothing must say so"
@@ -165,7 +165,7 @@ fn three_cells_tell_their_states_and_verdicts_and_end_together() {
 fn compose() -> Option<Value> {
     let program =
         "import json, sys, yaml; json.dump(yaml.safe_load(open(sys.argv[1])), sys.stdout)";
-    // Debian's has Debian's packages, another one before it may not.
+    // Another Python in the path may lack the packages that Debian's has.
     let mut interpreters = ["python3", "/usr/bin/python3"].into_iter();
     let has_yaml = |interpreter: &&str| {
         let tried = Command::new(interpreter)
@@ -191,7 +191,7 @@ fn compose() -> Option<Value> {
     Some(serde_json::from_slice(&read.stdout).expect("JSON"))
 }
 
-/// No container is started: the program takes the options of every cell.
+/// Starts no container: checks that the program accepts the options of every cell.
 #[test]
 fn the_containers_are_the_same_three_cells() {
     let Some(compose) = compose() else {
@@ -218,7 +218,7 @@ fn the_containers_are_the_same_three_cells() {
         assert!(addresses.insert(address), "{address} is taken");
         let args = service["command"].as_array().expect("a list");
         let args = args.iter().map(|arg| arg.as_str().expect("text"));
-        // Options are read before the calibration, which is not there.
+        // Options are checked before the calibration, which is missing.
         let missing = "--calibration=no_such_cell.toml";
         let args = args.map(|arg| {
             let is_calibration = arg.starts_with("--calibration=");

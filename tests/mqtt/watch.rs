@@ -14,7 +14,7 @@ use crate::{
     program::{interrupt, partsight, prepare},
 };
 
-/// Follows a source and publishes what is found.
+/// Follows a source and publishes the inspections.
 fn inspect(folder: &Path, broker: &Broker, source: &str) -> Command {
     let address = broker.address();
     let followed = [
@@ -123,7 +123,7 @@ fn of_a_camera_each_part_is_published_once_until_ctrl_c() {
     let subscriber = Subscriber::start(&broker);
     let child = inspect(folder.path(), &broker, "simulated,fps=5:fender").spawn();
     let mut running = Running(child.expect("starts"));
-    // Frames come all the time; a verdict that counts is that of one part.
+    // Frames keep coming, but only one verdict counts for one part.
     let first = loop {
         let received = subscriber.next();
         if received.topic == "inspection" {
@@ -150,9 +150,9 @@ fn options_that_would_be_passed_over_are_refused() {
     let mqtt = "--mqtt mqtt://broker/cell";
     let source = "--source simulated:fender";
     for (args, why) in [
-        (format!("a.ply {mqtt}"), "--mqtt goes with --source"),
-        ("a.ply --as kuka".into(), "go with --mqtt"),
-        (format!("{source} --number fender=1"), "go with --mqtt"),
+        (format!("a.ply {mqtt}"), "--mqtt needs --source"),
+        ("a.ply --as kuka".into(), "need --mqtt"),
+        (format!("{source} --number fender=1"), "need --mqtt"),
         (
             format!("{source} {mqtt} --calibration cell.toml"),
             "no convention is chosen",

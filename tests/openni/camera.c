@@ -1,8 +1,8 @@
-/* A driver of OpenNI 2 that plays one camera, in the state that STUB names. Every camera of OpenNI mirrors by itself, in its
- * driver, while the mirroring of its stream is on; so does this one.
+/* A driver for OpenNI 2 that plays one camera, in the state that STUB names. Like every OpenNI driver, it mirrors the picture
+ * itself while the mirroring of its stream is on.
  *
- * A frame shows 1000 + 10 column + row millimetres; of column 5, row 7 it shows 500 + the number of the frame, of column 9,
- * row 3 nothing. */
+ * A pixel holds 1000 + 10 column + row millimetres, except column 5, row 7: 500 + the number of the frame, and column 9, row 3:
+ * no reading. */
 #include <pthread.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-//! A camera that is plugged in, or goes wrong.
+//! Cameras that work or fail.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ use crate::{
     PATIENCE, check, listed, next_capture, next_frame, open_camera, trouble_of, with_camera,
 };
 
-/// The mirroring is on at first, and is switched off or cannot be.
+/// Checks frames of a camera whose mirroring is on at first, whether or not it can be switched off.
 fn shows_what_it_saw(test: &str, state: &str, metres_per_unit: f64) {
     with_camera(
         test,
@@ -121,11 +121,11 @@ fn an_unplugged_camera_is_lost_and_found_again() {
                 }
             };
             assert_eq!(error.recovery(), Recovery::Reopen);
-            assert!(error.to_string().contains("is gone"), "{error}");
+            assert!(error.to_string().contains("was lost"), "{error}");
             assert!(matches!(camera.next(Duration::ZERO), Ok(NextCapture::End)));
             drop(camera);
 
-            // It is there again as soon as it is opened, and gives no more than two frames each time.
+            // It can be opened again at once, and gives two frames at most each time.
             let spec = SourceSpec::OpenNi(OpenNiSpec::default());
             let feed = Feed::start(spec, BackpressurePolicy::Every, || {}).expect("a thread");
             for _ in 0..4 {
@@ -152,14 +152,14 @@ fn a_camera_that_sends_nothing_is_waited_for() {
     );
 }
 
-/// What is said in a state in which the camera does not open, or stops after its first frames.
+/// Checks message and advice in a state in which the camera does not open, or stops after its first frames.
 fn refused(test: &str, state: &str, words: &str, advice: &str) {
     with_camera(
         test,
         state,
         |_| {},
         || {
-            // Nothing is left behind that would keep it from opening once all is well: the second time is as the first.
+            // The second attempt is like the first: nothing is left behind that would keep the camera from opening.
             for _ in 0..2 {
                 let ended = open_camera().and_then(|mut camera| {
                     while next_capture(camera.as_mut())?.is_some() {}
@@ -188,7 +188,7 @@ fn busy() {
     refused(
         "camera::busy",
         "busy",
-        "does not open",
+        "cannot be opened",
         "Close other programs",
     );
 }
@@ -198,7 +198,7 @@ fn no_bandwidth() {
     refused(
         "camera::no_bandwidth",
         "no bandwidth",
-        "does not start",
+        "cannot be started",
         "another USB socket",
     );
 }

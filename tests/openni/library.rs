@@ -1,4 +1,4 @@
-//! The library itself: absent, another one, without drivers, and what it does to the process.
+//! The library itself: missing, another one, without drivers, and its effects on the process.
 
 use std::{
     env, fs,
@@ -24,7 +24,7 @@ use crate::{
     skipped, system_library, trouble_of, with_camera,
 };
 
-/// Why it does not open with the library in this folder.
+/// Returns why no camera opens with the library in this folder.
 fn trouble_in(folder: &Path) -> OpenNiError {
     let spec = OpenNiSpec {
         library: Some(folder.to_path_buf()),
@@ -61,7 +61,7 @@ fn the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there() {
                 );
                 skipped("libOpenNI2 is not installed (apt-get install libopenni2-0)");
             }
-            // What a machine without a camera has.
+            // The error of a machine without a camera.
             OpenNiError::NoDevice => {}
             error => panic!("{error}"),
         }

@@ -1,9 +1,9 @@
-//! OpenNI without a camera: the system's libOpenNI2 with a driver made here, which plays one, and with files that the
+//! OpenNI tests without a camera: the system's libOpenNI2 with a stub driver that plays one, and with files that the
 //! library itself records of it.
 //!
-//! A library once loaded stays in its process with all its state, so every test has a process of its own. Without the
-//! library (`apt-get install libopenni2-0`) or a C compiler the tests say that they were skipped; with
-//! `PARTSIGHT_REQUIRE_OPENNI=1` that is a failure.
+//! A loaded library stays in its process with all its state, so every test has a process of its own. Without the
+//! library (`apt-get install libopenni2-0`) or a C compiler the tests report that they are skipped; with
+//! `PARTSIGHT_REQUIRE_OPENNI=1` they fail.
 
 #![cfg(target_os = "linux")]
 
@@ -33,12 +33,13 @@ use partsight::{
     geometry::depth_frame::DepthFrame,
 };
 
-/// Plays a camera; a driver of OpenNI's library.
+/// Source of a stub driver for OpenNI's library, which plays a camera.
 const CAMERA: &str = "tests/openni/camera.c";
-/// Longer than any step of a test takes, so that only one that hangs comes to its end.
+/// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
 
-/// Runs a test's body with the camera in that state; see `camera.c`. `prepare` is given the folder of the library before.
+/// Runs a test's body with the camera in that state; see `camera.c`. Before, `prepare` gets the folder of the
+/// library.
 fn with_camera(test: &str, state: &str, prepare: impl FnOnce(&Path), body: impl FnOnce()) {
     if own_process::is_own(test) {
         return body();
@@ -55,7 +56,7 @@ fn with_camera(test: &str, state: &str, prepare: impl FnOnce(&Path), body: impl 
     own_process::run(test, &environment);
 }
 
-/// Puts the system's library into a folder, with its driver of files and the one that plays a camera.
+/// Puts the system's library into a folder, with its driver for files and the stub driver.
 fn install(folder: &Path) -> Result<(), String> {
     let library =
         system_library().ok_or("libOpenNI2 is not installed (apt-get install libopenni2-0)")?;
@@ -78,7 +79,7 @@ fn system_library() -> Option<PathBuf> {
     library.is_file().then_some(library)
 }
 
-/// What is missing for a test, said aloud.
+/// Reports what a test lacks; fails if the environment requires it.
 #[expect(
     clippy::print_stdout,
     reason = "a test that checks nothing must say so"
@@ -90,12 +91,12 @@ fn skipped(what: &str) {
     println!("{text}");
 }
 
-/// The first camera.
+/// Opens the first camera.
 fn open_camera() -> Result<Box<dyn DepthSource>, CaptureError> {
     open(&SourceSpec::OpenNi(OpenNiSpec::default()))
 }
 
-/// What is listed of OpenNI.
+/// The OpenNI cameras in the list of sources.
 fn listed() -> Vec<SourceListing> {
     let is_openni = |listed: &SourceListing| match &listed.spec {
         Some(spec) => matches!(spec, SourceSpec::OpenNi(_)),
@@ -137,12 +138,13 @@ fn frame_of(captured: Captured) -> DepthFrame {
     }
 }
 
-/// Checks that a frame shows what the camera saw, in metres and the right way round. Its number is shown in one pixel.
+/// Checks that a frame shows what the camera saw, in metres and not mirrored. Returns its number, which one pixel
+/// holds.
 fn check(frame: &DepthFrame, width: usize, height: usize) -> usize {
     let camera = frame.intrinsics;
     assert_eq!((camera.width, camera.height), (width, height));
     assert_eq!(frame.depth.len(), width * height);
-    // The focal length is half the width over the tangent of half the view of 1 rad; 0.8 rad upright.
+    // The focal length is half the width over the tangent of half the field of view: 1 rad across, 0.8 rad upright.
     let focal = [
         width as f64 / 2.0 / 0.5_f64.tan(),
         height as f64 / 2.0 / 0.4_f64.tan(),

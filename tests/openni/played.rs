@@ -20,7 +20,7 @@ use crate::{PATIENCE, check, frame_of, kit::compile_c, next_capture, trouble_of,
 
 const NUM_FRAMES: usize = 12;
 
-/// Records the camera in that state, in the mode and with the mirroring that it has by itself.
+/// Records the camera in that state, in its default mode and mirroring.
 fn record(folder: &Path, state: &str) {
     let program = folder.join("record");
     compile_c("tests/openni/record.c", &program, &[]).expect("as the driver was");
@@ -50,7 +50,7 @@ fn open_file() -> Result<Box<dyn DepthSource>, CaptureError> {
     open(&spec(&file(), None))
 }
 
-/// Every frame of the file comes, in order, and then its end.
+/// Checks that every frame of the file comes in order, followed by its end.
 fn plays_whole(test: &str, state: &str, size: [usize; 2], metres_per_unit: f64) {
     with_camera(
         test,
@@ -188,7 +188,7 @@ fn a_file_that_was_cut_off_is_refused_before_the_library_has_it() {
         |folder| record(folder, "well"),
         || {
             let whole = fs::read(file()).expect("recorded");
-            // The library leaves bytes behind the last record, which is the last place of its magic.
+            // The last record begins at the last magic; the library leaves bytes after it.
             let end = whole.windows(4).rposition(|magic| magic == b"NIR\0");
             let end = end.expect("a last record");
             for num in [end, end - 1, end / 2, end / 4, 100] {

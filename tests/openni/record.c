@@ -1,4 +1,4 @@
-/* Records so many frames of the first camera: record LIBRARY FILE.oni FRAMES. */
+/* Records frames of the first camera: record LIBRARY FILE.oni FRAMES. */
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ int main(int num, char **words) {
     check("recorder", ((int (*)(const char *, void **))function("oniCreateRecorder"))(words[2], &recorder));
     check("attach", ((int (*)(void *, void *, int))function("oniRecorderAttachStream"))(recorder, stream, 0));
     check("record", ((int (*)(void *))function("oniRecorderStart"))(recorder));
-    /* A thread of the recorder begins; the first frames would come before. */
+    /* Wait until the recorder's thread has started, so that it gets the first frames. */
     usleep(200000);
     check("start", ((int (*)(void *))function("oniStreamStart"))(stream));
     for (int k = 0; k < atoi(words[3]); k++) {

@@ -1,4 +1,4 @@
-//! Cameras as they are: fine pictures, lenses, images with left and right exchanged.
+//! Properties of real cameras: high resolution, lens distortion, images with left and right exchanged.
 
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use partsight::{
@@ -16,7 +16,7 @@ use partsight::{
 
 use super::{inspected, standard};
 
-/// Where the part hangs in these tests.
+/// Pose of the part in these tests.
 fn hung() -> RigidTransform {
     Isometry3::from_parts(
         Vector3::new(0.04, -0.03, 1.6).into(),
@@ -32,7 +32,7 @@ fn seen_by(camera: Intrinsics, kind: PartKind, side: Side) -> DepthFrame {
     frame(&setup).frame
 }
 
-/// How far a pose is off the truth: millimetres and degrees.
+/// Error of the pose: millimetres and degrees.
 fn off(inspection: &Inspection) -> [f64; 2] {
     let pose = inspection.pose.as_ref().expect("asked for").as_ref();
     let truth = hung() * enrolment_pose().inverse();
@@ -68,7 +68,8 @@ fn a_picture_of_five_million_pixels_gives_the_verdict_and_the_pose_of_a_small_on
     }
 }
 
-/// What a camera with a lens sees, from what a pinhole camera in its place sees: the reading nearest to each ray.
+/// The frame of a camera with a lens, made from that of a pinhole camera in its place: the reading nearest to each
+/// ray.
 fn through_lens(pinhole: &DepthFrame, lens: Intrinsics) -> DepthFrame {
     let seen = |i: usize| {
         let ray = lens.point_at((i % lens.width) as f64, (i / lens.width) as f64, 1.0);
@@ -112,7 +113,7 @@ fn behind_a_lens_the_pose_is_as_good_as_without_one() {
     assert!(found.verdict.is_accepted(), "{:?}", found.verdict);
     let [mm, degrees] = off(&found);
     assert!(mm < 4.0 && degrees < 0.4, "{mm} mm, {degrees}°");
-    // Taken for a pinhole camera's the part is bent.
+    // Read as a pinhole camera's frame, the part is bent.
     let bent = DepthFrame {
         intrinsics: Intrinsics::KINECT,
         ..frame
@@ -135,7 +136,7 @@ fn rejection(frame: &DepthFrame) -> Verdict {
 
 #[test]
 fn a_mirrored_image_is_named_where_no_part_of_another_side_can_be() {
-    // Of the shipped parts a car has once, the one that is not quite symmetric.
+    // The one of the shipped parts that a car has once and that is not quite symmetric.
     let frame = seen_by(Intrinsics::KINECT, PartKind::BackBumper, Side::Left);
     assert!(rejection(&frame).is_accepted());
     match rejection(&mirrored(frame)) {

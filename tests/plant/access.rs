@@ -1,4 +1,4 @@
-//! Tokens, HTTPS, and what may listen to the network.
+//! Tokens, HTTPS, and the conditions for listening to the network.
 
 use std::{
     fs,
@@ -34,7 +34,7 @@ fn with_token() -> HttpSettings {
     }
 }
 
-/// An encrypted connection that trusts the certificate of the tests alone.
+/// An encrypted connection that trusts only the certificate of the tests.
 fn encrypted(service: &Service) -> Client<StreamOwned<ClientConnection, TcpStream>> {
     let mut roots = RootCertStore::empty();
     let own = CertificateDer::from_pem_file(certificate()).expect("a certificate");
@@ -87,7 +87,7 @@ fn without_a_right_token_nothing_but_the_health_is_told() {
     assert_eq!(service.num_events(&ClientNews::WrongToken), 30);
 }
 
-/// The answer to `GET /v1/last` with these fields alone.
+/// Status of the answer to `GET /v1/last` with only these fields.
 fn status_of(service: &Service, fields: &str) -> u16 {
     let mut client = service.client();
     let request = format!("GET /v1/last HTTP/1.1\r\n{fields}\r\n");
@@ -109,7 +109,7 @@ fn a_web_page_may_not_ask_where_no_token_is_needed() {
         ("Host: [::1]:30180\r\n", 200),
         ("", 200),
         ("Host: localhost\r\nOrigin: null\r\n", 403),
-        // Of a page whose server says that its name is this computer's address.
+        // DNS rebinding: a page whose host name resolves to this computer.
         ("Host: rebound.example.com:30180\r\n", 403),
         ("Host: \r\n", 403),
     ] {
@@ -160,7 +160,7 @@ fn https_answers_as_http_does_and_plain_requests_get_nothing() {
     let service = Service::start_with(patient(), settings, accepted);
     let mut good = encrypted(&service).with_token(TOKEN);
     for sequence in 1..=3 {
-        // Who speaks no TLS is let go, at most with an alert.
+        // A client that does not speak TLS is disconnected, at most with an alert.
         let mut plain = service.client().with_token(TOKEN);
         plain.begin("POST", "/v1/trigger");
         assert!(plain.reply().is_err());

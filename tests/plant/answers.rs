@@ -1,4 +1,4 @@
-//! What is answered at each path, and that the published description says so.
+//! The answers at each path, checked against the published description.
 
 use std::{
     sync::Arc,
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::{Service, accepted, client::Reply, http_settings, patient, refused, schema, tokens};
 
-/// Every path that is read.
+/// Every path for GET requests.
 const READ: [&str; 7] = [
     "/v1/status",
     "/v1/last",
@@ -36,7 +36,7 @@ fn assert_at(numbers: &[f64], expected: [f64; 6]) {
     }
 }
 
-/// Every answer about an inspection says so much.
+/// Checks the fields that every answer about an inspection has.
 fn assert_known(answer: &Value, verdict: &str, sequence: u32) {
     assert_eq!(answer["verdict"], verdict, "{answer}");
     assert_eq!(answer["sequence"], sequence, "{answer}");
@@ -47,7 +47,7 @@ fn assert_known(answer: &Value, verdict: &str, sequence: u32) {
     assert!(answer.get("age_ms").is_some(), "{answer}");
 }
 
-/// The value of a line of the metrics.
+/// The value of this metric in the text.
 fn metric(text: &str, name: &str) -> Option<f64> {
     let mut lines = text.lines().filter_map(|line| line.rsplit_once(' '));
     let (_, value) = lines.find(|(found, _)| *found == format!("partsight_{name}"))?;
@@ -139,7 +139,7 @@ fn a_refused_part_and_a_stale_pose_have_no_numbers() {
             assert_eq!(answer["part"], "fender");
         }
         assert_eq!(answers[3]["path"], json!([]));
-        // What speaks of the part stays, and what a robot could move by does not.
+        // The report still names the part, but has nothing that a robot could move by.
         let line = &answers[4]["report"];
         assert_eq!(line["status"], "ok");
         assert_eq!((line.get("pose"), line.get("robot")), (None, None));
@@ -174,7 +174,7 @@ fn a_camera_that_is_lost_and_a_program_that_fails_are_errors_with_their_reason()
             (&answer["trouble"]["reason"], &answer["pose"]),
             (&json!(reason), &Value::Null)
         );
-        // Asked again it is what it was, and that is no error of this request.
+        // The last answer is repeated; its error is not an error of this request.
         let last = client.get("/v1/last");
         assert_eq!(
             (last.status, &last.json()["verdict"]),
@@ -251,7 +251,7 @@ fn metrics_count_verdicts_and_waiting_times() {
     }
     assert!(metric(&text, "last_frame_age_seconds").is_some_and(|age| age >= 0.0));
     assert!(metric(&text, "trigger_seconds_sum").is_some_and(|sum| sum > 0.0));
-    // As the format wants it: every line a comment or a name with its number.
+    // The format requires every line to be a comment, or a name with a number.
     let values = text.lines().filter(|line| !line.starts_with("# "));
     for line in values {
         let (name, value) = line.rsplit_once(' ').expect("a name and a number");
@@ -262,7 +262,7 @@ fn metrics_count_verdicts_and_waiting_times() {
     }
 }
 
-/// Holds an answer against what the description says of it.
+/// Checks an answer against its description.
 fn assert_described(reply: &Reply, method: &str, path: &str, document: &Value) {
     let operation = &document["paths"][path][method.to_lowercase()];
     let response = &operation["responses"][reply.status.to_string()];
@@ -302,7 +302,7 @@ fn every_answer_is_as_the_published_description_says() {
         }
         assert_described(&client.trigger(), "POST", "/v1/trigger", &document);
     }
-    // What goes wrong, too.
+    // Errors are described, too.
     client.fields = "Origin: http://example.com\r\n".into();
     for path in READ {
         assert_described(&client.get(path), "GET", path, &document);

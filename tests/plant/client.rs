@@ -1,4 +1,4 @@
-//! A client of HTTP/1.1 that does what it is told, and nothing of its own.
+//! A minimal HTTP/1.1 client that sends exactly what it is told to.
 
 use std::{
     io::{self, BufRead as _, BufReader, Read, Write},
@@ -16,7 +16,7 @@ pub(crate) struct Client<S: Read + Write = TcpStream> {
     pub(crate) fields: String,
 }
 
-/// What the server answered.
+/// An answer of the server.
 #[derive(Debug)]
 pub(crate) struct Reply {
     pub(crate) status: u16,
@@ -25,7 +25,7 @@ pub(crate) struct Reply {
 }
 
 impl Reply {
-    /// The first field of this name, in small letters.
+    /// The first field of this name, which must be in lower case.
     pub(crate) fn field(&self, name: &str) -> &str {
         let field = self.head.iter().find(|(other, _)| other == name);
         field.map_or("", |(_, value)| value)
@@ -58,7 +58,7 @@ impl<S: Read + Write> Client<S> {
         }
     }
 
-    /// The same client, which sends this token.
+    /// Makes the client send this token.
     pub(crate) fn with_token(mut self, token: &str) -> Self {
         self.fields = format!("Authorization: Bearer {token}\r\n");
         self

@@ -10,7 +10,7 @@ use serde_json::json;
 
 use super::client::Client;
 
-/// The built program, with this folder as the user's own.
+/// A command of the built program, with this folder as the user's own.
 fn partsight(folder: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_partsight"));
     command
@@ -21,7 +21,7 @@ fn partsight(folder: &Path, args: &[&str]) -> Command {
     command
 }
 
-/// A folder with the calibration of a cell whose camera is where the robot stands.
+/// A folder with the calibration of a cell whose camera frame is the robot's base frame.
 fn cell() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let pose = "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1";
@@ -49,7 +49,7 @@ const SERVE: [&str; 7] = [
     "eki=0",
 ];
 
-/// Ends the program also where a test fails.
+/// Ends the program even if a test fails.
 struct Ended(Child);
 
 impl Drop for Ended {
@@ -80,7 +80,7 @@ fn a_trigger_over_http_inspects_the_simulated_part() {
         address
     });
     let address = address.unwrap_or_else(|| panic!("{said:?}"));
-    // It goes on writing: somebody has to read.
+    // The program keeps writing, so its output must be read.
     let reader = std::thread::spawn(move || lines.for_each(drop));
     let mut client = Client::connect(address.parse().expect("an address"));
     let answer = client.trigger().json();
@@ -99,7 +99,7 @@ fn a_trigger_over_http_inspects_the_simulated_part() {
         (&json!("ok"), &json!("fender")),
         "{line}"
     );
-    // The same pose in both: millimetres there, a matrix of metres here.
+    // The same pose in both: millimetres in the answer, a matrix in metres in the line.
     let x = answer["pose"]["values"][0]["value"]
         .as_f64()
         .expect("a number");
@@ -121,7 +121,7 @@ fn what_cannot_be_served_is_said_with_advice() {
             "open to the network",
             "--http-token-file",
         ),
-        (&["--http", "0"], "in which numbers", "--as"),
+        (&["--http", "0"], "no convention of its own", "--as"),
         (
             &["--as", "kuka", "--http", "0", "--http-token-file", "tokens"],
             "no token",
@@ -129,7 +129,7 @@ fn what_cannot_be_served_is_said_with_advice() {
         ),
         (
             &["--as", "kuka", "--http", "door"],
-            "is no port",
+            "neither a port nor an IP address",
             "1 to 65535",
         ),
         (

@@ -1,4 +1,4 @@
-//! Many clients, hostile ones, and the end of the service.
+//! Many clients, hostile clients, and the end of the service.
 
 use std::{
     collections::BTreeSet,
@@ -40,7 +40,7 @@ fn of_ten_thousand_triggers_by_eight_clients_none_is_lost_or_answered_twice() {
                 told.collect::<Vec<_>>()
             })
         });
-        // All at once, before the first is waited for.
+        // Start all of them before waiting for the first.
         let clients: Vec<_> = clients.collect();
         let told = clients
             .into_iter()
@@ -91,7 +91,7 @@ fn as_many_triggers_wait_as_there_are_places_and_others_are_answered_at_once() {
             .text
             .contains("partsight_clients 2\n")
     });
-    // It hangs up, and its place stays taken until its inspection is over.
+    // The client hangs up, but its place stays taken until its inspection is over.
     drop(first);
     for _ in 0..20 {
         let reply = other.trigger();
@@ -114,7 +114,7 @@ fn as_many_triggers_wait_as_there_are_places_and_others_are_answered_at_once() {
     assert_eq!(second.reply().expect("an answer").json()["sequence"], 2);
 }
 
-/// Ends what goes on until then when it is dropped.
+/// Sets the flag when dropped, to end the threads that watch it.
 struct EndAtLast<'a>(&'a AtomicBool);
 
 impl Drop for EndAtLast<'_> {
@@ -128,7 +128,7 @@ fn hostile_clients_do_not_disturb_good_ones() {
     let service = Service::start_with(patient(), with_token(), accepted);
     let is_over = AtomicBool::new(false);
     thread::scope(|scope| {
-        // Whatever the server does with them is right: each goes on with a new connection.
+        // The server may do anything with a hostile client: it continues with a new connection.
         let attack = |head: String, chunk: Vec<u8>, num: usize| {
             let (address, is_over) = (service.address, &is_over);
             scope.spawn(move || {
@@ -167,11 +167,11 @@ fn hostile_clients_do_not_disturb_good_ones() {
             b"8\r\nAAAAAAAA\r\n".to_vec(),
             10_000,
         );
-        // Also if one of the good ones fails.
+        // Ends the attacks even if a good client fails.
         let _end = EndAtLast(&is_over);
         let mut kept = service.client().with_token(TOKEN);
         for round in 0..100 {
-            // One that stays connected, and one that connects for each request.
+            // One client stays connected, the other connects for each request.
             let told = kept.trigger();
             assert_eq!(told.status, 200, "round {round}: {told:?}");
             let told = service.client().with_token(TOKEN).trigger();
@@ -186,7 +186,7 @@ fn silent_connections_make_room_for_others() {
     let service = Service::start_with(patient(), with_token(), accepted);
     let mut kept = service.client().with_token(TOKEN);
     assert_eq!(kept.trigger().status, 200);
-    // More than are allowed, and none of them says a word.
+    // More connections than are allowed, all of them silent.
     let silent: Vec<_> = (0..600).map(|_| service.client()).collect();
     for sequence in 2..=4 {
         let mut new = service.client().with_token(TOKEN);
@@ -214,7 +214,7 @@ fn what_is_too_long_or_too_slow_is_refused_and_the_connection_closed() {
         }
         assert!(client.is_let_go(), "{reason}");
     };
-    // A gigabyte is announced, or begun; a body does not come; a head is longer than it may be.
+    // A gigabyte announced, or begun; a missing body; a head that is too long.
     refused(
         &format!("{trigger}Content-Length: 1000000000\r\n\r\n"),
         413,
@@ -243,7 +243,7 @@ fn what_is_too_long_or_too_slow_is_refused_and_the_connection_closed() {
     );
     refused(&format!("{trigger}{}\r\n", "X: y\r\n".repeat(100)), 431, "");
     refused("\0\0\0\0\r\n\r\n", 400, "");
-    // Half a head, and none at all.
+    // Half a head, and nothing at all.
     for bytes in [&b"POST /v1/trigger HTTP/1.1\r\nHo"[..], b""] {
         let mut client = service.client();
         client.send(bytes).expect("sent");

@@ -1,7 +1,7 @@
-//! HTTP beside the protocols of the server: real sockets on this computer's own address, and an inspector that needs no
+//! The HTTP interface of the server, tested over real sockets on the loopback address with an inspector that needs no
 //! camera.
 //!
-//! Requests are written and answers read here by hand, and held against the published description.
+//! Requests are written and answers parsed by hand, and checked against the published description.
 
 mod access;
 mod answers;
@@ -34,10 +34,10 @@ use partsight::{
 
 use self::client::Client;
 
-/// Long enough for a machine at work with other things; what is waited for comes at once.
+/// Timeout with room for a busy machine; what is awaited normally comes at once.
 const PATIENCE: Duration = Duration::from_mins(2);
 
-/// A part that hangs as many millimetres from the robot as it has been inspected, so that answers cannot be mixed up.
+/// An accepted part, `number` millimetres from the robot, so that answers cannot be mixed up.
 fn accepted(number: u32) -> Found {
     let at = |x| RigidTransform::translation(x, 0.25, 1.5);
     let step = |x, marks, speed| PathStep {
@@ -69,12 +69,12 @@ fn refused(number: u32) -> Found {
             reason: "low_score".into(),
             message: "too low (to do: Look again)".into(),
         },
-        // What must not go out.
+        // The server must not send these.
         ..accepted(number)
     }
 }
 
-/// An inspector that finds what it is told to, and counts.
+/// An inspector that returns what it is told to, and counts.
 struct Fake {
     number: u32,
     find: Box<dyn FnMut(u32) -> Found + Send>,
@@ -100,10 +100,10 @@ impl Inspector for Fake {
     }
 }
 
-/// How the camera of a service is; none makes the program fail where it is asked.
+/// State of a service's camera; `None` makes the program panic when it is asked.
 type Camera = Arc<Mutex<Option<CameraStatus>>>;
 
-/// A server at work, with HTTP alone.
+/// A running server with HTTP only.
 struct Service {
     http: Option<HttpServer>,
     address: SocketAddr,
@@ -188,7 +188,7 @@ impl Drop for Service {
     }
 }
 
-/// Also a client that this machine leaves waiting is not let go.
+/// Settings that do not disconnect a client, even on a slow machine.
 fn patient() -> ServerSettings {
     ServerSettings {
         request_timeout: PATIENCE,
@@ -196,7 +196,7 @@ fn patient() -> ServerSettings {
     }
 }
 
-/// Any free port of this computer, for every program on it.
+/// Settings for any free port of the loopback address.
 fn http_settings() -> HttpSettings {
     HttpSettings {
         address: "127.0.0.1:0".parse().expect("an address"),
@@ -206,7 +206,7 @@ fn http_settings() -> HttpSettings {
     }
 }
 
-/// The tokens of a file with this text.
+/// Reads tokens from a file with this text.
 fn tokens(text: &str) -> Tokens {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("tokens");
@@ -214,7 +214,7 @@ fn tokens(text: &str) -> Tokens {
     Tokens::load(&path).expect("tokens")
 }
 
-/// A certificate for this computer's own address, which signs itself and protects nothing.
+/// A self-signed certificate for the loopback address, for tests only.
 fn certificate() -> PathBuf {
     own_file("localhost.cert.pem")
 }

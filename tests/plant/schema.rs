@@ -1,9 +1,9 @@
-//! Checks values against the JSON schemas of the published description. Knows the keywords that appear there, and fails on
-//! any other.
+//! Checks values against the JSON schemas of the published description. Knows only the keywords that occur there, and
+//! fails on any other.
 
 use serde_json::Value;
 
-/// Why a value is not what the schema says, with the place in the value.
+/// Checks a value against a schema. The error says what is wrong, and where in the value.
 pub(crate) fn check(value: &Value, schema: &Value, document: &Value) -> Result<(), String> {
     let Some(keywords) = schema.as_object() else {
         let all = schema.as_bool().expect("a schema");
@@ -54,7 +54,7 @@ pub(crate) fn check(value: &Value, schema: &Value, document: &Value) -> Result<(
                 keywords.contains_key("additionalProperties"),
                 document,
             ),
-            // Together with no properties: anything goes.
+            // Without `properties` this allows any object.
             "additionalProperties" => {
                 assert_eq!(wanted, &Value::Bool(true));
                 Ok(())

@@ -1,4 +1,4 @@
-//! What cannot be used is refused in words, with what to do.
+//! A database that cannot be used gives an error with advice.
 
 use std::fs;
 
@@ -14,7 +14,7 @@ use crate::{
     server::{PASSWORD, Postgres},
 };
 
-/// Why a database at this address cannot be used with this password.
+/// Returns why a database at this address cannot be used with this password.
 fn refused(server: &Postgres, address: &str, password: &str) -> DatabaseError {
     let opened = Database::open(&server.access_to(address, password));
     let error = opened.err().expect("it cannot be used");
@@ -40,7 +40,7 @@ fn what_cannot_be_used_says_why() {
         matches!(error, DatabaseError::Unreachable { .. }),
         "{error}"
     );
-    // Not the user's own.
+    // A database that belongs to another user.
     let error = refused(&server, &server.address_of("postgres"), PASSWORD);
     assert!(matches!(error, DatabaseError::Forbidden { .. }), "{error}");
     assert!(error.advice().contains("GRANT"), "{}", error.advice());
@@ -85,7 +85,7 @@ fn the_program_says_what_to_do_and_keeps_the_history() {
     );
     assert!(!said.contains("wrong secret"), "{said}");
     assert_eq!(history.num_unsent().expect("asked"), 3);
-    // A verdict counts, whatever the database says.
+    // Verdicts count even if the database refuses.
     let inspect = [
         "inspect",
         "--source",
@@ -102,7 +102,7 @@ fn the_program_says_what_to_do_and_keeps_the_history() {
     for (args, words) in [
         (["--from", "postgres://me:hidden@db/parts"], "password"),
         (["--from", "me:hidden@db/parts"], "does not begin"),
-        (["--database-password-file", "password"], "none is named"),
+        (["--database-password-file", "password"], "none is given"),
     ] {
         let args = [&["history", "list"][..], &args].concat();
         let [_, said] = run(folder.path(), &args, 2);

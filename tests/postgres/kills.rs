@@ -1,4 +1,4 @@
-//! Either side is killed in the middle.
+//! The program or the server is killed while it works.
 
 use std::{
     env, fs,
@@ -18,11 +18,11 @@ use crate::{
     server::{PASSWORD, Postgres, wait_until},
 };
 
-/// In the environment of the process that kills itself: the history's folder, and the server's address.
+/// Environment variables of the process that kills itself: the history's folder, and the server's address.
 const FOLDER: &str = "PARTSIGHT_POSTGRES_TEST_FOLDER";
 const ADDRESS: &str = "PARTSIGHT_POSTGRES_TEST_ADDRESS";
 
-/// What runs in a process of its own: sends a batch, and is gone before it can note that.
+/// The process of its own: sends a batch, and ends before it can note that.
 #[test]
 fn body() {
     let (Some(folder), Ok(address)) = (env::var_os(FOLDER), env::var(ADDRESS)) else {
@@ -112,7 +112,7 @@ fn a_server_that_is_killed_again_and_again_while_inspections_are_stored_has_all_
     let mut sender = sender.expect("started");
     for round in 0..4 {
         add_some(&mut history, round * 1000..round * 1000 + 3 * BATCH as i64);
-        // While it sends them, or before.
+        // The kill comes while it sends them, or before.
         thread::sleep(Duration::from_millis(200 * round as u64));
         server.kill();
         history

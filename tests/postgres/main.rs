@@ -1,5 +1,5 @@
-//! The history in a real PostgreSQL, started by each test at a free port (`apt-get install postgresql`). Without it the
-//! tests say that they were skipped; with `PARTSIGHT_REQUIRE_POSTGRES=1` that is a failure.
+//! The history in a real PostgreSQL, started by each test at a free port (`apt-get install postgresql`). Without it
+//! the tests report that they are skipped; with `PARTSIGHT_REQUIRE_POSTGRES=1` they fail.
 
 // Server and program are killed by signals.
 #![cfg(unix)]
@@ -40,7 +40,7 @@ fn add(history: &mut History, entry: &NewEntry) -> i64 {
     history.add(entry, &ALL).expect("written")
 }
 
-/// Many of them at once, and without frames.
+/// Adds an inspection per second of the range; many of them in one go and without frames.
 fn add_some(history: &mut History, seconds: Range<i64>) {
     let is_many = seconds.end - seconds.start > 20;
     let entries = seconds.map(|seconds| {
@@ -63,7 +63,7 @@ fn cell_of(history: &mut History, cell: &str) -> CellHistory {
     }
 }
 
-/// Sends everything, as `history send` does; how many inspections went over.
+/// Sends everything, as `history send` does, and returns the number of inspections sent.
 fn send(
     database: &mut Database,
     history: &mut History,
@@ -80,7 +80,7 @@ fn send(
     }
 }
 
-/// The rows of a table in a history's file, as the database ought to have them.
+/// The rows of a table in a history's file, as the database should have them.
 fn rows_here(folder: &Path, table: &str, columns: &[Column]) -> Vec<Value> {
     let file = rusqlite::Connection::open(folder.join(FILE)).expect("there");
     let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
@@ -132,7 +132,7 @@ fn sorted(mut rows: Vec<Value>) -> Vec<Value> {
     rows
 }
 
-/// Every value of every row is the same here and there; how many inspections that are.
+/// Checks that every value of every row is the same in both places, and returns the number of inspections.
 fn assert_same(server: &Postgres, folder: &Path, cell: &str) -> usize {
     let mut num = 0;
     for (table, columns) in [
@@ -153,7 +153,7 @@ fn assert_same(server: &Postgres, folder: &Path, cell: &str) -> usize {
     num
 }
 
-/// Names that break out of what is written without care.
+/// A text that breaks queries and outputs without proper escaping.
 const HOSTILE: &str =
     "'; DROP TABLE partsight.inspection; -- \"$1\" \\ {} [] \u{1b}[31m 七 \u{202e}\n\t%s\0end";
 
@@ -163,7 +163,7 @@ fn everything_arrives_value_by_value_and_so_does_every_later_change() {
         return;
     };
     let (folder, mut history) = new_history();
-    // More than a batch, and what lay there before anybody sent it.
+    // More than one batch, all written before the first sending.
     add_some(&mut history, 0..BATCH as i64 + 5);
     let cell = "Halle 3's \"cell\"; --";
     let whose = cell_of(&mut history, cell);
@@ -196,7 +196,7 @@ fn everything_arrives_value_by_value_and_so_does_every_later_change() {
     );
     assert_eq!(at, ["0"], "times are those of the inspections");
 
-    // Nothing is sent twice, and what is sent again changes nothing.
+    // No row is sent twice, and sending one again changes nothing.
     assert_eq!(send(&mut database, &mut history, &whose).expect("sent"), 0);
     let changed = "SELECT max(changed) FROM partsight.inspection";
     let before = server.sql(changed);
@@ -209,7 +209,7 @@ fn everything_arrives_value_by_value_and_so_does_every_later_change() {
     let num = send(&mut database, &mut history, &whose).expect("sent");
     assert_eq!((num, server.sql(changed)), (BATCH + 6, before));
 
-    // A label, a remark, and an acceptance of the part that was refused.
+    // Add a label, a remark, and a later acceptance of the refused part.
     let label = Truth::Part(HOSTILE.into());
     history.set_label(3, Some(&label)).expect("written");
     history.set_remark(4, HOSTILE).expect("written");
@@ -342,7 +342,7 @@ fn a_frame_that_is_not_kept_any_longer_takes_no_row_away_in_the_database() {
     assert_eq!(server.sql(kept), ["3"]);
     let swept = history.sweep(&ALL, moment(400 * 86_400)).expect("swept");
     assert_eq!(swept.num_frames, 3);
-    // Nor does one that a person removes from the file.
+    // Nor does a row that a user removes from the file.
     let file = rusqlite::Connection::open(folder.path().join(FILE)).expect("there");
     file.execute_batch("PRAGMA foreign_keys = ON; DELETE FROM inspection WHERE number = 2")
         .expect("removed");
@@ -372,7 +372,7 @@ fn the_name_of_another_history_is_refused_until_it_is_taken_over() {
     );
     assert!(is_taken, "{refused}");
     assert_eq!(second.num_unsent().expect("asked"), 5);
-    // On the same connection.
+    // The connection can still be used.
     assert_eq!(assert_same(&server, first_folder.path(), "cell7"), 3);
     database.take_over(&new).expect("taken");
     assert_eq!(send(&mut database, &mut second, &new).expect("sent"), 5);
@@ -440,7 +440,7 @@ fn inspections_are_sent_as_they_come_and_each_outage_is_told_once() {
     add_some(&mut history, 0..5);
     wait_until("five are there", || server_count(&server) == "5");
     server.kill();
-    // Nobody waits: all of them are written at once.
+    // Adding does not wait for the server.
     add_some(&mut history, 5..305);
     wait_until("the outage is noticed", || sender.num_waiting() == 300);
     server.start();
@@ -459,7 +459,7 @@ fn inspections_are_sent_as_they_come_and_each_outage_is_told_once() {
     assert_eq!(assert_same(&server, folder.path(), "cell7"), 306);
 }
 
-/// Inspections of the only cell; nothing while there is no table.
+/// Number of inspections of the only cell; 0 as long as there is no table.
 fn server_count(server: &Postgres) -> String {
     let has_tables = server.sql("SELECT to_regclass('partsight.inspection') IS NOT NULL");
     if has_tables != ["t"] {

@@ -1,4 +1,4 @@
-//! The built program: what it sends, and the overview that it shows.
+//! The built program: sending the history, and the overview of the cells.
 
 use std::{fs, path::Path, process::Command};
 
@@ -24,7 +24,7 @@ pub(crate) fn partsight(folder: &Path, args: &[&str]) -> Command {
     command
 }
 
-/// Both outputs of a call that ends with this code.
+/// Runs a command that must end with this code, and returns both outputs.
 pub(crate) fn run(folder: &Path, args: &[&str], code: i32) -> [String; 2] {
     let output = partsight(folder, args).output().expect("starts");
     let said = [output.stdout, output.stderr];
@@ -102,7 +102,7 @@ fn an_overview_over_cells_is_listed_and_exported() {
         said.contains("cell9") && said.contains("to do: Give one of"),
         "{said}"
     );
-    // Nothing was made here.
+    // No data folder was created.
     assert!(!folder.path().join("data").exists());
 }
 
@@ -132,7 +132,7 @@ fn what_is_inspected_while_a_database_is_named_arrives_there() {
     ];
     let [_, said] = run(folder.path(), &[&inspect[..], &to].concat(), 0);
     assert!(!said.contains(PASSWORD), "{said}");
-    // What did not go out in the seconds at the end goes out now.
+    // Send what was not sent in the last seconds of the run.
     let send = ["history", "send", "--history", "here", "--to", &address];
     let rest = ["--cell", "cell7", "--database-password-file", "password"];
     let [_, said] = run(folder.path(), &[&send[..], &rest].concat(), 0);

@@ -1,4 +1,4 @@
-//! A PostgreSQL of the test's own.
+//! A PostgreSQL server that the tests start.
 
 use std::{
     env, fs,
@@ -11,12 +11,12 @@ use std::{
 
 use partsight::plant::database::{Database, DatabaseAccess, DatabaseAddress, DatabaseError};
 
-/// Long enough for a machine at work with other things, and for the longest pause between two attempts to connect.
+/// Timeout with room for a busy machine and for the longest pause between two attempts to connect.
 const PATIENCE: Duration = Duration::from_mins(2);
 
 /// The password of the user `cell`.
 pub(crate) const PASSWORD: &str = "as written";
-/// That of the server's owner.
+/// Password of the server's owner.
 const OWNER_PASSWORD: &str = "of the owner";
 
 pub(crate) fn wait_until(what: &str, is_so: impl Fn() -> bool) {
@@ -35,7 +35,7 @@ pub(crate) struct Postgres {
     child: Option<Child>,
 }
 
-/// Where Debian has the newest PostgreSQL.
+/// The folder of Debian's newest PostgreSQL.
 fn programs() -> Option<PathBuf> {
     let versions = fs::read_dir("/usr/lib/postgresql").ok()?;
     let versions = versions.filter_map(|version| Some(version.ok()?.path().join("bin")));
@@ -51,7 +51,7 @@ fn is_root() -> bool {
     asked.is_ok_and(|output| output.stdout == b"0\n")
 }
 
-/// A program of the server, which refuses to run as root.
+/// A command of the server, run as another user if this one is root, which the server refuses.
 fn as_somebody(program: &Path) -> Command {
     if !is_root() {
         return Command::new(program);
@@ -71,7 +71,7 @@ fn done(command: &mut Command) -> Output {
 }
 
 impl Postgres {
-    /// Started; `None`, with a word about it, where there is no PostgreSQL.
+    /// Starts a server; `None`, with a message, if PostgreSQL is not installed.
     #[expect(
         clippy::print_stdout,
         reason = "a test that checks nothing must say so"
@@ -154,7 +154,7 @@ impl Postgres {
             .arg(self.path("data"))
             .args(["-p", &self.port.to_string()])
             .args(["-c", "listen_addresses=127.0.0.1", "-c", "ssl=on"])
-            // The system keeps what was written when the process is killed.
+            // Written data survive a killed process even without fsync.
             .args(["-c", "fsync=off"])
             .args(["-c", &set("unix_socket_directories", self.folder.path())])
             .args([
@@ -169,8 +169,8 @@ impl Postgres {
             .expect("started")
     }
 
-    /// Starts it, and waits until it answers. One that was killed may leave processes for a moment, for which it does not
-    /// start.
+    /// Starts it, and waits until it answers. Retries, because processes of a killed server may block the start for a
+    /// moment.
     pub(crate) fn start(&mut self) {
         let until = Instant::now() + PATIENCE;
         let mut child = self.spawn();
@@ -185,7 +185,7 @@ impl Postgres {
         self.child = Some(child);
     }
 
-    /// Ends it as a loss of power does.
+    /// Kills it, like a loss of power.
     pub(crate) fn kill(&mut self) {
         if let Some(mut child) = self.child.take() {
             child.kill().expect("killed");
@@ -212,12 +212,12 @@ impl Postgres {
         text.lines().map(str::to_owned).collect()
     }
 
-    /// The lines that the owner is answered.
+    /// Runs a query as the owner, and returns the lines of the answer.
     pub(crate) fn sql(&self, sql: &str) -> Vec<String> {
         self.sql_in("plant", sql)
     }
 
-    /// Of the database `plant`, without encryption.
+    /// Address of the database `plant`, without encryption.
     pub(crate) fn address(&self) -> String {
         self.address_of("plant")
     }
@@ -226,7 +226,7 @@ impl Postgres {
         format!("postgres://cell@127.0.0.1:{}/{database}", self.port)
     }
 
-    /// What lets in at this address with this password.
+    /// Access data for this address and password.
     pub(crate) fn access_to(&self, address: &str, password: &str) -> DatabaseAccess {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("password");

@@ -23,7 +23,7 @@ use partsight::{
 
 use crate::{data_folder, kit::shipped_library};
 
-/// Outlines of the part, drawn by hand on the depth pictures: column and row of each corner.
+/// Outlines of the part, drawn by hand in the depth pictures: column and row of each corner.
 #[rustfmt::skip]
 const MASKS: [(&str, &[[i32; 2]]); 8] = [
     (
@@ -194,7 +194,7 @@ fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
             let middle = Point3::new(0.0, 0.0, 1.2);
             let off = pose_error(&pose.camera_from_part(), &camera_from_part, &middle);
             let (turn, shift) = (off.rotation.degrees(), off.shift.mm());
-            // The robot's own word is off by a few millimetres and some 0.3 degrees.
+            // The robot's poses are off by a few millimetres and about 0.3 degrees.
             assert!(
                 turn < 1.0 && shift < 10.0,
                 "{file}: {turn:.2}°, {shift:.1} mm"
@@ -207,14 +207,15 @@ fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
             num_approximate += usize::from(is_accepted && inspection.verdict.is_approximate());
         }
     }
-    // They are the very parts that were enrolled.
+    // They are the same parts that were enrolled, not other models.
     assert!(
         num_named >= 9 && num_accepted >= 7 && num_approximate <= 2,
         "{num_named} named, {num_accepted} accepted, {num_approximate} approximate"
     );
 }
 
-/// Between these frames the camera moved, by decimetres, and the part did not: never is that told as a part that moved.
+/// Between these frames the camera moved by decimetres and the part did not; this must never be reported as a moved
+/// part.
 #[test]
 fn a_camera_that_moves_before_a_part_is_never_told_as_a_part_that_moved() {
     let Some(data) = data_folder() else { return };

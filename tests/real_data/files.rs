@@ -1,4 +1,4 @@
-//! Files made by others, read here and by independent readers.
+//! Files from other sources, compared with the results of independent readers.
 //!
 //! The expected numbers are those of pypcd4 1.5.1 (PCD), plyfile 1.1.5 (PLY) and trimesh 5.2.0 (glTF), with numpy
 //! 2.4.6. Extents are compared to a hundredth of a millimetre.
@@ -16,7 +16,7 @@ const KINECT: Option<Grid> = Some(Grid {
     height: 480,
 });
 
-/// What an independent reader found in a cloud.
+/// Figures of a cloud from an independent reader.
 struct ExpectedCloud {
     file: &'static str,
     num_points: usize,
@@ -26,7 +26,7 @@ struct ExpectedCloud {
     high: [f32; 3],
     /// Sums of red, green and blue over the finite points.
     colour_sums: Option<[u64; 3]>,
-    /// How many finite points have each label.
+    /// Number of finite points of each label.
     labels: &'static [(u32, usize)],
 }
 
@@ -187,7 +187,7 @@ fn every_cloud_is_what_an_independent_reader_finds() {
             is_near(found_low, low) && is_near(found_high, high),
             "{file}: {found_low} to {found_high}"
         );
-        // Only the plane has normals, but 15 of them are NaN, so that none are kept.
+        // Only the plane has normals, but 15 of them are NaN, so none are kept.
         assert_eq!(cloud.normals, None, "{file}");
 
         let sums = cloud.colours.as_ref().map(|colours| {

@@ -1,5 +1,5 @@
-//! Damaged and hostile files, each given to the built program in a process of its own: nothing in them is accepted, and
-//! none of them ends the program, keeps it busy, or takes more than a gigabyte.
+//! Damaged and hostile files, each inspected by the built program in a process of its own: none is accepted, crashes
+//! the program, keeps it busy, or takes more than a gigabyte.
 
 use std::{
     fs,
@@ -14,12 +14,12 @@ use crate::data_folder;
 
 /// Address space of the process, in KiB.
 const MAX_KIB: u64 = 1 << 20;
-/// Seconds of processor time after which it hangs.
+/// Seconds of processor time after which it counts as hanging.
 const MAX_SECONDS: u64 = 10;
-/// After so long it waits for something that does not come.
+/// Wall time after which it counts as blocked.
 const PATIENCE: Duration = Duration::from_mins(2);
 
-/// Runs `partsight inspect` with these arguments under the limits; `None` where this build has no program.
+/// Runs `partsight inspect` with these arguments under the limits; `None` if this build has no program.
 fn inspect(arguments: &[&str]) -> Option<Output> {
     let program = option_env!("CARGO_BIN_EXE_partsight")?;
     let limits =
@@ -45,7 +45,7 @@ fn inspect(arguments: &[&str]) -> Option<Output> {
     panic!("{arguments:?} did not end");
 }
 
-/// The lines of JSON of a run that came to an end by itself.
+/// The lines of JSON of a run, which must end by itself.
 fn lines_of(arguments: &[&str]) -> Option<Vec<serde_json::Value>> {
     let output = inspect(arguments)?;
     let told = String::from_utf8_lossy(&output.stderr);
@@ -138,7 +138,7 @@ fn a_recording_with_a_mistyped_path_ends_and_its_sound_frame_is_inspected() {
     assert_ne!(sound["status"], "unreadable", "{sound}");
 }
 
-/// A PCD of `num_points` zeros in a packed block; `more` is a field of bytes that each point has besides.
+/// Writes a PCD of `num_points` zeros in a packed block; each point has an additional field of `more` bytes.
 fn packed_zeros(path: &Path, num_points: usize, more: usize) {
     let row = 12 + more;
     let mut bytes = format!(
@@ -147,7 +147,7 @@ fn packed_zeros(path: &Path, num_points: usize, more: usize) {
     )
     .into_bytes();
     let size = num_points * row;
-    // One byte as it is, then references of 264 bytes to the byte before.
+    // One literal byte, then references of 264 bytes to the byte before.
     let mut packed = vec![0, 0];
     let num_references = (size - 1) / 264;
     packed.extend([0xE0, 0xFF, 0x00].repeat(num_references));

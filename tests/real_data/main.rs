@@ -1,7 +1,7 @@
-//! Checks on real data made by others: files, silhouettes, recorded scenes, a car's meshes.
+//! Checks on real data from other sources: files, silhouettes, recorded scenes, a car's meshes.
 //!
-//! The data is looked for in `../shared/data` beside the crate, or where `PARTSIGHT_DATA` says. Without it the tests
-//! say so and pass; with `PARTSIGHT_REQUIRE_DATA=1` they fail.
+//! The data are in `../shared/data` beside the crate, or in the folder that `PARTSIGHT_DATA` names. Without them the
+//! tests report it and pass; with `PARTSIGHT_REQUIRE_DATA=1` they fail.
 
 mod booth;
 mod files;
@@ -16,7 +16,7 @@ mod silhouettes;
 
 use std::path::{Path, PathBuf};
 
-/// The folder with the data; `None`, with a word about it, where there is none.
+/// The folder with the data; `None`, with a message, if there is none.
 #[expect(
     clippy::print_stderr,
     reason = "a test that checks nothing must say so"

@@ -1,4 +1,4 @@
-//! Pairs of scans with published poses, aligned from no start.
+//! Pairs of scans with published poses, aligned without an initial pose.
 
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Rotation3, Translation3, UnitQuaternion};
 use partsight::{
@@ -35,8 +35,8 @@ fn report(what: &str, estimate: &PoseEstimate, error: &PoseDelta) {
 
 #[test]
 fn two_scans_of_the_bunny_meet_within_two_degrees_and_two_millimetres() {
-    // bun.conf: bun000 is the world, bun045 has this shift and quaternion (x y z w). The program that wrote the file
-    // turns points by the inverse of the quaternion.
+    // bun.conf: bun000 is the world, bun045 has this translation and quaternion (x y z w). The program that wrote the
+    // file rotates points by the inverse of the quaternion.
     let turn = Quaternion::new(0.955_586, 0.005_484_49, -0.294_635, -0.003_855_5).conjugate();
     let world_from_045 = Isometry3::from_parts(
         Translation3::new(-0.052_021_1, -0.000_383_981, -0.010_922_3),

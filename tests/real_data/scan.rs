@@ -32,10 +32,10 @@ fn shots(folder: &Path, series: &str, num: usize) -> Vec<Shot> {
     names.iter().map(shot).collect()
 }
 
-/// Part and stand are nearer to the camera than this, floor and walls are not, metres.
+/// Part and stand are nearer to the camera than this, metres; floor and walls are not.
 const NEAR: f32 = 1.5;
 
-/// Points of a shot's near surfaces, base frame, with normals; those beside depth discontinuities left out.
+/// Points of a shot's near surfaces, base frame, with normals, without those at depth discontinuities.
 fn near_surface(
     surface: &ShotSurface,
     pose: &RigidTransform,
@@ -47,8 +47,8 @@ fn near_surface(
     posed.unzip()
 }
 
-/// Root mean square distance of mutual nearest points within 15 mm, along the normal, over all pairs of frames; and how
-/// many there are. Independent of what the scan uses to find its own pairs.
+/// Root mean square distance along the normal of mutual nearest points within 15 mm, over all pairs of frames, and
+/// their number. Independent of the correspondences that the scan finds.
 fn disagreement(scan: &Scan, pose: impl Fn(usize) -> RigidTransform) -> (f64, usize) {
     let clouds: Vec<_> = scan
         .shots
@@ -85,7 +85,7 @@ fn the_frames_of_a_fender_and_of_a_door_agree_after_refinement() {
         let scan = assemble(&shots, &ScanParams::default(), &Unwatched).expect("a scan");
         assert_eq!(scan.used().count(), num_shots, "{series}");
         for shot in &scan.shots {
-            // The robot's word is off by a few millimetres and some tenths of a degree.
+            // The robot's poses are off by a few millimetres and some tenths of a degree.
             let moved = &shot.moved;
             assert!(
                 moved.shift.mm() < 15.0 && moved.rotation.degrees() < 0.6,

@@ -65,14 +65,14 @@ fn no_recorded_scene_is_accepted_as_a_car_part() {
     assert!(num_scenes >= 8);
 }
 
-/// A mesh of the car and the turn that brings its outside to face the camera, upright: `paint_from_car`.
+/// A mesh of the car, and the rotation that makes its outside face the camera, upright: `paint_from_car`.
 struct CarPart {
     mesh_name: &'static str,
     name: &'static str,
     paint_from_car: Rotation3<f64>,
 }
 
-/// The car has x along it, y up and z across; a paint side faces -z with y down.
+/// The car's frame has x along the car, y up and z across; a painted side faces -z with y down.
 fn car_parts() -> [CarPart; 3] {
     [
         CarPart {
@@ -89,7 +89,7 @@ fn car_parts() -> [CarPart; 3] {
                 1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0,
             )),
         },
-        // The lid faces back (-x) and up alike: seen from between the two.
+        // The lid faces backwards (-x) and upwards alike, so it is seen from between the two.
         CarPart {
             mesh_name: "Trunk_Lid",
             name: "trunk_lid",
@@ -111,7 +111,7 @@ fn car_mesh(data: &Path, name: &str) -> TriangleMesh {
     }
 }
 
-/// The mesh turned and centred as the simulated cell hangs its parts: `paint_from_car` and the mesh.
+/// Rotates and centres the mesh as the simulated cell hangs its parts; returns `paint_from_car` and the mesh.
 fn hung(mesh: &TriangleMesh, turn: &Rotation3<f64>) -> (RigidTransform, TriangleMesh) {
     let (low, high) = mesh.bounds().expect("vertices");
     let centre: Point3<f64> = nalgebra::center(&low, &high).cast();

@@ -1,5 +1,5 @@
-//! Ranking on real silhouettes: the first shape of each MPEG-7 class is enrolled, and the same shape is asked for
-//! again, turned, with both principal axes flipped, or drawn at another resolution.
+//! Ranking of real silhouettes: the first shape of each MPEG-7 class is enrolled, and queried again rotated, with
+//! both principal axes flipped, or drawn at another resolution.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ use partsight::{
 
 use crate::data_folder;
 
-/// A white shape on black, as a set of pixels.
+/// A white shape on black, as a binary image.
 struct Silhouette {
     class: String,
     image: BinaryImage,
@@ -37,7 +37,7 @@ fn class_of(name: &str) -> &str {
     &name[..name.rfind('-').expect("CLASS-N.png")]
 }
 
-/// The files by class and number.
+/// Names of the files by class and number.
 fn shape_names(folder: &Path) -> Vec<String> {
     let mut names: Vec<_> = std::fs::read_dir(folder)
         .expect("a folder of silhouettes")
@@ -78,16 +78,16 @@ fn silhouette(folder: &Path, name: &str) -> Silhouette {
     }
 }
 
-/// Draws a shape, a metre long, turned counter-clockwise about its centre, `raster` pixels to the metre.
+/// Draws a shape a metre long, rotated counter-clockwise about its centre, with `raster` pixels per metre.
 fn drawn(shape: &Silhouette, turn_degrees: f64, raster: usize) -> PlaneImage {
-    // Room for the diagonal at any turn, and an empty margin.
+    // Room for the diagonal at any rotation, and an empty margin.
     let side = raster * 3 / 2 + 8;
     let (sin, cos) = turn_degrees.to_radians().sin_cos();
     let per_pixel = shape.longest_side / raster as f64;
     let mut image = BinaryImage::new(side, side);
     for row in 0..side {
         for column in 0..side {
-            // Nine samples a pixel, by majority.
+            // The majority of nine samples per pixel.
             let set = (0..9)
                 .filter(|k| {
                     let x = (column as f64 + f64::from(k % 3 - 1) / 3.0 - side as f64 / 2.0)
@@ -162,7 +162,8 @@ fn a_shape_is_found_again_turned_flipped_and_at_another_resolution() {
     }
 }
 
-/// The other shapes of a class are other things of its kind: another bat, another camel. One of each class is enrolled.
+/// The other shapes of a class are other objects of its kind: another bat, another camel. One of each class is
+/// enrolled.
 #[test]
 fn other_shapes_of_a_class_rank_their_class_among_the_first() {
     let Some(data) = data_folder() else { return };
@@ -191,7 +192,7 @@ fn other_shapes_of_a_class_rank_their_class_among_the_first() {
         first += usize::from(place == Some(0));
         among_five += usize::from(place.is_some_and(|place| place < 5));
     }
-    // The exemplars themselves are first, and not counted.
+    // The enrolled shapes themselves rank first and are not counted.
     let own = references.len();
     (num, first, among_five) = (num - own, first - own, among_five - own);
     let share = |n: usize| 100.0 * n as f64 / num as f64;

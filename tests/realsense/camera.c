@@ -1,8 +1,8 @@
-/* librealsense 2, as far as Partsight calls it, with two cameras in the state that STUB names. When the process ends, it fails
- * if anything was not given back.
+/* Stubs of the librealsense 2 functions that Partsight calls, with two cameras in the state that STUB names. Makes the process
+ * fail at its end if anything was not released.
  *
- * A frame shows 1000 + 3 column + row units; of column 5, row 7 it shows the number of the frame, of column 9, row 3
- * nothing, of column 11, row 3 the number of the camera. Its rows are longer than they have to be. */
+ * A pixel holds 1000 + 3 column + row units, except column 5, row 7: the number of the frame, column 9, row 3: no reading, and
+ * column 11, row 3: the number of the camera. The rows are longer than necessary. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -68,7 +68,7 @@ const char *rs2_get_error_message(const void *error) { return ((const Error *)er
 void rs2_free_error(void *error) { forget(error); }
 
 void *rs2_create_context(int version, void **error) {
-    /* As the library compares them: no other major version, no newer minor version than its own, here 2.30. */
+    /* Like the library, accept only the same major version, and no minor version newer than its own, here 2.30. */
     if (is("other version") || version / 10000 != 2 || version % 10000 / 100 > 30) {
         fail(error, "API version mismatch");
         return NULL;
@@ -98,13 +98,13 @@ const char *rs2_get_device_info(const void *device, int info, void **error) {
     return info == 0 ? "Intel RealSense D435" : serials[camera_of(device)];
 }
 
-/* Files, of which there are none here. */
+/* Files; this library has none. */
 void *rs2_context_add_device(void *context, const char *path, void **error) { (void)context, (void)path; fail(error, "no files here"); return NULL; }
 void rs2_playback_device_set_real_time(const void *device, int real_time, void **error) { (void)device, (void)real_time; fail(error, "no playback"); }
 void rs2_playback_device_set_playback_speed(const void *device, float speed, void **error) { (void)device, (void)speed; fail(error, "no playback"); }
 int rs2_playback_device_get_current_status(const void *device, void **error) { (void)device; fail(error, "no playback"); return 0; }
 
-/* Sensors: one of movement, one of depth. */
+/* Sensors: one for motion, one for depth. */
 void *rs2_query_sensors(const void *device, void **error) { (void)error; return object(camera_of(device)); }
 void rs2_delete_sensor_list(void *list) { forget(list); }
 int rs2_get_sensors_count(const void *list, void **error) { (void)list, (void)error; return 2; }

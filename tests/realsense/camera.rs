@@ -1,4 +1,4 @@
-//! Cameras that are plugged in, or go wrong.
+//! Cameras that work or fail.
 
 use std::time::Duration;
 
@@ -29,7 +29,7 @@ fn depth_comes_in_the_preferred_size_and_in_metres() {
             let captured = next_capture(camera.as_mut()).expect("no trouble");
             let captured = captured.expect("no end");
             assert_eq!(captured.number, u64::from(number));
-            // Of a live camera that is now, whatever its own clock says.
+            // For a live camera this is the present time, whatever its own clock says.
             assert!(captured.taken_at.as_millisecond() > 1_000_000);
             let frame = frame_of(captured);
             assert_eq!(check(&frame, 848, 480), number);
@@ -106,11 +106,11 @@ fn an_unplugged_camera_is_lost_and_found_again() {
             }
         };
         assert_eq!(error.recovery(), Recovery::Reopen);
-        assert!(error.to_string().contains("is gone"), "{error}");
+        assert!(error.to_string().contains("was lost"), "{error}");
         assert!(matches!(camera.next(Duration::ZERO), Ok(NextCapture::End)));
         drop(camera);
 
-        // It is there again as soon as it is opened, and gives no more than two frames each time.
+        // It can be opened again at once, and gives two frames at most each time.
         let spec = SourceSpec::Realsense(RealsenseSpec::default());
         let feed = Feed::start(spec, BackpressurePolicy::Every, || {}).expect("a thread");
         for _ in 0..4 {
@@ -136,10 +136,10 @@ fn a_camera_that_sends_nothing_is_waited_for_then_opened_again() {
     });
 }
 
-/// What is said in a state in which the camera does not open, or stops after its first frames.
+/// Checks message and advice in a state in which the camera does not open, or stops after its first frames.
 fn refused(test: &str, state: &str, words: &str, advice: &str) {
     with_cameras(test, state, || {
-        // Nothing is left behind that would keep it from opening once all is well: the second time is as the first.
+        // The second attempt is like the first: nothing is left behind that would keep the camera from opening.
         for _ in 0..2 {
             let ended = open_camera().and_then(|mut camera| {
                 while next_capture(camera.as_mut())?.is_some() {}
@@ -166,7 +166,7 @@ fn no_camera() {
 
 #[test]
 fn no_permission() {
-    let words = "does not open: failed to open usb interface: 0, error: RS2_USB_STATUS_ACCESS";
+    let words = "cannot be opened: failed to open usb interface: 0, error: RS2_USB_STATUS_ACCESS";
     let test = "camera::no_permission";
     refused(test, "no permission", words, "Close other programs");
 }
@@ -187,13 +187,13 @@ fn a_camera_that_does_not_open_is_listed_with_the_reason() {
 
 #[test]
 fn busy() {
-    let words = "does not start: Device or resource busy";
+    let words = "cannot be started: Device or resource busy";
     refused("camera::busy", "busy", words, "Close other programs");
 }
 
 #[test]
 fn no_bandwidth() {
-    let words = "does not start: not enough bandwidth";
+    let words = "cannot be started: not enough bandwidth";
     refused("camera::no_bandwidth", "no bandwidth", words, "same hub");
 }
 
@@ -228,14 +228,14 @@ fn a_frame_without_all_its_bytes() {
 
 #[test]
 fn a_queue_that_fails() {
-    let words = "is gone: the queue is broken";
+    let words = "was lost: the queue is broken";
     refused("camera::a_queue_that_fails", "crash", words, "cable");
 }
 
 #[test]
 fn another_version_of_the_library() {
     let test = "camera::another_version_of_the_library";
-    let words = "does not start: API version mismatch";
+    let words = "cannot be started: API version mismatch";
     refused(test, "other version", words, "newer librealsense 2");
 }
 

@@ -1,4 +1,4 @@
-//! The library itself: absent, or another one.
+//! The library itself is missing, or is another one.
 
 use std::fs;
 
@@ -32,7 +32,7 @@ fn the_systems_library_is_found_by_itself_or_told_to_be_absent() {
                     assert!(error.advice().contains(word), "{}", error.advice());
                 }
             }
-            // What a machine without a camera has.
+            // The error of a machine without a camera.
             RealsenseError::NoDevice => {}
             error => panic!("{error}"),
         }
@@ -64,7 +64,7 @@ fn a_place_without_the_library_and_other_libraries_are_told_apart() {
         "{error}"
     );
 
-    // The newer one goes before it.
+    // The newer library takes precedence.
     let library = folder.path().join("librealsense2.so.2.55");
     if let Err(why) = compile_c("tests/realsense/python.c", &library, &SHARED) {
         return skipped("PARTSIGHT_REQUIRE_COMPILER", &why);

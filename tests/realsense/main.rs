@@ -1,10 +1,10 @@
-//! RealSense without a camera: a library made here that plays two, and librealsense itself with files that it records of a
-//! camera in software.
+//! RealSense tests without a camera: a stub library that plays two, and librealsense itself with files that it
+//! records of a software camera.
 //!
-//! A library once loaded stays in its process with all its state, so every test has a process of its own. Without a C compiler
-//! the tests say that they were skipped. Those with librealsense itself need a file that has its functions, named by
-//! `PARTSIGHT_TEST_REALSENSE`: librealsense2.so, or the module `pyrealsense2.*.so` of the Python package, which has the library
-//! inside. With `PARTSIGHT_REQUIRE_REALSENSE=1` it is a failure if it is missing.
+//! A loaded library stays in its process with all its state, so every test has a process of its own. Without a C
+//! compiler the tests report that they are skipped. Those with librealsense itself need a file that has its
+//! functions, named by `PARTSIGHT_TEST_REALSENSE`: librealsense2.so, or the module `pyrealsense2.*.so` of the Python
+//! package, which contains the library. With `PARTSIGHT_REQUIRE_REALSENSE=1` they fail if it is missing.
 
 #![cfg(target_os = "linux")]
 
@@ -31,9 +31,9 @@ use partsight::{
     geometry::depth_frame::DepthFrame,
 };
 
-/// Plays two cameras; a library with the functions of librealsense.
+/// Source of a stub library with the functions of librealsense, which plays two cameras.
 const CAMERA: &str = "tests/realsense/camera.c";
-/// Longer than any step of a test takes, so that only one that hangs comes to its end.
+/// Timeout longer than any step of a test, so that it ends only one that hangs.
 const PATIENCE: Duration = Duration::from_mins(1);
 
 /// Runs a test's body with the cameras in that state; see `camera.c`.
@@ -53,7 +53,7 @@ fn with_cameras(test: &str, state: &str, body: impl FnOnce()) {
     own_process::run(test, &environment);
 }
 
-/// What is missing for a test, said aloud.
+/// Reports what a test lacks; fails if the environment requires it.
 #[expect(
     clippy::print_stdout,
     reason = "a test that checks nothing must say so"
@@ -65,7 +65,7 @@ fn skipped(variable: &str, what: &str) {
     println!("{text}");
 }
 
-/// The first camera.
+/// Opens the first camera.
 fn open_camera() -> Result<Box<dyn DepthSource>, CaptureError> {
     open(&SourceSpec::Realsense(RealsenseSpec::default()))
 }
@@ -74,7 +74,7 @@ fn open_text(text: &str) -> Result<Box<dyn DepthSource>, CaptureError> {
     open(&text.parse().expect("a source"))
 }
 
-/// What is listed of RealSense.
+/// The RealSense cameras in the list of sources.
 fn listed() -> Vec<SourceListing> {
     let is_realsense = |listed: &SourceListing| match &listed.spec {
         Some(spec) => matches!(spec, SourceSpec::Realsense(_)),
@@ -116,7 +116,8 @@ fn frame_of(captured: Captured) -> DepthFrame {
     }
 }
 
-/// Checks every pixel of a frame but those that `camera.c` makes different from frame to frame; the frame's number.
+/// Checks every pixel of a frame except those that `camera.c` changes from frame to frame. Returns the frame's
+/// number.
 fn check(frame: &DepthFrame, width: usize, height: usize) -> u16 {
     let camera = frame.intrinsics;
     assert_eq!((camera.width, camera.height), (width, height));

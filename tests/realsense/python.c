@@ -1,5 +1,5 @@
-/* What pyrealsense2, which has librealsense inside, wants of the Python interpreter when it is loaded, and the functions of
- * librealsense never use. Its other functions of Python are looked up when they are called, which is never. */
+/* The symbols of the Python interpreter that pyrealsense2, which contains librealsense, needs when it is loaded; the functions
+ * of librealsense never use them. Its other Python functions are resolved when they are called, which never happens. */
 #define THING(name) char name[1024];
 
 THING(PyBaseObject_Type) THING(PyBool_Type) THING(PyByteArray_Type) THING(PyCFunction_Type) THING(PyCapsule_Type)

@@ -1,5 +1,5 @@
-/* Records frames of a camera in software: record LIBRARY FILE FRAMES MODEL. The ending that the library writes is added to
- * the file; the model is that of the lens. The frames are those of camera.c, 16 by 12 pixels, in half millimetres. */
+/* Records frames of a software camera: record LIBRARY FILE FRAMES MODEL. FILE gets the ending that the library accepts; MODEL
+ * is the lens model. The frames are those of camera.c, 16 by 12 pixels, in half millimetres. */
 #include <dlfcn.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -94,7 +94,7 @@ int main(int num, char **words) {
         ((void (*)(void *, Frame, void **))function("rs2_software_sensor_on_video_frame"))(sensor, frame, &error);
         check("frame");
     }
-    /* It writes on a thread of its own. */
+    /* Wait, because the library writes on a thread of its own. */
     usleep(200000);
     ((void (*)(void *, void **))function("rs2_stop"))(its_sensor, &error);
     check("stop");

@@ -26,13 +26,13 @@ use crate::{
 };
 
 const NUM_FRAMES: u16 = 60;
-/// Brown-Conrady, of `rs2_distortion`.
+/// Brown-Conrady in `rs2_distortion`.
 const BROWN_CONRADY: &str = "4";
 const KANNALA_BRANDT: &str = "5";
-/// What the modules of the Python package want of the interpreter.
+/// Stub for the interpreter's functions that the modules of the Python package need.
 const PYTHON: &str = "python.so";
 
-/// Runs a test's body with librealsense, and a file that it recorded of a camera with that model of the lens.
+/// Runs a test's body with librealsense and a file that it recorded of a camera with that lens model.
 fn with_file(test: &str, model: &str, body: impl FnOnce()) {
     if own_process::is_own(test) {
         return body();
@@ -49,7 +49,7 @@ fn with_file(test: &str, model: &str, body: impl FnOnce()) {
     own_process::run(test, &environment);
 }
 
-/// Puts librealsense into a folder, and a file that it records.
+/// Puts librealsense into a folder, with a file that it records.
 fn record(folder: &Path, model: &str) -> Result<(), String> {
     let library = env::var_os("PARTSIGHT_TEST_REALSENSE").filter(|path| !path.is_empty());
     let library = library.ok_or("PARTSIGHT_TEST_REALSENSE names no library")?;
@@ -72,7 +72,7 @@ fn record(folder: &Path, model: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// The recorded file. Which of both it is depends on the version of the library.
+/// The recorded file; its ending depends on the version of the library.
 fn file() -> PathBuf {
     let folder = env::var_os("PARTSIGHT_REALSENSE").expect("set");
     let files = ["a.db3", "a.bag"].map(|name| Path::new(&folder).join(name));
@@ -199,7 +199,7 @@ fn a_file_that_is_damaged_cut_off_or_none_is_named() {
             assert_eq!(error.recovery(), Recovery::None);
             assert!(!error.advice().is_empty());
         }
-        // As long as it has to be, and nothing in it.
+        // A file of the right length without contents.
         let mut empty = whole.clone();
         empty[100..].fill(0);
         fs::write(&path, &empty).expect("written");
@@ -224,7 +224,7 @@ fn librealsense_without_a_camera_says_so() {
             Some(CaptureError::Realsense(error)) => Some(error),
             _ => None,
         });
-        // A machine with a camera lists that.
+        // A machine with a camera lists it instead.
         if let Some(error) = error {
             assert!(matches!(error, RealsenseError::NoDevice), "{error}");
             assert_eq!(CaptureError::from(error).recovery(), Recovery::Reopen);

@@ -1,7 +1,7 @@
-//! The 3-D view drawn for real, on whatever graphics device there is: software Vulkan will do.
+//! The 3-D view rendered on any available graphics device; software Vulkan is enough.
 //!
-//! Without any device these tests say so and pass, unless `PARTSIGHT_REQUIRE_GPU=1` asks for one. With
-//! `PARTSIGHT_VIEW_PICTURES=DIR` they leave what they drew in that folder.
+//! Without a device these tests report it and pass, unless `PARTSIGHT_REQUIRE_GPU=1` is set. With
+//! `PARTSIGHT_VIEW_PICTURES=DIR` they keep the pictures in that folder.
 
 mod pictures;
 mod shown;
@@ -24,7 +24,7 @@ use partsight::{
     units::Metres,
 };
 
-/// A device without a window, or `None` with the reason printed.
+/// Opens a device without a window; `None`, with the reason printed, if there is none.
 #[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn device() -> Option<ViewportGpu> {
     match ViewportGpu::headless() {
@@ -39,7 +39,7 @@ fn device() -> Option<ViewportGpu> {
     }
 }
 
-/// What egui's test harness draws with, or `None` as with [`device`].
+/// The render state for egui's test harness; `None` as for [`device`].
 fn render_state() -> Option<RenderState> {
     device()?;
     Some(create_render_state(
@@ -48,7 +48,7 @@ fn render_state() -> Option<RenderState> {
     ))
 }
 
-/// Keeps a picture where the environment asks for it.
+/// Keeps a picture if the environment asks for it.
 fn keep(name: &str, picture: &RgbaImage) {
     if let Some(folder) = std::env::var_os("PARTSIGHT_VIEW_PICTURES") {
         let folder = PathBuf::from(folder);

@@ -1,4 +1,4 @@
-//! What the view draws, off screen.
+//! Pictures of the view, rendered off screen.
 
 use std::collections::HashSet;
 
@@ -14,7 +14,7 @@ use crate::{device, example, keep};
 
 const SIZE: [u32; 2] = [800, 600];
 
-/// Pixels within a few steps of a colour, in each channel, at any shade down to a third of it.
+/// Number of pixels within a few steps of a colour in each channel, at any shade down to a third of it.
 fn num_pixels_of(picture: &RgbaImage, colour: Color32) -> usize {
     let wanted = [colour.r(), colour.g(), colour.b()].map(f32::from);
     let is_shade = |pixel: &[u8; 3]| {

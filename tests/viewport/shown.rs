@@ -1,4 +1,4 @@
-//! The view as a widget in a window without a screen.
+//! The view as a widget, in a window without a screen.
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Theme, Vec2};
 use egui_kittest::{Harness, kittest::Queryable as _, wgpu::WgpuTestRenderer};
@@ -178,7 +178,7 @@ fn a_lasso_is_drawn_by_a_left_drag_that_turns_nothing_while_others_still_move_th
         let has_shifted = camera.target().distance(fitted.target()) > 1e-3;
         assert_eq!(has_shifted, button == PointerButton::Secondary);
     }
-    // Neither is a click on it one on a point.
+    // Nor does a click on it pick a point.
     click(&mut harness, way[1]);
     assert_eq!(
         (harness.state().num_picked, harness.state().drawn.len()),

@@ -1,4 +1,4 @@
-//! Figures about the view's speed, printed for a person; nothing is asserted on a clock.
+//! Prints figures on the view's speed; asserts no times.
 //!
 //! `cargo test --release --test viewport -- --ignored --nocapture`; without eye-dome lighting if `PARTSIGHT_VIEW_FLAT`
 //! is set.
@@ -14,8 +14,8 @@ use partsight::app::ui::viewport::{
 
 use crate::{device, example, render_state};
 
-/// Processor time of all threads of this process so far, in seconds: unlike a clock it does not depend on what else
-/// the machine does. 0 where there is no /proc.
+/// Processor time of all threads of this process so far, seconds: it does not depend on the load of the machine, as
+/// wall time does. 0 if there is no /proc.
 fn processor_seconds() -> f64 {
     const TICKS_PER_SECOND: f64 = 100.0;
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
@@ -38,7 +38,7 @@ fn median(mut times: Vec<Duration>) -> Duration {
     times[times.len() / 2]
 }
 
-/// A bowl of points, so that they cover the view.
+/// A bowl of points that covers the view.
 fn bowl(num_points: usize) -> Vec<[f32; 3]> {
     let side = (num_points as f32).sqrt() as usize;
     let at = move |i: usize| i as f32 / side as f32 - 0.5;

@@ -1,4 +1,4 @@
-//! The Align workspace, by what a person reads and presses. No graphics adapter is needed.
+//! The Align workspace, tested by its labels and controls. Needs no graphics adapter.
 
 use egui::{Key, Role, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -37,13 +37,13 @@ fn own(harness: &WindowHarness) -> &AlignState {
     workspace.expect("the workspace").state()
 }
 
-/// Presses without waiting for what comes of it.
+/// Presses a button without waiting for the result.
 fn press_quickly(harness: &mut WindowHarness, label: &str) {
     harness.get_by_label(label).click();
     harness.run_steps(2);
 }
 
-/// The iteration shown, as it stands in the text.
+/// The iteration shown.
 fn place(harness: &WindowHarness) -> usize {
     own(harness).place.round() as usize
 }
@@ -98,9 +98,9 @@ fn a_part_from_t4_is_aligned_by_every_method_and_scrubbed() {
     harness.key_press(Key::Home);
     harness.run_steps(2);
     assert_eq!(place(&harness), 0);
-    // The key that is named plays wherever the focus is; Space would capture elsewhere than on the plot.
+    // The label names P, which plays wherever the focus is; Space plays on the plot only, and captures elsewhere.
     harness.get_by_label_contains("drag to scrub, P to play");
-    // Space plays while the plot has the focus; it does not capture.
+    // While the plot has the focus, Space plays and does not capture.
     let num_captures = harness.state().state().inspector.num_captures;
     harness.key_press(Key::Space);
     harness.run_steps(3);

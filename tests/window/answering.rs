@@ -1,5 +1,4 @@
-//! Answering robots from the window: asked over TCP as a robot asks, with a camera that gives the same frame again and
-//! again.
+//! Answering robots from the window: requests come over TCP, and the camera repeats one frame.
 
 use std::{
     fs,
@@ -44,12 +43,12 @@ use super::{
     },
 };
 
-/// Long enough for a machine at work with other things; what is waited for comes at once.
+/// Timeout with room for a busy machine; what is awaited normally comes at once.
 const PATIENCE: Duration = Duration::from_mins(3);
-/// Between two frames, by the camera's clock.
+/// Time between two frames by the camera's clock, milliseconds.
 const APART: i64 = 150;
 
-/// A camera before which nothing ever changes.
+/// A camera in front of which nothing changes.
 struct Steady {
     frame: DepthFrame,
     number: u64,
@@ -65,7 +64,7 @@ impl DepthSource for Steady {
     }
 
     fn next(&mut self, _: Duration) -> Result<NextCapture, CaptureError> {
-        // Leaves the processor to others.
+        // Leave processor time to other threads.
         thread::sleep(Duration::from_millis(5));
         self.number += 1;
         let at = SignedDuration::from_millis(APART * self.number as i64);
@@ -83,7 +82,7 @@ impl DepthSource for Steady {
     }
 }
 
-/// A calibrated window that remembers in this folder; a fender hangs before its camera.
+/// Options of a calibrated window that stores its data in this folder; a fender hangs in front of its camera.
 fn options(folder: &Path) -> WindowOptions {
     let cell = folder.join("cell.toml");
     save_calibration(&cell);
@@ -103,7 +102,8 @@ fn options(folder: &Path) -> WindowOptions {
     }
 }
 
-/// Does what a person could cause; the window does not come to rest while it follows its source.
+/// Performs an action of the user without waiting for the window to become idle, which it never is while it follows
+/// its source.
 fn cause(harness: &mut WindowHarness, action: Action) {
     let context = harness.ctx.clone();
     harness.state_mut().act(action, &context);
@@ -122,7 +122,7 @@ fn on_at(at: &str) -> AnswerSetup {
     }
 }
 
-/// Where the window listens, waited for.
+/// Waits until the window listens, and returns the address.
 fn listening(harness: &mut WindowHarness) -> SocketAddr {
     wait_for(harness, |window| {
         window.robot().answering().status().is_some()
@@ -131,7 +131,7 @@ fn listening(harness: &mut WindowHarness) -> SocketAddr {
     status.expect("it listens").at.address
 }
 
-/// Answers robots at any free port.
+/// Turns on answering at any free port.
 fn turn_on(harness: &mut WindowHarness) -> SocketAddr {
     answer(harness, on_at("ascii=0"));
     listening(harness)
@@ -155,7 +155,7 @@ fn says(harness: &WindowHarness, text: &str) -> bool {
     harness.query_all_by_label_contains(text).next().is_some()
 }
 
-/// The pose that the window shows, in the camera's frame, if it counts.
+/// The pose that the window shows, in the camera frame, if it counts.
 fn shown_pose(window: &Window) -> Option<RigidTransform> {
     let shown = window.state().session.shown.as_ref()?;
     let inspection = &shown.inspected.inspection;
@@ -165,7 +165,7 @@ fn shown_pose(window: &Window) -> Option<RigidTransform> {
     counts.then(|| pose.camera_from_part())
 }
 
-/// A robot that speaks `ascii`.
+/// A robot that uses the protocol `ascii`.
 struct Robot(BufReader<TcpStream>);
 
 impl Robot {
@@ -175,7 +175,8 @@ impl Robot {
         Self(BufReader::new(stream))
     }
 
-    /// The fields of the answer; of KUKA's convention the numbers are 12 to 17, the reason 18 and the message 19.
+    /// Sends a request and returns the fields of the answer; in KUKA's convention the numbers are 12 to 17, the
+    /// reason 18 and the message 19.
     fn ask(&mut self, request: &str) -> Vec<String> {
         let line = format!("{request}\n");
         self.0.get_mut().write_all(line.as_bytes()).expect("sent");
@@ -201,12 +202,12 @@ fn a_robot_is_told_the_pose_that_the_window_shows_and_the_history_keeps_it() {
     wait_for(&mut harness, is_settled);
     let num_rows = history_of(&harness).num_rows();
 
-    // The window draws nothing meanwhile: a robot does not wait for it.
+    // The window draws no frame meanwhile: a robot does not wait for it.
     let mut robot = Robot::connect(at);
     let told = robot.ask("TRIGGER");
     assert_eq!(told[1], "accepted", "{told:?}");
     let [sequence, camera, part, flags] = [2, 5, 6, 8].map(|field| told[field].as_str());
-    // Flags: with a pose, and simulated.
+    // The flags mean "with a pose" and "simulated".
     assert_eq!(
         [sequence, camera, part, flags],
         ["1", "running", "fender", "5"]
@@ -314,7 +315,7 @@ fn a_port_in_use_is_said_with_what_to_do_and_tried_again_once_turned_on_again() 
     assert!(says(&harness, &format!("ascii=127.0.0.1:{port}")));
 }
 
-/// Brings the page to the front.
+/// Opens the dialog at the page on answering.
 fn turn_to_page(harness: &mut WindowHarness) {
     cause(harness, Action::Robot(RobotAction::Toggle));
     let mut dialog = harness.state().robot().dialog().expect("open").clone();
@@ -357,7 +358,7 @@ fn a_window_that_answered_robots_answers_again_when_it_is_opened_again() {
     let told = Robot::connect(at).ask("TRIGGER");
     assert_eq!(told[1], "accepted", "{told:?}");
     assert!(says(&harness, "Answers robots · 127.0.0.1:"));
-    // An operator sees it, too.
+    // The operator's view shows it, too.
     cause(&mut harness, Action::Role(RoleAction::Switch));
     assert!(says(&harness, "Answers robots · 127.0.0.1:"));
 }
@@ -367,7 +368,7 @@ fn nobody_is_answered_without_a_calibration_or_at_no_address() {
     let mut harness = open();
     press(&mut harness, "Robot…");
     press(&mut harness, "Answer robots");
-    harness.get_by_label("Calibrate it first: no pose can be given without");
+    harness.get_by_label("Calibrate it first, or no pose can be given");
     press(&mut harness, "Turn on");
     assert!(!harness.state().state().session.answering.is_on);
     let port = harness.get_by_role_and_label(Role::TextInput, "Port, or IP address and port");
@@ -375,7 +376,7 @@ fn nobody_is_answered_without_a_calibration_or_at_no_address() {
     harness.run_steps(2);
     harness.event(egui::Event::Text("x".into()));
     harness.run_steps(3);
-    harness.get_by_label_contains("is no port, and no IP address with a port");
+    harness.get_by_label_contains("is neither a port nor an IP address with a port");
     let dialog = harness.state().robot().dialog().expect("open").clone();
     let open_to_all = RobotDialog {
         address: "0.0.0.0:30100".into(),

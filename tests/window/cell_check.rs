@@ -1,4 +1,4 @@
-//! The check of the cell in the window: its baseline, its checks, and what an operator is told of them.
+//! The check of the cell in the window: its baseline, its checks, and what it shows to an operator.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use super::{
     set_up::{USUAL, WindowHarness, act, open, open_with, plain_options, press},
 };
 
-/// A window that keeps baseline and checks below this folder.
+/// Options of a window that stores baseline and checks in this folder.
 fn keeping(folder: &Path) -> WindowOptions {
     WindowOptions {
         cell_checks: Some(folder.join("cell-check")),
@@ -20,7 +20,7 @@ fn keeping(folder: &Path) -> WindowOptions {
     }
 }
 
-/// Brings the page of the check to the front.
+/// Opens the dialog at the page of the check.
 fn turn_to_check(harness: &mut WindowHarness) {
     press(harness, "Robot…");
     press(harness, "Check of the cell");
@@ -47,12 +47,12 @@ fn a_baseline_is_taken_compared_with_and_replaced() {
     assert_eq!(count(&harness, IN_PLACE), 0);
     for num in 1..=2 {
         press(&mut harness, "Check now");
-        // The finding, and the list.
+        // The label is in the finding, and in each row of the list.
         assert_eq!(count(&harness, IN_PLACE), 1 + num);
         harness.get_by_label(&format!("Last {num} of {num} checks"));
     }
     harness.get_by_label("Nothing needs to be done");
-    // Of the part, and of wall and floor.
+    // One for the part, and one for wall and floor.
     let beside_limit = harness.query_all_by_label_contains(" mm, allowed 5.0 mm");
     assert_eq!(beside_limit.count(), 2);
     harness.get_by_label_contains("Shift since the baseline");
@@ -63,7 +63,7 @@ fn a_baseline_is_taken_compared_with_and_replaced() {
     assert_eq!(count(&harness, IN_PLACE), 3);
     press(&mut harness, "Take a new baseline…");
     press(&mut harness, "Replace it");
-    // Former checks say nothing of the new baseline.
+    // Former checks do not count for the new baseline.
     assert_eq!(count(&harness, IN_PLACE), 2);
     assert_eq!(count(&harness, "Last check"), 0);
     drop(harness);

@@ -1,4 +1,4 @@
-//! The Compare workspace, by what a person reads and presses. No graphics adapter is needed.
+//! The Compare workspace, tested by its labels and controls. Needs no graphics adapter.
 
 use std::path::Path;
 
@@ -53,7 +53,7 @@ fn act_in_compare(harness: &mut WindowHarness, action: CompareAction) {
     });
 }
 
-/// A scene of the cell, in front of the workspace.
+/// Shows a scene of the simulated cell.
 fn show(harness: &mut WindowHarness, choice: CellChoice) {
     act(harness, Action::UseCell(choice));
 }
@@ -82,10 +82,10 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     harness.get_by_label_contains("No kept cases in");
     assert!(own(&harness).study.is_some());
 
-    // Without a truth nothing is kept.
+    // Without a true label no case is kept.
     harness.key_press(Key::K);
     settle(&mut harness);
-    harness.get_by_label("Choose first what it is");
+    harness.get_by_label("First choose what it is");
     assert!(
         CaseFolder::at(folder.path())
             .list()
@@ -100,7 +100,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
         "Not enrolled",
     );
     keep(&mut harness, DOOR, "Front door, left");
-    // Said to be another part: accepted as what it is not.
+    // With another part as its label, it is a false accept.
     show(&mut harness, FENDER);
     press(&mut harness, "Choose… ▼");
     press(&mut harness, "Actual part: Back door, left");
@@ -129,7 +129,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     harness.get_by_label("1 false accept");
     harness.get_by_label_contains("of 3 right");
     harness.get_by_label_contains("Calibration: expected error 0.");
-    // The same recipe gives what was found when the case was kept, to the last bit.
+    // The same recipe gives the same result as when the case was kept, to the last bit.
     for (result, case) in run.results.iter().zip(&list.cases) {
         assert_eq!(result.found, case.meta.about.found);
     }
@@ -145,7 +145,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     assert!(matches!(&compare.front, Front::Kept(case) if case.name == name));
     let study = compare.study.as_ref().expect("a study");
     assert_eq!(study.found, list.cases[2].meta.about.found);
-    // It is compared with what it was said to be.
+    // It is compared with its label.
     assert_eq!(study.against.as_deref(), Some("back_door"));
     press(&mut harness, "Back to matrix");
     harness.get_by_label(cell);
@@ -161,7 +161,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     assert_eq!(num(), 2);
     press(&mut harness, "Put case back");
     assert_eq!(num(), 3);
-    // Capture brings the scene to the front again.
+    // A capture brings the scene to the front again.
     show(&mut harness, DOOR);
     assert!(matches!(own(&harness).front, Front::Scene));
     assert_eq!(found(&harness).as_deref(), Some("front_door"));
@@ -206,7 +206,7 @@ fn a_past_inspection_that_is_opened_again_is_labelled_where_it_was_written() {
         history: Some(folder.path().join("history")),
         ..plain_options()
     };
-    // The window writes down its first inspection.
+    // The window stores its first inspection.
     drop(open_with(USUAL, options()));
     let mut harness = open_with(USUAL, options());
     act(&mut harness, Action::GoTo(WorkspaceKind::History));
@@ -236,7 +236,7 @@ fn what_is_refused_is_said_to_be_so_and_why_and_only_the_judgement_is_good() {
     harness.get_by_label_contains("The actual part is not set · ");
     harness.get_by_label_contains("Refused: score 0.");
     harness.get_by_label_contains(": unknown; the outlines lie ");
-    // Of both matchers, in the smallest window too.
+    // The distances of both matchers are shown, in the smallest window too.
     harness.get_by_label("paper: ‖A − C‖₁, px² + rad²");
 
     press(&mut harness, "Choose… ▼");
@@ -278,7 +278,7 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     };
     assert!(study(&harness).found.accepted);
 
-    // Written into the field as a person would.
+    // Typed into the field, as a user would.
     let accept_from = |harness: &mut WindowHarness, text: &str| {
         let field = |harness: &mut WindowHarness, act: &dyn Fn(&Node<'_>)| {
             act(&harness.get_by_role_and_label(Role::SpinButton, "Accept from"));
@@ -295,7 +295,7 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     assert!(!study(&harness).found.accepted);
     assert!((study(&harness).recipe.accept.min_score - 1.0).abs() < 1e-9);
     harness.get_by_label_contains("Not accepted · ");
-    // The scene in front of Inspect is as it was.
+    // The recipe of Inspect has not changed.
     assert_eq!(**harness.state().state().session.recipe, Recipe::default());
 
     press(&mut harness, "Use this recipe");
@@ -310,7 +310,7 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     harness.get_by_label("0 changed from default");
     assert!(study(&harness).found.accepted);
 
-    // What is out of range is refused in words and changes nothing.
+    // A value out of range gives a message and changes nothing.
     accept_from(&mut harness, "1.5");
     harness.get_by_label_contains("Accept from cannot be 1.5");
     harness.get_by_label("0 changed from default");
@@ -355,7 +355,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     let kept = |name: &str| recipes.read(&PartName::new(name).expect("a name"));
     assert!((kept("strict").expect("kept").recipe.accept.min_score - 0.95).abs() < 1e-12);
 
-    // On trial until it is used; then the result, and all that is written of it, has its name.
+    // The recipe is on trial until it is used; then the result and all records of it have its name.
     assert_eq!(
         harness.state().state().session.recipe.label.name,
         "built-in"
@@ -374,7 +374,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
             .contains("\"name\":\"strict\"")
     );
 
-    // Changed, it is marked; what differs from the defaults is listed.
+    // A changed recipe is marked, and its differences from the defaults are listed.
     act_in_compare(&mut harness, CompareAction::Set("accept.min_score", 0.5));
     act_in_compare(&mut harness, CompareAction::Set("project.pixel", 4.0));
     press(&mut harness, "2 changed from default");
@@ -412,7 +412,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     harness.get_by_label("Recipe stricter");
     assert_eq!(recipes.default_name().expect("read"), "stricter");
 
-    // To another machine and back: the name is taken there by another.
+    // Export and import: the name is taken by another recipe.
     let file = folder.path().join("stick.toml");
     let act = |harness: &mut WindowHarness, action| {
         act_in_compare(harness, CompareAction::Recipe(action));
@@ -520,7 +520,7 @@ fn an_earlier_run_is_compared_and_what_is_worse_is_listed_first() {
     harness.get_by_label("none worse");
     harness.get_by_label_contains("1 cases of both · 1 gone or damaged · against earlier.json");
 
-    // With a threshold that nothing reaches it is refused now.
+    // With a threshold that nothing reaches, the case is refused now.
     let strict = CompareAction::Set("accept.min_score", 1.0);
     act_in_compare(&mut harness, strict);
     press(&mut harness, "Run all cases");
@@ -538,7 +538,7 @@ fn an_earlier_run_is_compared_and_what_is_worse_is_listed_first() {
     harness.get_by_label_contains("earlier.json: not an evaluation");
 }
 
-/// With `PARTSIGHT_VIEW_PICTURES=DIR` it leaves what it drew in that folder.
+/// With `PARTSIGHT_VIEW_PICTURES=DIR` it keeps the pictures in that folder; without, it does nothing.
 #[test]
 fn it_is_drawn_in_both_sizes_and_colours() {
     let Some(pictures) = std::env::var_os("PARTSIGHT_VIEW_PICTURES") else {
@@ -637,7 +637,7 @@ fn recipes_that_a_command_saves_are_listed_and_what_is_on_trial_stays() {
     let tried = own(&harness).tried.as_ref().expect("on trial");
     assert!((tried.accept.min_score - 0.97).abs() < 1e-12);
 
-    // Another value under the name of the one that is on trial: that stays as it is.
+    // Save another value under the name of the recipe on trial, which does not change.
     strict.recipe.accept.min_score = 0.99;
     recipes.save(&strict, Replace::Yes).expect("saved");
     wait_for(&mut harness, |window| {

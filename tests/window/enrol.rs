@@ -1,4 +1,4 @@
-//! The Enrol workspace, by what a person reads and presses. No graphics adapter is needed.
+//! The Enrol workspace, tested by its labels and controls. Needs no graphics adapter.
 
 use std::{fs, path::Path};
 
@@ -30,7 +30,7 @@ fn open_at(library: &Path, size: Vec2) -> WindowHarness {
     open_with(size, options)
 }
 
-/// A window with the Enrol workspace in front, the simulated right-hand front door before the camera.
+/// Opens a window at the Enrol workspace, with the simulated right-hand front door in front of the camera.
 fn open(library: &Path) -> WindowHarness {
     let mut harness = open_at(library, USUAL);
     harness.get_by_label("Enrol").click();
@@ -60,7 +60,7 @@ fn write(harness: &mut WindowHarness, label: &str, text: &str) {
         .get_by_role_and_label(Role::TextInput, label)
         .type_text(text);
     harness.run_steps(3);
-    // Elsewhere, so that keys are shortcuts again.
+    // Remove the focus, so that keys are shortcuts again.
     let field = harness.ctx.memory(egui::Memory::focused);
     let context = harness.ctx.clone();
     context.memory_mut(|memory| field.into_iter().for_each(|id| memory.surrender_focus(id)));
@@ -72,14 +72,14 @@ fn drag(harness: &mut WindowHarness, from: Pos2, to: Pos2) {
     let_go(harness);
 }
 
-/// Lets the left button go where the pointer is.
+/// Releases the left button at the pointer's position.
 pub(crate) fn let_go(harness: &mut WindowHarness) {
     let at = harness.ctx.input(|input| input.pointer.latest_pos());
     harness.drop_at(at.expect("a pointer"));
     settle(harness);
 }
 
-/// Moves the pointer this way with the left button held, and does not let go.
+/// Moves the pointer along this path with the left button held, without releasing it.
 pub(crate) fn draw(harness: &mut WindowHarness, way: &[Pos2]) {
     harness.hover_at(way[0]);
     harness.run_steps(2);
@@ -91,19 +91,19 @@ pub(crate) fn draw(harness: &mut WindowHarness, way: &[Pos2]) {
     }
 }
 
-/// A place in the 3-D view, in shares of its sides.
+/// A position in the 3-D view, given in shares of its sides.
 fn in_view(harness: &WindowHarness, x: f32, y: f32) -> Pos2 {
     let view = harness.get_by_label("3-D view of the draft").rect();
     view.min + view.size() * Vec2::new(x, y)
 }
 
-/// Begins to draw this way over the 3-D view, in shares of its sides.
+/// Begins to draw along this path over the 3-D view, given in shares of its sides.
 pub(crate) fn draw_in_view(harness: &mut WindowHarness, way: &[(f32, f32)]) {
     let way: Vec<Pos2> = way.iter().map(|(x, y)| in_view(harness, *x, *y)).collect();
     draw(harness, &way);
 }
 
-/// The places of the points that are kept.
+/// Indices of the points that are kept.
 fn kept(harness: &WindowHarness) -> Vec<u32> {
     let draft = enrol_of(harness).draft.as_ref().expect("a draft");
     draft.selection.indices.clone()
@@ -119,7 +119,7 @@ fn notices(harness: &WindowHarness) -> Vec<String> {
     notices.map(|notice| notice.what.clone()).collect()
 }
 
-/// An empty library of its own.
+/// A new folder for a library.
 fn library() -> tempfile::TempDir {
     tempfile::tempdir().expect("a folder")
 }
@@ -129,7 +129,7 @@ fn names(library: &Path) -> Vec<String> {
     folder.names().expect("listed")
 }
 
-/// Enrols what stands before the camera under this title.
+/// Captures this part and enrols it under this title.
 fn enrol(harness: &mut WindowHarness, kind: PartKind, title: &str) {
     capture(harness, kind, Side::Right);
     write(harness, "Title", title);
@@ -159,7 +159,7 @@ fn a_captured_part_is_corrected_named_saved_and_recognised_by_its_new_name() {
     assert!(harness.query_by_label("New part").is_some());
     let before = num_kept(&harness);
 
-    // A strip at the right of the picture is cut off by a box, and comes back.
+    // Cut off a strip at the right of the picture by a box, and bring it back.
     let picture = harness.get_by_label("Picture of what is kept").rect();
     press(&mut harness, "Keep");
     let from = picture.min + Vec2::new(2.0, 2.0);
@@ -173,7 +173,7 @@ fn a_captured_part_is_corrected_named_saved_and_recognised_by_its_new_name() {
     assert_eq!(num_kept(&harness), cut);
     press(&mut harness, "Reset all corrections");
     assert_eq!(num_kept(&harness), before);
-    // The wall is taken by mistake, and dropped again.
+    // Keep the wall by mistake, and drop it again.
     press(&mut harness, "Background 1, dropped");
     assert!(num_kept(&harness) > before);
     press(&mut harness, "Background 1, kept");
@@ -265,7 +265,7 @@ fn a_part_that_another_program_saved_meanwhile_is_not_replaced_unasked() {
     let library = library();
     let mut harness = open(library.path());
     let mut other = open(library.path());
-    // Meanwhile is while the part is being worked on: before, the window takes note of what others save.
+    // The other window saves while this draft is open; before that, this window would have noticed.
     capture(&mut harness, PartKind::Grille, Side::Right);
     write(&mut harness, "Title", "Grille");
     enrol(&mut other, PartKind::Grille, "Grille");
@@ -334,7 +334,7 @@ fn a_saved_part_is_brought_into_sight_and_marked_among_the_others_by_title() {
     let library = library();
     let mut harness = open_at(library.path(), SMALL);
     press(&mut harness, "Enrol");
-    // By name the first would be the last.
+    // Sorted by name, the first would be the last.
     let parts = [
         (PartKind::Grille, "Zed"),
         (PartKind::Fender, "Bend"),
@@ -465,12 +465,12 @@ fn a_mesh_in_millimetres_is_read_again_as_the_notice_offers() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_library_that_cannot_be_written_is_a_notice_and_the_window_goes_on() {
-    // Nobody, not even root, makes files there.
+    // Not even root can create files there.
     let mut harness = open(Path::new("/proc/self/fdinfo"));
     capture(&mut harness, PartKind::Grille, Side::Left);
     write(&mut harness, "Title", "Grille");
     press(&mut harness, "Save");
-    // Other things lie there.
+    // The folder holds other files.
     assert!(notices(&harness)[0].contains("holds no library"));
     assert!(notices(&harness)[1].contains("cannot write to the library"));
     assert!(!state(&harness).notices[1].advice.is_empty());
@@ -506,7 +506,7 @@ fn a_box_drawn_in_the_3d_view_cuts_the_part_and_undo_brings_it_back() {
     capture(&mut harness, PartKind::BackDoor, Side::Right);
     press(&mut harness, "Show 3-d");
     let whole = kept(&harness);
-    // The middle of the view from the front, then from the side, where the same box lies over fewer points.
+    // Cut the middle of the view from the front, then from the side, where the same box covers fewer points.
     let mut cut_from = |side: &str| {
         press(&mut harness, side);
         press(&mut harness, "Box");
@@ -528,7 +528,7 @@ fn a_box_drawn_in_the_3d_view_cuts_the_part_and_undo_brings_it_back() {
     let from_the_front = cut_from("Front");
     assert_ne!(from_the_front, cut_from("Side"));
 
-    // Neither a click nor a line is a box.
+    // A click or a line is not a box.
     let at = in_view(&harness, 0.5, 0.5);
     for to in [Vec2::new(1.0, 1.0), Vec2::new(200.0, 1.0)] {
         drag(&mut harness, at, at + to);
@@ -546,13 +546,13 @@ fn a_lasso_keeps_or_adds_what_it_goes_around_in_the_view_and_in_the_picture() {
     let whole = kept(&harness);
     press(&mut harness, "Lasso");
     harness.get_by_label_contains("Draw a lasso. What lies outside is dropped.");
-    // A triangle over the right half of the view.
+    // Draw a triangle over the right half of the view.
     draw_in_view(&mut harness, &[(0.5, 0.3), (0.95, 0.5), (0.5, 0.7)]);
     let_go(&mut harness);
     let left = kept(&harness);
     assert!(!left.is_empty() && left.len() < whole.len() / 2);
 
-    // Everything about the part: the wall as well.
+    // Add everything around the part, including the wall.
     press(&mut harness, "Add");
     let about_all = [(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)];
     draw_in_view(&mut harness, &about_all);
@@ -602,7 +602,7 @@ fn escape_gives_a_lasso_up_and_dragging_turns_the_view_again() {
     harness.run_steps(2);
     let_go(&mut harness);
     assert_eq!(kept(&harness), whole);
-    // A drag turns, and cuts nothing.
+    // A drag rotates the view and cuts nothing.
     draw_in_view(&mut harness, &[(0.3, 0.3), (0.7, 0.3), (0.5, 0.7)]);
     let_go(&mut harness);
     assert_eq!(kept(&harness), whole);
@@ -623,7 +623,7 @@ fn a_lasso_about_everything_drops_it_all_and_the_card_says_what_is_missing() {
     press(&mut harness, "Box");
     press(&mut harness, "Drop");
     let [from, to] = [(0.01, 0.01), (0.99, 0.99)].map(|(x, y)| in_view(&harness, x, y));
-    // Below the controls that lie over the view.
+    // Start below the controls that lie over the view.
     drag(&mut harness, from + Vec2::new(0.0, 60.0), to);
     assert!(kept(&harness).is_empty());
     harness.get_by_label("Nothing can be saved yet: see above");
@@ -702,7 +702,7 @@ fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
                     rect.width() >= 35.9 && rect.height() >= 35.9,
                     "{step}: {label}: {rect:?}"
                 );
-                // Long lists are scrolled: their controls may lie further to the right or below.
+                // Long lists scroll, so their controls may lie further to the right or below.
                 assert!(rect.min.x >= 0.0 && rect.min.y >= 0.0, "{label}: {rect:?}");
                 num_controls += 1;
             }
@@ -723,7 +723,7 @@ fn without_a_library_the_window_says_so_everywhere_and_still_captures() {
     assert!(said.what.contains("no such library folder"), "{said:?}");
     assert!(said.advice.contains("create the folder"), "{said:?}");
     assert_eq!(notices(&harness).len(), 1);
-    // The scene is there, and called nothing.
+    // The scene is shown, and no part is named.
     let shown = state(&harness).session.shown.as_ref().expect("captured");
     assert!(!shown.inspected.inspection.verdict.is_accepted());
     press_keys(&mut harness, Modifiers::NONE, Key::Space);
@@ -740,7 +740,7 @@ fn without_a_library_the_window_says_so_everywhere_and_still_captures() {
                 > 1
         );
     }
-    // Made meanwhile: the next capture finds it.
+    // Create the folder; the next capture finds it.
     std::fs::create_dir(&missing).expect("made");
     act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
     act(&mut harness, Action::Capture);
@@ -770,7 +770,7 @@ fn a_window_that_starts_in_enrol_has_its_library_an_inspection_and_its_history()
     assert_eq!(history_of(&harness).num_rows(), 2);
     drop(harness);
 
-    // Nor does it take a scene that can be read.
+    // The same holds if the given scene cannot be read.
     let broken = folder.path().join("broken.pcd");
     std::fs::write(&broken, "VERSION .7\nFIELDS x y z\nPOINTS 9999999999\n").expect("written");
     std::fs::write(&settings, left_in_enrol).expect("written");
@@ -804,7 +804,7 @@ fn a_title_that_another_part_has_is_warned_about_unless_it_is_one_more_reference
     let name = |name: &str| PartName::new(name).expect("a name");
     let references = folder.references_of(&name("wing")).expect("listed");
     assert_eq!(references, [name("wing_b")]);
-    // Inspected, it is called by the part's name.
+    // The inspection gives the part's name.
     let shown = state(&harness).session.shown.as_ref().expect("inspected");
     let verdict = &shown.inspected.inspection.verdict;
     assert!(
@@ -835,7 +835,7 @@ fn a_window_with_an_unsaved_draft_asks_before_it_closes() {
     assert!(harness.query_by_label("Close without saving?").is_none());
 }
 
-/// Lets the time pass after which a changed draft is written, and waits for that.
+/// Lets the time pass after which a changed draft is saved, and waits for that.
 fn pass_time(harness: &mut WindowHarness) {
     harness.run_steps(20);
     settle(harness);
@@ -860,7 +860,7 @@ fn a_draft_outlives_a_program_that_is_killed_until_it_is_discarded_or_saved() {
     pass_time(&mut harness);
     assert!(file.exists());
     let points = kept(&harness);
-    // Without the goodbye of a window that is closed.
+    // The window is dropped without being closed properly.
     drop(harness);
 
     let mut harness = open_with(USUAL, options());
@@ -877,7 +877,7 @@ fn a_draft_outlives_a_program_that_is_killed_until_it_is_discarded_or_saved() {
     assert!(!file.exists());
     apply(&mut harness, EnrolAction::Undo);
     assert!(file.exists());
-    // With the wall it is no part.
+    // With the wall it is not a valid part.
     apply(&mut harness, EnrolAction::Reset);
     assert!(file.exists(), "it still has a title");
     apply(&mut harness, EnrolAction::Save);

@@ -1,4 +1,4 @@
-//! What outlives an inspection: the history, the report, and the settings of the window.
+//! What is stored beyond an inspection: the history, the report, and the settings of the window.
 
 use std::{
     fs,
@@ -45,7 +45,7 @@ fn remembering(path: &Path) -> WindowOptions {
     }
 }
 
-/// A window that keeps its history in this folder.
+/// Options of a window that keeps its history in this folder.
 fn keeping(path: &Path) -> WindowOptions {
     WindowOptions {
         history: Some(path.to_owned()),
@@ -71,7 +71,7 @@ fn a_new_inspection_is_looked_at_whatever_row_was_selected_before() {
     go_to_history(&mut harness);
     settle(&mut harness);
     press(&mut harness, "Inspection 1: Front door, left, Accepted");
-    // Below zero, because nothing is written.
+    // The number is negative, because nothing is written to disk.
     assert_eq!(history_of(&harness).listed(), Some(-1));
     act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
     harness.key_press(Key::Space);
@@ -100,7 +100,7 @@ fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
     harness.get_by_label("Simulated frame 1");
     harness.get_by_label_contains("From the history");
     harness.get_by_label("Enlarge contour");
-    // Looking again is no inspection.
+    // Looking at it again is not an inspection.
     assert_eq!(history_of(&harness).num_rows(), 2);
 }
 
@@ -119,7 +119,7 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
         harness.state().state().session.workspace,
         WorkspaceKind::History
     );
-    // Nor does the Enter that ends the writing, though the field has lost the focus by then.
+    // Nor does the Enter that ends the typing, although the field has lost the focus by then.
     harness.key_press(Key::Enter);
     settle(&mut harness);
     harness.get_by_label("1 of 2 parts");
@@ -166,7 +166,7 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     harness.run_steps(2);
     harness.key_press(Key::Enter);
     settle(&mut harness);
-    // Enter was the field's: it does not open the inspection as well.
+    // Enter belonged to the field: it does not open the inspection as well.
     let state = harness.state().state();
     assert_eq!(state.session.workspace, WorkspaceKind::History);
     assert!(
@@ -189,7 +189,7 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     let row = history_of(&harness).row(0).expect("listed");
     assert_eq!((row.number, row.remark.as_str()), (2, "a wheel"));
     assert_eq!(row.label, Some(Truth::NotEnrolled));
-    // Its frame is kept, since it was not accepted: with its own recipe the very same is found in it.
+    // Its frame is kept, because it was not accepted; with its own recipe it gives the same result.
     assert!(row.frame_bytes.is_some());
     act_in_history(&mut harness, HistoryAction::Open(2));
     let state = harness.state().state();
@@ -202,7 +202,7 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
             .is_some_and(|shown| shown.is_past)
     );
     assert!(state.notices.is_empty(), "{:?}", state.notices);
-    // The first one's was not; but the simulated cell can show it again.
+    // The frame of the first was not kept, but the simulated cell can show it again.
     act_in_history(&mut harness, HistoryAction::Open(1));
     harness.get_by_label("Front door, left");
     let state = harness.state().state();
@@ -219,7 +219,7 @@ fn a_remark_that_is_being_typed_when_the_window_closes_is_kept() {
     harness.run_steps(2);
     harness.get_by_label("Your remark").type_text("dented");
     harness.run_steps(2);
-    // Neither Enter nor a click elsewhere: the desktop's own cross closes it.
+    // Close the window by the desktop's button, without Enter or a click elsewhere.
     eframe::App::on_exit(harness.state_mut());
     drop(harness);
 
@@ -247,14 +247,14 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
     harness.get_by_label("Not accepted");
     go_to_history(&mut harness);
     harness.get_by_label("1 of 1 parts");
-    // The acceptance stands: a robot may have acted on it.
+    // The acceptance still counts: a robot may have acted on it.
     harness.get_by_label("Inspection 1: Front door, left, Accepted, inspected again once");
     harness.get_by_label("Of this part: inspection 1, Accepted · counts");
     press(&mut harness, "Of this part: inspection 2, Not accepted");
     harness.get_by_label("Segmentation of inspection 2");
     harness.get_by_label("Inspection 2 found something else");
     harness.get_by_label("Accept from");
-    // The row of the part stays the one that is marked.
+    // The row of the part stays marked.
     assert_eq!(history_of(&harness).listed(), Some(1));
     let export = folder.path().join("parts.csv");
     act_in_history(
@@ -263,7 +263,7 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
     );
     let table = fs::read_to_string(export).expect("written");
     assert_eq!(table.lines().count(), 2, "a table of parts");
-    // One that was looked up again is inspected for nobody: it hangs there no longer.
+    // Inspecting one from the history again adds no row: the part no longer hangs there.
     act_in_history(&mut harness, HistoryAction::Open(1));
     act_in(&mut harness, |_: &mut HistoryWorkspace, cx| {
         let title = "Inspecting with another recipe";
@@ -308,7 +308,7 @@ fn a_scan_is_listed_and_opened_again_with_its_shots_though_its_folder_is_gone() 
     harness.get_by_label_contains("3 shots · they agree to");
     harness.get_by_label_contains("From the history");
     let state = harness.state().state();
-    // It gives what it gave then: nothing is said of another result.
+    // It gives the same result as then, so there is no notice.
     assert!(state.notices.is_empty(), "{:?}", state.notices);
     assert_eq!(history_of(&harness).num_rows(), 2);
 }
@@ -345,7 +345,7 @@ fn frames_are_kept_by_the_rule_that_a_person_sets() {
     press(&mut harness, "Frames…");
     harness.get_by_label_contains("Now: 1 frame, ");
     drop(harness);
-    // The rule belongs to the history: commands keep frames by the same.
+    // The rule is stored in the history: commands keep frames by the same rule.
     let mut harness = open_with(SMALL, keeping(folder.path()));
     go_to_history(&mut harness);
     assert_eq!(rule(&harness), KeepFrames::All);
@@ -432,7 +432,7 @@ fn of_a_hundred_thousand_inspections_only_those_in_sight_are_fetched() {
         Some(100_002)
     );
     act_in_history(&mut harness, HistoryAction::Visible(100_000..100_002));
-    // The window sees its own rows again in its next frame; both were fetched one after the other.
+    // In its next frame the window asks for its own visible rows again, so both ranges are fetched.
     let filter = ListFilter {
         text: "frame 54321".into(),
         ..ListFilter::default()
@@ -552,7 +552,7 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     drop(history);
     let mut harness = open_with(USUAL, keeping(folder.path()));
     go_to_history(&mut harness);
-    // The one of the window's start can be simulated again.
+    // The one from the start of the window can be simulated again.
     assert!(!harness.get_by_label("Open").accesskit_node().is_disabled());
     press(&mut harness, "Inspection 200: fender, Accepted");
     let open = harness.get_by_label("Open");
@@ -561,7 +561,7 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     harness.run_steps(40);
     harness.get_by_label_contains("The frame of frame 199 is not kept");
 
-    // Far down, and then another inspection.
+    // Scroll far down, then inspect again.
     harness.get_by_label_contains("Inspection 198").hover();
     harness.run_steps(2);
     for _ in 0..30 {
@@ -582,7 +582,7 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     go_to_history(&mut harness);
     harness.get_by_label_contains("Inspection 202:");
 
-    // At the top the list stays there, whichever row is looked at.
+    // At the top the list stays there, whichever row is selected.
     press(&mut harness, "Inspection 199: fender, Accepted");
     harness.key_press(Key::Space);
     settle(&mut harness);
@@ -612,10 +612,10 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     harness.get_by_label("75.0 %");
     harness.get_by_label("3 × Too low");
     harness.get_by_label("Drift: Fender, left");
-    harness.get_by_label("Score: 0.97 at first, 0.97 at last");
-    harness.get_by_label("Fit to the reference, rms: 1.1 mm at first, 2.0 mm at last");
+    harness.get_by_label("Score: first 0.97, last 0.97");
+    harness.get_by_label("Fit to the reference, rms: first 1.1 mm, last 2.0 mm");
     harness.get_by_label("Place of the part: moved by x 0.0 mm, y 0.0 mm, z 0.0 mm");
-    // Of what is listed.
+    // The statistics cover the listed parts only.
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: Accepted");
     harness.get_by_label_contains(": 9 OK, 0 NOK");

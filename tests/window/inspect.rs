@@ -1,4 +1,4 @@
-//! Inspect, and what lies around every workspace.
+//! The Inspect workspace, and the shell around every workspace.
 
 use std::{thread, time::Duration};
 
@@ -43,7 +43,7 @@ fn capture_inspects_the_next_part() {
     harness.get_by_label("Simulated frame 2");
     harness.key_press(Key::Space);
     settle(&mut harness);
-    // Whether or not the button has the focus now: one capture, not two.
+    // One capture, not two, whether or not the button has the focus.
     assert_eq!(harness.state().state().inspector.num_captures, 3);
 }
 
@@ -87,7 +87,7 @@ fn cancel_gives_up_at_once_and_keeps_the_last_result() {
     window.act(partsight::app::shell::action::Action::Capture, &context);
     assert!(window.state().session.is_old());
     harness.step();
-    // On a quick machine the result may be there already; then there is nothing to cancel.
+    // On a quick machine the result may have arrived, and there is nothing to cancel.
     if let Some(cancel) = harness.query_by_label("Cancel") {
         harness.get_by_label_contains("Previous result");
         cancel.click();
@@ -246,7 +246,7 @@ fn the_verdict_stays_in_sight_and_large_however_far_the_card_is_scrolled() {
     );
     assert!(52.0 <= name.min.y && name.max.y <= word.min.y, "{name:?}");
     assert!(word.max.y < SMALL.y / 2.0, "{word:?}");
-    // From three metres.
+    // Readable from three metres.
     assert!(
         name.height() >= 36.0 && word.height() >= 28.0,
         "{name:?}, {word:?}"
@@ -272,7 +272,7 @@ fn a_notice_covers_nothing_and_is_dismissed_under_a_dialog() {
                 assert!(is_free, "{label}: {:?}, {covered:?}", node.rect());
             }
         }
-        // What has the focus keeps it.
+        // The focused control keeps the focus.
         let focused = |harness: &WindowHarness| harness.ctx.memory(egui::Memory::focused);
         harness.get_by_label("Enlarge contour").focus();
         harness.run_steps(2);

@@ -1,4 +1,4 @@
-//! The language of the window: how it is chosen, and that everything fits in each.
+//! The language of the window: it can be chosen, and all texts fit in every language.
 
 use egui::{
     Rect, Shape, Vec2,
@@ -47,7 +47,7 @@ fn the_language_is_the_systems_until_one_is_chosen_and_is_remembered() {
     harness.get_by_label("Capturar");
     press(&mut harness, "Idioma: Español");
     press(&mut harness, "Deutsch");
-    // At once, with the same result in front.
+    // The change is immediate, with the same result in front.
     harness.get_by_label("Aufnehmen");
     harness.get_by_label("Akzeptiert");
     harness.get_by_label("Simuliertes Bild 1");
@@ -97,9 +97,9 @@ fn a_refusal_of_the_history_is_read_in_the_language_of_the_window() {
     harness.get_by_label_contains("Fender, left, hat den Score 0.81 ");
     harness.get_by_label_contains("Teil eingelernt");
     press(&mut harness, "Statistik");
-    // In English it is "below the threshold".
+    // In English this is "below the threshold".
     harness.get_by_label_contains("2 × Score u");
-    // Counted already: only the words are others.
+    // The counts stay; only the language changes.
     press(&mut harness, "Sprache: Deutsch");
     press(&mut harness, "Español");
     harness.get_by_label_contains("2 × Puntuación ");
@@ -109,7 +109,7 @@ fn a_refusal_of_the_history_is_read_in_the_language_of_the_window() {
 fn where_a_scene_came_from_is_read_and_found_in_the_language_of_the_window() {
     let mut harness = open_in(Language::German, USUAL);
     act(&mut harness, Action::GoTo(WorkspaceKind::History));
-    // In the list, which is painted, and in the details.
+    // Once in the list, which is painted, and once in the details.
     let drawn = texts(&harness);
     let titles = drawn
         .iter()
@@ -129,20 +129,20 @@ fn where_a_scene_came_from_is_read_and_found_in_the_language_of_the_window() {
     }
 }
 
-/// A text as it is drawn, in logical pixels.
+/// A drawn text, in logical pixels.
 #[derive(Clone, Debug)]
 struct Drawn {
     text: String,
-    /// Where its letters are.
+    /// Bounds of its letters.
     rect: Rect,
-    /// Its lines.
+    /// Bounds of its lines.
     lines: Vec<Rect>,
-    /// What of them is seen.
+    /// The visible region.
     clip: Rect,
     is_elided: bool,
 }
 
-/// What is wrong with a text.
+/// A text that does not fit, and how.
 #[derive(Clone, Debug)]
 struct Misfit {
     what: &'static str,
@@ -171,12 +171,12 @@ fn texts(harness: &WindowHarness) -> Vec<Drawn> {
     {
         collect(shape, *clip_rect, &mut found);
     }
-    // What is scrolled away altogether is seen by scrolling.
+    // Ignore texts that are scrolled out of view.
     found.retain(|drawn| drawn.rect.intersects(drawn.clip));
     found
 }
 
-/// Where the lines of a text are; what lies between them is free.
+/// Bounds of the lines of a text; the space between them is free.
 fn lines_of(text: &TextShape) -> Vec<Rect> {
     let rows = text.galley.rows.iter();
     let lines = rows.map(|row| {
@@ -188,7 +188,7 @@ fn lines_of(text: &TextShape) -> Vec<Rect> {
         .collect()
 }
 
-/// Where the controls of the bar above are that lie over one another.
+/// Bounds of the controls in the top bar that overlap one another.
 fn overlapping_controls(harness: &WindowHarness) -> Vec<Rect> {
     let buttons = harness.query_all_by_role(egui::Role::Button);
     let rects: Vec<Rect> = buttons
@@ -201,7 +201,7 @@ fn overlapping_controls(harness: &WindowHarness) -> Vec<Rect> {
         .collect()
 }
 
-/// Texts that end in an ellipsis, are cut at a side, or run into each other.
+/// Texts that end in an ellipsis, are cut off at a side, or overlap each other.
 fn misfits(harness: &WindowHarness) -> Vec<Misfit> {
     let texts = texts(harness);
     let mut found = Vec::new();
@@ -232,7 +232,7 @@ fn misfits(harness: &WindowHarness) -> Vec<Misfit> {
                 let both = own.intersect(*other).intersect(*clip);
                 both.width() > 3.0 && both.height() > 3.0
             };
-            // What lies over all else, as a dialog does, has a background.
+            // Texts of another clip region, such as a dialog's, have a background of their own.
             let mut lines = drawn.lines.iter();
             other.clip == *clip
                 && lines.any(|own| other.lines.iter().any(|line| overlaps(own, line)))
@@ -257,7 +257,7 @@ fn misfits(harness: &WindowHarness) -> Vec<Misfit> {
     found
 }
 
-/// What can be in front.
+/// A view of the window to be checked.
 #[derive(Clone, Copy, Debug)]
 enum Scenery {
     Workspace(WorkspaceKind),
@@ -288,14 +288,14 @@ const SCENERIES: [Scenery; 14] = [
     Scenery::Library,
 ];
 
-/// A window of this size with this in front.
+/// Opens a window of this size at this view.
 fn shown(language: Language, size: Vec2, scenery: Scenery) -> WindowHarness {
     let mut harness = open_in(language, size);
     arrange(&mut harness, scenery);
     harness
 }
 
-/// Brings this to the front.
+/// Brings a view to the front.
 fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
     let go = |harness: &mut WindowHarness, to| act(harness, Action::GoTo(to));
     let menu = |harness: &mut WindowHarness, place: usize| {
@@ -330,7 +330,7 @@ fn arrange(harness: &mut WindowHarness, scenery: Scenery) {
     }
 }
 
-/// Those that are nowhere near one of English, in words.
+/// Descriptions of the misfits that are not near one of the English window.
 fn only_here(mut found: Vec<Misfit>, usual: &[Misfit]) -> Vec<String> {
     found.retain(|misfit| {
         let is_it = |known: &Misfit| {
@@ -395,7 +395,7 @@ fn in_every_language_the_page_of_robots_that_ask_fits_where_it_does_in_english()
         act(&mut harness, Action::Robot(RobotAction::Toggle));
         let mut dialog = harness.state().robot().dialog().expect("open").clone();
         dialog.page = RobotPage::Answer;
-        // With its doubt, and without a calibration.
+        // Show the warning about the address, and the one about the missing calibration.
         dialog.address = "0.0.0.0:30100".into();
         let turned = RobotAction::Edit(Box::new(dialog));
         act(&mut harness, Action::Robot(turned));

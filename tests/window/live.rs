@@ -1,4 +1,4 @@
-//! Following a source, with a camera that gives a frame when the test wants one: no clock decides.
+//! Following a source, with a camera that gives a frame when the test asks for one, independent of any clock.
 
 use std::{
     sync::{
@@ -37,15 +37,15 @@ use super::set_up::{
     wait_until,
 };
 
-/// Between two frames, by the camera's clock: as a slow one.
+/// Time between two frames by the camera's clock, milliseconds: that of a slow camera.
 const APART: i64 = 150;
 
-/// The test's end of the wire.
+/// The test's end of the channel to the camera.
 type Wire = Sender<Step>;
 
-/// What the camera does next.
+/// The camera's next step.
 pub(crate) enum Step {
-    /// It sees the fender, so far to the right of its place, metres.
+    /// It sees the fender, this far to the right of its place, metres.
     Fender(f64),
     /// It is unplugged until the next step.
     Unplugged,
@@ -53,7 +53,7 @@ pub(crate) enum Step {
     End,
 }
 
-/// The camera's end of the wire.
+/// The camera, with its end of the channel.
 struct Wired {
     steps: Arc<Mutex<Receiver<Step>>>,
     number: u64,
@@ -105,13 +105,13 @@ impl Wired {
     }
 }
 
-/// A window whose every camera is this wire.
+/// Opens a window whose cameras all follow this channel.
 fn wired() -> (WindowHarness, Wire) {
     let (options, wire) = wired_options();
     (open_with(USUAL, options), wire)
 }
 
-/// What to open such a window with, and the wire.
+/// The options of such a window, and the channel.
 pub(crate) fn wired_options() -> (WindowOptions, Wire) {
     let (sender, steps) = channel();
     let steps = Arc::new(Mutex::new(steps));
@@ -142,7 +142,7 @@ fn says(harness: &WindowHarness, text: &str) -> bool {
     harness.query_all_by_label_contains(text).next().is_some()
 }
 
-/// One frame after the other, each once the one before was inspected and is shown.
+/// Sends one frame after the other, each once the previous one was inspected and is shown.
 pub(crate) fn sees(
     harness: &mut WindowHarness,
     wire: &Wire,
@@ -177,7 +177,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     assert!(says(&harness, "frames agree"));
     harness.get_by_label("Accepted");
     harness.get_by_label("Fender, left");
-    // One verdict that counts is one inspection to look up, however many frames it rests on.
+    // A verdict that counts is one inspection in the history, however many frames it rests on.
     let history = history_of(&harness);
     assert_eq!(
         history.num_rows(),
@@ -201,7 +201,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
         .expect("shown");
     assert!(!shown.inspected.inspection.verdict.is_accepted());
 
-    // It hangs still again, elsewhere: another verdict on the same part, which counts once.
+    // It hangs still again in another place: another verdict on the same part, which counts once.
     sees(&mut harness, &wire, [0.06; 22]);
     harness.get_by_label("Accepted");
     settle_history(&mut harness);
@@ -213,7 +213,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     assert!(!harness.state().state().session.is_live());
 }
 
-/// Draws until the history shows what was written.
+/// Draws until the history shows all that was written.
 fn settle_history(harness: &mut WindowHarness) {
     let is_settled = |window: &Window| {
         let history = window.workspace::<HistoryWorkspace>();
@@ -226,7 +226,7 @@ fn settle_history(harness: &mut WindowHarness) {
 fn two_parts_one_after_the_other_are_two_rows_and_one_that_swings_through_is_one_too() {
     let (mut harness, wire) = wired();
     toggle(&mut harness);
-    // From the right, at rest, to the left, twice; the third does not stop.
+    // Two parts come from the right, rest, and leave to the left; the third does not stop.
     let coming = [2.0, 1.2, 0.5];
     for _ in 0..2 {
         sees(&mut harness, &wire, coming);
@@ -277,7 +277,7 @@ fn the_view_stays_where_a_person_has_turned_it_and_each_frame_is_shown() {
         .expect("shown");
     assert!(!Arc::ptr_eq(&first.inspected, &second.inspected));
     assert!(first.generation != second.generation && first.session == second.session);
-    // Another workspace keeps what it has in hand, and says how live stands.
+    // Another workspace keeps its result and shows the live status.
     act_live(&mut harness, Action::GoTo(WorkspaceKind::History));
     sees(&mut harness, &wire, [0.0]);
     let third = harness
@@ -291,7 +291,7 @@ fn the_view_stays_where_a_person_has_turned_it_and_each_frame_is_shown() {
     assert!(says(&harness, "Live · looking"));
 }
 
-/// As [`act`], while a source is followed, which never settles.
+/// Like [`act`], but without settling, which never happens while a source is followed.
 fn act_live(harness: &mut WindowHarness, action: Action) {
     let context = harness.ctx.clone();
     harness.state_mut().act(action, &context);
@@ -313,30 +313,30 @@ fn a_lost_source_is_a_notice_until_it_comes_back_by_itself() {
     harness.run_steps(2);
     assert_eq!(harness.state().state().notices.len(), 1);
     assert!(says(&harness, "lost, reconnecting"));
-    assert!(says(&harness, "the folder is not there"));
+    assert!(says(&harness, "the folder does not exist"));
 
     sees(&mut harness, &wire, [0.0]);
     assert!(says(&harness, "The source is back"));
-    assert!(!says(&harness, "the folder is not there"));
+    assert!(!says(&harness, "the folder does not exist"));
     assert!(harness.state().state().session.is_live());
 }
 
 #[test]
 fn following_ends_from_any_state() {
     let (mut harness, wire) = wired();
-    // While it is being opened.
+    // While the source is being opened.
     toggle(&mut harness);
     toggle(&mut harness);
     settle(&mut harness);
     assert!(!harness.state().state().session.is_live());
-    // While frames come: one frame is captured instead.
+    // While frames come: Space captures one frame instead.
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 2]);
     harness.key_press(Key::Space);
     settle(&mut harness);
     assert!(!harness.state().state().session.is_live());
     harness.get_by_label("Simulated frame 2");
-    // While it is lost; the notice goes with it.
+    // While the source is lost; the notice disappears, too.
     harness.key_press(Key::L);
     harness.run_steps(2);
     sees(&mut harness, &wire, [0.0]);
@@ -352,7 +352,7 @@ fn following_ends_from_any_state() {
     wait_until(&mut harness, |state| !state.session.is_live());
     settle(&mut harness);
     assert!(says(&harness, "has no more frames"));
-    // And the window can be closed while it goes on.
+    // The window can be closed while the source is followed.
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0]);
     drop(harness);
@@ -365,7 +365,7 @@ fn another_source_is_followed_at_once_and_changed_parameters_count_anew() {
     sees(&mut harness, &wire, [0.0; 16]);
     harness.get_by_label("Accepted");
     act_live(&mut harness, Action::Live(LiveAction::Average(4)));
-    // A frame that comes before would be taken by who followed until now.
+    // Wait, because the former follower would take an earlier frame.
     wait_until(&mut harness, |state| state.session.live.status.is_some());
     sees(&mut harness, &wire, [0.0]);
     assert!(harness.query_by_label("Accepted").is_none());
@@ -395,7 +395,7 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
     harness.run_steps(4);
     assert!(harness.state().state().session.live.recording.is_none());
     assert!(says(&harness, "Recorded 22 frames"));
-    // What comes now is in no recording.
+    // Frames from now on are not recorded.
     wait_until(&mut harness, |state| state.session.live.status.is_some());
     sees(&mut harness, &wire, [0.0]);
     toggle(&mut harness);
@@ -416,7 +416,7 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
     harness.get_by_label("Capture").click();
     settle(&mut harness);
     assert!(says(&harness, "Wired frame 2, simulated"));
-    // Played: frame after frame, to the end, and what hung still counts.
+    // Played to the end, frame after frame; the part that hung still counts.
     toggle(&mut harness);
     wait_until(&mut harness, |state| !state.session.is_live());
     settle(&mut harness);

@@ -1,5 +1,5 @@
-//! The window, by what a person reads and presses. No graphics adapter is needed, but for the pictures: the 3-D view
-//! says in words that there is none.
+//! The window, tested by its labels and controls. Only the pictures need a graphics adapter; without one, the 3-D
+//! view shows a message.
 
 mod align;
 mod answering;

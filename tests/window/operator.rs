@@ -28,7 +28,7 @@ use super::{
     },
 };
 
-/// A window in the operator's view.
+/// Opens a window in the operator's view.
 pub(crate) fn open_operators(options: WindowOptions) -> WindowHarness {
     let mut harness = open_with(SMALL, options);
     act(&mut harness, Action::Role(RoleAction::Switch));
@@ -40,7 +40,7 @@ fn shows(harness: &WindowHarness, text: &str) -> bool {
     harness.query_all_by_label_contains(text).next().is_some()
 }
 
-/// A capture of a part of the other side, which is not enrolled.
+/// Writes a capture of a part of the other side, which is not enrolled.
 fn write_unknown(path: &Path) {
     let scene = facing_part(PartKind::Fender, Side::Right, 5);
     save_cloud(path, &scene.cloud).expect("written");
@@ -51,7 +51,7 @@ fn the_operator_sees_part_verdict_and_next_step_and_no_figures() {
     let mut harness = open();
     harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::K);
     harness.run_steps(12);
-    // In the banner; the list has it smaller.
+    // The banner has it large; the list has it smaller.
     let names = harness.query_all_by_label("Front door, left");
     let heights: Vec<f32> = names.map(|node| node.rect().height()).collect();
     assert!(heights.iter().any(|height| *height > 60.0), "{heights:?}");
@@ -114,7 +114,7 @@ fn the_parts_of_this_shift_are_counted_and_the_last_are_listed() {
         + harness.query_all_by_label("Unknown part").count();
     assert_eq!(titles, 2);
     drop(harness);
-    // They are the history's, not the window's.
+    // The parts are read from the history, not kept by the window.
     let mut harness = open_operators(options());
     harness.get_by_label("4 parts");
     press(&mut harness, "History");
@@ -152,7 +152,7 @@ fn without_a_result_the_operator_is_told_what_to_do() {
     harness.get_by_label("Ask the engineer to enrol the parts");
     assert!(!shows(&harness, "NOK") || shows(&harness, "0 NOK"));
 
-    // The last part was good; this capture came to nothing.
+    // The last part was accepted; this capture fails.
     let mut harness = open_operators(plain_options());
     harness.get_by_label("OK");
     let broken = folder.path().join("broken.pcd");
@@ -231,7 +231,7 @@ fn a_file_that_the_window_starts_with_again_is_no_other_part() {
     };
     let mut harness = start();
     harness.get_by_label("1 part");
-    // Pressed, it is a part of its own: the file may stand for the next one.
+    // Capture counts it as a new part: the file may stand for the next one.
     press(&mut harness, "Capture");
     harness.get_by_label("2 parts");
     drop(harness);
@@ -239,7 +239,7 @@ fn a_file_that_the_window_starts_with_again_is_no_other_part() {
     harness.get_by_label("OK");
     harness.get_by_label("2 parts");
     drop(harness);
-    // Written anew it shows another part.
+    // The rewritten file shows another part.
     write(6);
     let harness = start();
     harness.get_by_label("3 parts");
@@ -278,7 +278,7 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
         harness.key_press(Key::Enter);
         harness.run_steps(4);
     }
-    // No field has the focus. T, L and the digits are shortcuts, and none of them is taken for one.
+    // No field has the focus. T, L and the digits are shortcuts, but the scanner's input must trigger none.
     let before = harness.state().state().session.theme;
     for letter in "TL471".chars() {
         let key = Key::from_name(&letter.to_string()).expect("a key");
@@ -302,7 +302,7 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
     assert_eq!(harness.state().state().session.trace.get().serial, "");
     press(&mut harness, "Capture");
     settle(&mut harness);
-    // The operator sees which part it went with.
+    // The operator sees the serial number that the part was traced by.
     harness.get_by_label_contains(" · TL471");
     let traces: Vec<_> = (0..2)
         .map(|place| {
@@ -330,7 +330,7 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
     harness.get_by_label("Find").type_text("tl471");
     settle(&mut harness);
     harness.get_by_label("1 of 3 parts");
-    // The session's own stay, the part's does not.
+    // The fields of the session are kept, the part's serial number is not.
     let remembered = settings::Settings::of(harness.state().state(), None);
     assert_eq!(&*remembered.traceability.order, "A 17");
     assert_eq!(&*remembered.traceability.serial, "");

@@ -1,4 +1,4 @@
-//! The Paint workspace, by what a person reads and presses. No graphics adapter is needed.
+//! The Paint workspace, tested by its labels and controls. Needs no graphics adapter.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ use super::{
     set_up::{SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle},
 };
 
-/// Paint in front, with a path over the fender.
+/// Opens the Paint workspace with a path over the fender.
 fn open_at(size: Vec2, options: WindowOptions) -> WindowHarness {
     let mut harness = open_with(size, options);
     act(&mut harness, Action::GoTo(WorkspaceKind::Paint));
@@ -37,7 +37,7 @@ fn open() -> WindowHarness {
     open_at(USUAL, plain_options())
 }
 
-/// A window with a library of its own.
+/// Opens a window with a library of its own.
 fn open_own(folder: &Path) -> WindowHarness {
     let library = folder.join("parts");
     copy_library(&library);
@@ -68,7 +68,7 @@ fn figures(harness: &WindowHarness) -> (usize, f64) {
     (planned.path.points().len(), planned.film.path.paint)
 }
 
-/// Draws along these shares of the view, and lets go.
+/// Draws along this path, in shares of the view, and releases the button.
 pub(crate) fn draw(harness: &mut WindowHarness, way: &[(f32, f32)]) {
     let view = harness.get_by_label("3-D view of the part and its spray path");
     let view = view.rect();
@@ -90,7 +90,7 @@ fn a_part_is_planned_when_it_is_chosen_and_its_film_is_told() {
     let (num, _) = figures(&harness);
     press(&mut harness, "Pattern: Cross-hatch");
     assert!(figures(&harness).0 > 3 * num / 2);
-    // Twice the film: out of the tolerance.
+    // Twice the film thickness is out of tolerance.
     let before = own(&harness)
         .planned
         .as_ref()
@@ -136,7 +136,7 @@ fn what_is_drawn_around_gets_no_paint_and_ctrl_z_brings_it_back() {
     settle(&mut harness);
     let (_, again) = figures(&harness);
     assert!((again - whole).abs() < 1e-12);
-    // Beside the part there is nothing to keep out of the paint.
+    // An area to be painted is the opposite: only what lies in the box gets paint.
     press(&mut harness, "Paint only: box");
     draw(&mut harness, &[(0.35, 0.3), (0.6, 0.7)]);
     let (_, only) = figures(&harness);
@@ -237,11 +237,11 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     settle(&mut harness);
     let session = |harness: &WindowHarness| harness.state().state().session.program.clone();
     assert_eq!(session(&harness).nozzle, "kuka 0 0 250 0 45 0");
-    // From where the calibration has it, it does not reach all.
+    // With the base as calibrated, the arm does not reach all points.
     harness.get_by_label_contains("ABB IRB 4600-40/2.55 misses");
     harness.get_by_label_contains("Accelerations of the joints are not checked");
     press(&mut harness, "Show next");
-    // A box around everything that the arm could reach.
+    // A box around the whole reach of the arm.
     let boxes = folder.path().join("boxes.toml");
     let text = "[[box]]\nname = \"lamp\"\ncentre_mm = [0, 0, 0]\nsize_mm = [9000, 9000, 9000]\n";
     std::fs::write(&boxes, text).expect("written");
@@ -266,7 +266,7 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     };
     export(&mut harness);
     assert!(!file.exists());
-    // Without an arm its reach is nobody's business here.
+    // Without an arm, reach is not checked.
     press(&mut harness, "Arm: ABB IRB 4600-40/2.55");
     press(&mut harness, "No arm: reach is not checked");
     export(&mut harness);

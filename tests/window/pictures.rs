@@ -1,7 +1,8 @@
-//! Strict pictures of the window: what is drawn has not changed unless somebody meant it to.
+//! Strict pictures of the window, which reveal unintended changes of the drawing.
 //!
-//! They hold for software rendering alone, which draws the same everywhere; on another device, or without one, these
-//! tests say that they were skipped. `UPDATE_SNAPSHOTS=1` draws the pictures anew, to be looked at before they are kept.
+//! They are valid for software rendering only, which draws the same everywhere; on another device, or without one,
+//! these tests report that they are skipped. `UPDATE_SNAPSHOTS=1` redraws the pictures; look at them before you keep
+//! them.
 
 use std::{fs, path::PathBuf, sync::Arc, time::Duration};
 
@@ -45,10 +46,10 @@ use super::{
     shots::ScanFolder,
 };
 
-/// Pixels that may differ: processors round a point's edge differently, nobody sees it.
+/// Pixels that may differ: processors round the edges of points differently, which is not visible.
 const MAX_DIFFERENT: usize = 100;
 
-/// True where pictures can be held against the kept ones; says so where they cannot.
+/// True if pictures can be compared with the kept ones; otherwise reports why not.
 #[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn draws_in_software() -> bool {
     let is_required = std::env::var_os("PARTSIGHT_REQUIRE_GPU").is_some();
@@ -66,7 +67,7 @@ fn draws_in_software() -> bool {
     false
 }
 
-/// The first frame of the cell, as if every inspection took the same time at the same moment.
+/// The inspection of the cell's first frame, with fixed times and date.
 fn inspected() -> Inspected {
     inspected_by(&LibraryCache::new(
         Some("reference_parts".into()),
@@ -95,7 +96,7 @@ fn inspected_by(library_cache: &LibraryCache) -> Inspected {
     let record = &mut found.entry.record;
     record.summary.at = found.at;
     record.summary.total_ms = 16.0;
-    // The times of the stages stand in it.
+    // The line contains the times of the stages.
     record.detail.line = "{}".into();
     found
 }
@@ -111,14 +112,14 @@ fn open_with(size: Vec2, inspected: Inspected, settings: Option<PathBuf>) -> Win
         .wgpu()
         .build_eframe(move |cc| {
             let options = WindowOptions {
-                // Of no machine: its name is in the picture.
+                // A neutral name, because it is in the picture.
                 cases: Some("cases of the pictures".into()),
                 settings,
                 ..plain_options()
             };
             let mut window =
                 Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads");
-            // Before the thread's own answer, which nobody waits for any more.
+            // Shown before the thread's own result, which is then dropped.
             window.show_result(Arc::clone(&inspected), &cc.egui_ctx);
             window
         });
@@ -126,7 +127,7 @@ fn open_with(size: Vec2, inspected: Inspected, settings: Option<PathBuf>) -> Win
     harness
 }
 
-/// The same alignments once more, as if every method took the same time.
+/// Shows the same alignments with fixed times.
 fn run_again_in_no_time(harness: &mut WindowHarness) {
     let context = harness.ctx.clone();
     let window = harness.state_mut();
@@ -144,51 +145,51 @@ fn run_again_in_no_time(harness: &mut WindowHarness) {
     settle(harness);
 }
 
-/// Holds the window against the kept picture; what took so many milliseconds today is painted over.
+/// Compares the window with the kept picture; times in milliseconds are painted over.
 fn compare(harness: &mut WindowHarness, name: &str) {
-    // The pointer is no part of the picture.
+    // The pointer is not part of the picture.
     harness.remove_cursor();
     settle(harness);
     compare_as_it_is(harness, name);
 }
 
-/// The same of a window that does not come to rest.
+/// The same for a window that does not become idle.
 fn compare_as_it_is(harness: &mut WindowHarness, name: &str) {
     harness.remove_cursor();
     harness.run_steps(4);
     let mut picture = harness.render().expect("drawn");
     let timed = harness.query_all_by_label_contains(" ms");
     for mut rect in timed.map(|node| node.rect()) {
-        // As wide however many digits there are.
+        // The same width for any number of digits.
         rect.max.x = rect.max.x.max(rect.min.x + 200.0);
         paint_over(&mut picture, rect);
     }
     for node in harness.query_all(By::new().predicate(is_time_of_day)) {
-        // As wide whatever the digits are.
+        // The same width for all digits.
         let mut rect = node.rect();
         rect.min.x = rect.min.x.min(rect.max.x - 64.0);
         paint_over(&mut picture, rect);
     }
     if harness.state().state().session.is_live() {
-        // The strip's times are today's, too: elsewhere a test puts others in their place.
+        // The times in the strip are real, too; other tests replace them by fixed ones.
         for cell in harness.query_all_by_label_contains("Enlarge ") {
             paint_over(&mut picture, time_of_stage(cell.rect()));
         }
     }
-    // At half the size a line that moved by a pixel still shows, in a quarter of the bytes.
+    // At half the size, a line that moved by a pixel still shows, in a quarter of the bytes.
     let half = imageops::thumbnail(&picture, picture.width() / 2, picture.height() / 2);
     let options = SnapshotOptions::new().max_failed_pixels(MAX_DIFFERENT);
     egui_kittest::image_snapshot_options(&half, name, &options);
 }
 
-/// True for what ends in hours and minutes.
+/// True for a short text that ends in hours and minutes.
 fn is_time_of_day(node: &AccessKitNode<'_>) -> bool {
     let label = node.value().or_else(|| node.label()).unwrap_or_default();
     let last = label.rsplit(' ').next().unwrap_or_default();
     label.len() < 20 && last.len() == 5 && jiff::civil::Time::strptime("%H:%M", last).is_ok()
 }
 
-/// Where a picture of the strip has its time: below in a narrow one, else at the right of the title.
+/// Position of the time in a picture of the strip: below in a narrow one, else to the right of the title.
 fn time_of_stage(cell: egui::Rect) -> egui::Rect {
     let height = 32.0;
     if cell.width() < 150.0 {
@@ -233,7 +234,7 @@ fn the_operators_view_looks_as_it_did() {
         (SMALL, true, "operator_small_light"),
     ] {
         let mut found = inspected();
-        // In this shift, whenever that is; without starts every shift is "since 00:00", which is as wide all day.
+        // In the present shift; without starts, every shift is "since 00:00", which has the same width all day.
         found.entry.record.summary.at = jiff::Timestamp::now();
         fs::write(&settings, "shifts = []").expect("written");
         let mut harness = open_with(size, found, Some(settings.clone()));
@@ -337,7 +338,7 @@ fn the_robots_cell_looks_as_it_did() {
         }
         act(&mut harness, Action::Robot(RobotAction::Load(cell.clone())));
         if !is_light {
-            // Where the rays can be told apart.
+            // From the top the rays can be told apart.
             press(&mut harness, "Top");
         }
         compare(&mut harness, name);
@@ -375,7 +376,7 @@ fn the_other_workspaces_look_as_they_did() {
     compare(&mut harness, "align");
     act(&mut harness, Action::GoTo(WorkspaceKind::Paint));
     compare(&mut harness, "paint");
-    // The time of day is that of where the machine stands.
+    // The time of day depends on the time zone of the machine.
     if jiff::tz::TimeZone::system().to_offset(jiff::Timestamp::UNIX_EPOCH) == jiff::tz::Offset::UTC
     {
         act(&mut harness, Action::GoTo(WorkspaceKind::History));
@@ -415,7 +416,7 @@ fn a_lasso_over_a_draft_looks_as_it_did() {
     compare(&mut harness, "enrol_lasso_small_light");
 }
 
-/// Around what stands out to the left of a part seen from the side, in shares of the view.
+/// A lasso around what stands out to the left of a part seen from the side, in shares of the view.
 const LASSO: [(f32, f32); 5] = [
     (0.2, 0.4),
     (0.35, 0.3),

@@ -66,12 +66,12 @@ fn type_into(harness: &mut WindowHarness, label: &str, text: &str) {
     harness.run_steps(3);
 }
 
-/// The camera hangs above the cell and looks down at the part.
+/// Pose of a camera that hangs above the cell and looks down at the part.
 pub(crate) fn robot_from_camera() -> RigidTransform {
     from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0])
 }
 
-/// A table of pairs with the camera in the cell; `turns` are those of the target before the camera.
+/// A table of pairs with the camera in the cell; `turns` are the rotations of the target in front of the camera.
 pub(crate) fn pairs(turns: &[[f64; 3]]) -> String {
     let flange_from_target = from_euler_zyx([0.3, 0.2, -0.5, 0.02, -0.03, 0.1]);
     let mut text = String::from("# robot: kuka\n# camera: rotation-vector\n");
@@ -80,7 +80,7 @@ pub(crate) fn pairs(turns: &[[f64; 3]]) -> String {
         let seen = from_euler_zyx([*rx, *ry, *rz, aside, -aside / 2.0, 1.2 + aside / 3.0]);
         let arm = robot_from_camera() * seen * flange_from_target.inverse();
         let mut numbers = Convention::Kuka.write(&arm).numbers();
-        // As a controller shows them, and a camera that errs by a few tenths of a millimetre.
+        // Rounded as a controller shows them, like the errors of a camera of some tenths of a millimetre.
         for number in &mut numbers {
             *number = (*number * 10.0).round() / 10.0;
         }
@@ -125,7 +125,7 @@ fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
     harness.get_by_label("entered by hand");
     press(&mut harness, "Close");
     assert!(harness.state().robot().dialog().is_none());
-    // The card tells the robot's frame now.
+    // The card now shows the pose in the robot's frame.
     harness.get_by_label_contains("by Cell 2 (");
     assert!(inspect_of(&harness).parts.contains(&ViewPart::RobotBase));
 
@@ -143,7 +143,7 @@ fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
 fn pairs_are_calculated_shown_corrected_and_used() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("pairs.csv");
-    // The fourth is 60 mm aside.
+    // The fourth pair is off by 60 mm.
     let sound = pairs(&TURNS);
     let text = sound.lines().map(|line| match line.strip_prefix("p4, ") {
         Some(rest) => {
@@ -190,7 +190,7 @@ fn pairs_that_do_not_span_are_used_only_by_insisting() {
     press(&mut harness, "Use it anyway");
     press(&mut harness, "Use it");
     assert!(state(&harness).session.robot.is_some());
-    // A bad file is said where it was chosen.
+    // The error of a bad file is shown where it was chosen.
     fs::write(&file, "# robot: kuka\n1 2 3\n").expect("written");
     act(&mut harness, Action::Robot(RobotAction::Pairs(file)));
     harness.get_by_label_contains("line 2: 3 numbers, expected 22");
@@ -276,7 +276,7 @@ fn behind_a_dialog_no_key_is_a_shortcut_and_escape_closes_its_list_first() {
     harness.key_press(Key::Escape);
     harness.run_steps(4);
     assert!(harness.query_by_label("Frames to keep").is_none());
-    // And with nothing over it, keys are shortcuts again.
+    // With no dialog open, keys are shortcuts again.
     harness.key_press(Key::Num1);
     harness.run_steps(4);
     assert_eq!(state(&harness).session.workspace, WorkspaceKind::Inspect);
@@ -307,7 +307,7 @@ fn a_dialog_that_grows_or_shrinks_is_in_its_place_at_once() {
     }
 }
 
-/// Writes a calibration that a person entered.
+/// Writes a calibration that was entered by hand.
 pub(crate) fn save_calibration(path: &Path) {
     let calibration = CellCalibration {
         name: "Cell 2".into(),
@@ -321,7 +321,8 @@ pub(crate) fn save_calibration(path: &Path) {
     calibration.save(path).expect("written");
 }
 
-/// A path over the shipped front door, which hung square on, 1.3 m before the camera; its fifth point is too near, its sixth beside the door.
+/// A path over the shipped front door, which hung square to the camera, 1.3 m away; its fifth point is too near, its
+/// sixth beside the door.
 pub(crate) fn door_path() -> SprayPath {
     let at = [
         [-0.3, -0.05, 1.05],
@@ -342,7 +343,7 @@ pub(crate) fn door_path() -> SprayPath {
     SprayPath::new(points.into()).expect("points")
 }
 
-/// A copy of the shipped library in this folder.
+/// Applies an action in the Enrol workspace.
 fn in_enrol(harness: &mut WindowHarness, action: EnrolAction) {
     act_in(harness, |enrol: &mut EnrolWorkspace, cx| {
         enrol.state_mut().apply(action, cx);
@@ -367,7 +368,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     };
     assert!(shown(&harness).spray.is_none());
 
-    // Stored in the library_cache of enrolled parts, as a file from elsewhere.
+    // Store it in the library as a file from elsewhere.
     let file = folder.path().join("path.csv");
     let mut text =
         String::from("nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n");
@@ -401,7 +402,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
         (figure.num_points, figure.num_inside),
         (6, carried.num_inside())
     );
-    // The fifth was stored too near, and the sixth beside the door.
+    // The fifth point is too near, and the sixth is beside the door.
     assert_eq!(carried.num_inside(), 4, "{carried:?}");
 
     // Without a calibrated cell there is nothing to export.
@@ -425,7 +426,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
             .count(),
         6
     );
-    // The file's name says that it is a program.
+    // The ending of the file's name selects a program.
     let program = folder.path().join("paint.ls");
     choose_in_inspect(&mut harness, InspectFile::SprayPath, program.clone());
     let text = fs::read_to_string(&program).expect("written");
@@ -433,7 +434,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
         text.starts_with("/PROG") && text.contains("SIMULATED"),
         "{text}"
     );
-    // An arm that does not reach it all keeps it from being written, the earlier one too.
+    // With an arm that does not reach all points no program is written, and the earlier one is removed.
     act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
         let setup = ProgramSetup {
             arm: Some("kr6-r900".into()),
@@ -446,7 +447,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     assert!(!program.exists());
     harness.get_by_label_contains("No program was written: KUKA KR 6 R900-2 misses");
 
-    // Taken back as any change of the library.
+    // Undo works as for any change of the library.
     in_enrol(&mut harness, EnrolAction::Undo);
     assert_eq!(library.spray_path("front_door").expect("read"), None);
 }

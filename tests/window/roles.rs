@@ -1,4 +1,4 @@
-//! Whose window it is: the operator's or the engineer's.
+//! The roles of the window: operator and engineer.
 
 use egui::{Event, Key, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -21,7 +21,7 @@ fn role(harness: &WindowHarness) -> UserRole {
     harness.state().state().session.role
 }
 
-/// Presses the buttons of these digits, then the one that goes on.
+/// Presses the buttons of these digits, then the one labelled `then`.
 fn write(harness: &mut WindowHarness, digits: &str, then: &str) {
     for digit in digits.chars() {
         press(harness, &format!("Digit {digit}"));
@@ -43,7 +43,7 @@ fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
     press(&mut harness, "Engineer's view");
     press(&mut harness, "Operator's view");
     assert_eq!(role(&harness), UserRole::Operator);
-    // By key as by the rail.
+    // By a key, as well as by the rail.
     harness.key_press(Key::Num3);
     harness.run_steps(4);
     assert_eq!(
@@ -58,7 +58,7 @@ fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
     }
     harness.key_press(Key::Enter);
     harness.run_steps(4);
-    // The digits were no shortcuts, and what was wanted is done.
+    // The digits were not shortcuts, and the requested action is done.
     assert_eq!(role(&harness), UserRole::Engineer);
     assert_eq!(
         harness.state().state().session.workspace,
@@ -173,7 +173,7 @@ fn enter_presses_the_button_that_a_dialog_proposes() {
     assert!(harness.query_by_label("Shortcuts").is_none());
     act(&mut harness, Action::GoTo(WorkspaceKind::History));
     press(&mut harness, "Frames…");
-    // The Enter that ends the writing of a number is the number's.
+    // The Enter that ends the typing of a number belongs to its field.
     harness
         .get_by_role_and_label(egui::Role::SpinButton, "At most, days")
         .click();

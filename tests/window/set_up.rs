@@ -1,4 +1,4 @@
-//! A window to be pressed and read.
+//! Helpers that open a window, operate it and read it.
 
 use std::{
     path::{Path, PathBuf},
@@ -22,9 +22,9 @@ use partsight::app::{
 /// A window without a screen.
 pub(crate) type WindowHarness = Harness<'static, Window>;
 
-/// The size of the sketches.
+/// The usual size of a window, that of the design sketches.
 pub(crate) const USUAL: Vec2 = Vec2::new(1440.0, 900.0);
-/// The smallest screen that nothing may be cut off on.
+/// The smallest supported screen: nothing may be cut off.
 pub(crate) const SMALL: Vec2 = Vec2::new(1024.0, 768.0);
 
 /// Opens a window and waits for its first result.
@@ -36,7 +36,7 @@ pub(crate) fn open_with(size: Vec2, options: WindowOptions) -> WindowHarness {
     harness
 }
 
-/// The shipped parts, whatever library this machine's user has, and nothing remembered.
+/// Options for a window with the shipped parts, without the user's library and settings.
 pub(crate) fn plain_options() -> WindowOptions {
     WindowOptions {
         library: Some("reference_parts".into()),
@@ -44,28 +44,28 @@ pub(crate) fn plain_options() -> WindowOptions {
     }
 }
 
-/// As a newcomer's window opens, remembering nothing.
+/// Opens a window as at the first start.
 pub(crate) fn open() -> WindowHarness {
     open_with(USUAL, plain_options())
 }
 
-/// Draws until nothing is at work any more.
+/// Draws until no task is running.
 pub(crate) fn settle(harness: &mut WindowHarness) {
     wait_for(harness, Window::is_idle);
     harness.run_steps(8);
-    // Wherever a test comes by: nothing to be pressed or filled in without a name.
+    // Check everywhere that every control has a name.
     harness.check_accessibility();
 }
 
-/// Draws until the state is so.
+/// Draws until the state meets the condition.
 pub(crate) fn wait_until(harness: &mut WindowHarness, is_so: impl Fn(&State) -> bool) {
     wait_for(harness, |window| is_so(window.state()));
 }
 
-/// Draws until the window is so.
+/// Draws until the window meets the condition.
 ///
-/// The window's clock goes on for what moves on the screen, then hardly any more: how long the work takes must not
-/// decide which notices still stand.
+/// The window's clock advances normally for animations, then hardly at all: the time that the work takes must not
+/// decide which notices are still shown.
 pub(crate) fn wait_for(harness: &mut WindowHarness, is_so: impl Fn(&Window) -> bool) {
     let until = Instant::now() + Duration::from_mins(3);
     let moving = (0..20).map(|_| 0.1);
@@ -81,7 +81,7 @@ pub(crate) fn wait_for(harness: &mut WindowHarness, is_so: impl Fn(&Window) -> b
     harness.input_mut().time = None;
 }
 
-/// Presses what has this label, once it is in sight, and waits for what comes of it.
+/// Scrolls the control of this label into view, presses it, and waits for the result.
 pub(crate) fn press(harness: &mut WindowHarness, label: &str) {
     harness.get_by_label(label).scroll_to_me();
     harness.run_steps(12);
@@ -89,14 +89,14 @@ pub(crate) fn press(harness: &mut WindowHarness, label: &str) {
     settle(harness);
 }
 
-/// Does what a person could cause, and waits for what comes of it.
+/// Performs an action of the user, and waits for the result.
 pub(crate) fn act(harness: &mut WindowHarness, action: Action) {
     let context = harness.ctx.clone();
     harness.state_mut().act(action, &context);
     settle(harness);
 }
 
-/// Does something in the workspace of this type, and waits for what comes of it.
+/// Runs a closure on the workspace of this type, and waits for the result.
 pub(crate) fn act_in<W: Workspace>(
     harness: &mut WindowHarness,
     act: impl FnOnce(&mut W, &mut ShellContext<'_>),
@@ -107,19 +107,19 @@ pub(crate) fn act_in<W: Workspace>(
     settle(harness);
 }
 
-/// What the History workspace knows.
+/// State of the History workspace.
 pub(crate) fn history_of(harness: &WindowHarness) -> &HistoryState {
     let workspace = harness.state().workspace::<HistoryWorkspace>();
     workspace.expect("the workspace").state()
 }
 
-/// What the Inspect workspace knows.
+/// State of the Inspect workspace.
 pub(crate) fn inspect_of(harness: &WindowHarness) -> &InspectState {
     let workspace = harness.state().workspace::<InspectWorkspace>();
     workspace.expect("the workspace").state()
 }
 
-/// A person has chosen this file in Inspect.
+/// Chooses a file in Inspect, as the user does in a file dialog.
 pub(crate) fn choose_in_inspect(harness: &mut WindowHarness, file: InspectFile, path: PathBuf) {
     let chosen = InspectAction::Chosen(file, path);
     act_in(harness, |inspect: &mut InspectWorkspace, cx| {
@@ -127,7 +127,7 @@ pub(crate) fn choose_in_inspect(harness: &mut WindowHarness, file: InspectFile, 
     });
 }
 
-/// What the Enrol workspace knows.
+/// State of the Enrol workspace.
 pub(crate) fn enrol_of(harness: &WindowHarness) -> &EnrolState {
     let workspace = harness.state().workspace::<EnrolWorkspace>();
     workspace.expect("the workspace").state()

@@ -1,4 +1,4 @@
-//! Scans in the window: the list of shots in Inspect and Enrol. No graphics adapter is needed.
+//! Scans in the window: the list of shots in Inspect and Enrol. Needs no graphics adapter.
 
 use std::{
     fs,
@@ -35,7 +35,7 @@ use super::set_up::{
     open_with, plain_options, press, settle,
 };
 
-/// A simulated scan of a fender: `num` shots and their poses, and one more that the poses do not name.
+/// A folder with a simulated scan of a fender: `num` shots and their poses, and one more that the poses do not name.
 pub(crate) struct ScanFolder {
     folder: tempfile::TempDir,
 }
@@ -101,7 +101,7 @@ fn entry(pose: &RigidTransform) -> Value {
     json!({ "world_from_camera": row_major(pose) })
 }
 
-/// Every other row and column: four times as quick.
+/// Keeps every other row and column, to be four times as fast.
 fn coarse(frame: &DepthFrame) -> DepthFrame {
     let mut intrinsics = frame.intrinsics;
     let width = intrinsics.width;
@@ -150,7 +150,7 @@ fn fused(harness: &WindowHarness) -> &FusedShots {
     fused.expect("a scan")
 }
 
-/// Which shots the result rests on, by their place.
+/// Indices of the shots that the result rests on.
 fn used(harness: &WindowHarness) -> Vec<usize> {
     let rows = fused(harness).rows.iter().enumerate();
     rows.filter(|(_, row)| matches!(row.fate, ShotFate::Used { .. }))
@@ -163,7 +163,7 @@ fn press_keys(harness: &mut WindowHarness, modifiers: Modifiers, key: Key) {
     settle(harness);
 }
 
-/// What is in the files of an enrolled part, the moment of enrolling left out.
+/// Contents of the files of an enrolled part, without the time of enrolment.
 fn stored(part: &Path) -> (String, [Vec<u8>; 3]) {
     let toml = fs::read_to_string(part.join("part.toml")).expect("a part");
     let lines = toml.lines().filter(|line| !line.starts_with("at = "));
@@ -178,7 +178,7 @@ fn stored(part: &Path) -> (String, [Vec<u8>; 3]) {
 fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one() {
     let scan = ScanFolder::new(3);
     let mut harness = open_at(USUAL, &scan.scan(), None);
-    // The verdict of all shots, and what each gave to it.
+    // The verdict from all shots, and the contribution of each.
     harness.get_by_label("Fender, left");
     harness.get_by_label_contains("3 shots · they agree to");
     assert_eq!(used(&harness), [0, 1, 2]);
@@ -197,7 +197,7 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
     assert_eq!(used(&harness), [0, 2]);
     assert!(fused(&harness).scan.cloud.cloud.points.len() < all_three);
     harness.get_by_label_contains("2 of 3 shots used");
-    // The result stays where no scan is left.
+    // The result stays if too few shots are left for a scan.
     press(&mut harness, "Use shot-1.png");
     harness.get_by_label_contains("A scan needs at least 2 shots");
     assert_eq!(used(&harness), [0, 2]);
@@ -205,7 +205,7 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
     press_keys(&mut harness, Modifiers::COMMAND, Key::Z);
     assert_eq!(used(&harness), [0, 1, 2]);
     assert_eq!(fused(&harness).scan.cloud.cloud.points.len(), all_three);
-    // Given up half-way, the shot is as before.
+    // A cancelled change leaves the shot as before.
     harness.get_by_label("Use shot-3.png").click();
     harness.run_steps(2);
     let is_dropped = |harness: &WindowHarness| {
@@ -219,13 +219,13 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
     assert_eq!(used(&harness), [0, 1, 2]);
     press(&mut harness, "Redo the change of the shots");
     assert_eq!(used(&harness), [0, 2]);
-    // Remembered with the source, until they are taken back.
+    // Dropped shots are stored with the source until they are restored.
     let Source::Scan(files) = &state(&harness).session.source else {
         panic!("{:?}", state(&harness).session.source);
     };
     assert!(files.dropped.contains("shot-2.png"));
 
-    // One more, whose pose lies beside it.
+    // Add a shot whose pose is in a file beside it.
     let spare = scan.path("spare/shot-9.png");
     choose_in_inspect(
         &mut harness,
@@ -250,7 +250,7 @@ fn what_is_enrolled_from_a_scan_is_what_the_command_line_stores() {
     press(&mut harness, "Use the inspected scene");
     assert_eq!(used(&harness), [0, 1, 2]);
     harness.get_by_label("Seen from several sides");
-    // A shot dropped and taken back, as a step among the corrections.
+    // Dropping a shot is a step that can be undone, like the corrections.
     press(&mut harness, "Use shot-1.png");
     assert_eq!(used(&harness), [1, 2]);
     press_keys(&mut harness, Modifiers::COMMAND, Key::Z);
@@ -324,14 +324,14 @@ fn a_scan_that_cannot_be_put_together_is_said_and_the_former_result_stays() {
     scan.write_poses(&json!({"frames": {"shot-1.png": spare["frames"]["shot-9.png"].clone()}}));
     refused(&mut harness, "at least 2 frames, found 1");
     fs::remove_file(scan.scan().join("shot-1.png")).expect("removed");
-    refused(&mut harness, "no recording, and no file of a camera");
+    refused(&mut harness, "neither a recording nor a camera's file");
 }
 
 #[test]
 fn in_a_small_window_every_control_of_a_scan_is_large_enough_and_has_a_name() {
     let scan = ScanFolder::new(2);
     let mut harness = open_at(SMALL, &scan.scan(), None);
-    // By a drop, as by the command line.
+    // Open the scan by a drop, as well as by the command line.
     press(&mut harness, "Enrol");
     drop_file(&mut harness, &scan.scan());
     assert_eq!(used(&harness), [0, 1]);
@@ -346,7 +346,7 @@ fn in_a_small_window_every_control_of_a_scan_is_large_enough_and_has_a_name() {
                     rect.width() >= 35.9 && rect.height() >= 35.9,
                     "{label}: {rect:?}"
                 );
-                // The card is scrolled: its controls may lie further below.
+                // The card scrolls, so its controls may lie further below.
                 assert!(rect.min.x >= 0.0 && rect.min.y >= 0.0, "{label}: {rect:?}");
             }
         }

@@ -1,5 +1,5 @@
-//! The Inspect workspace, by what a person reads and presses. No graphics adapter is needed but for the last tests,
-//! which say so where there is none.
+//! The Inspect workspace, tested by its labels and controls. Only the last tests need a graphics adapter, and report
+//! if there is none.
 
 use std::path::PathBuf;
 
@@ -20,12 +20,12 @@ use super::set_up::{
     SMALL, USUAL, WindowHarness, act, choose_in_inspect, inspect_of, plain_options, settle,
 };
 
-/// Whether the window draws for real.
+/// Whether the window renders the 3-D view.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Drawn {
-    /// No device: the view says so.
+    /// No device: the view shows a message.
     InWords,
-    /// On whatever device there is.
+    /// Rendered on any available device.
     ForReal,
 }
 
@@ -45,7 +45,7 @@ fn open() -> WindowHarness {
     open_at(USUAL, Drawn::InWords)
 }
 
-/// True where something can draw; says so where nothing can.
+/// True if a device can draw; otherwise reports that there is none.
 #[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn can_draw() -> bool {
     match ViewportGpu::headless() {
@@ -70,7 +70,7 @@ fn the_card_shows_the_stand_off_in_the_chosen_units() {
     let shown = state.session.shown.as_ref().expect("a result");
     let found = shown.inspected.stand_off.as_ref().expect("a pose");
     let found = found.as_ref().expect("a stand-off").clone();
-    // The part hangs off its standard place, and the taught nozzle knows nothing of it.
+    // The part does not hang in its standard position, which the taught path does not consider.
     assert!((found.mean.0 - 0.15).abs() > 0.005, "{}", found.mean);
     harness.get_by_label(&format!(
         "Stand-off {:.1} mm of 100.0 mm to 200.0 mm",
@@ -163,7 +163,7 @@ fn a_picture_of_the_view_is_saved_on_its_own_thread() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_at(SMALL, Drawn::ForReal);
-    // Without an ending it is a PNG all the same.
+    // Without an ending the file is a PNG.
     let path = folder.path().join("door");
     choose_in_inspect(&mut harness, InspectFile::Picture, path);
     let notices = &harness.state().state().notices;
@@ -213,7 +213,7 @@ fn nothing_of_the_workspace_is_cut_off_in_small_windows() {
     }
 }
 
-/// Leaves pictures of the workspace in the folder that `PARTSIGHT_WINDOW_PICTURES` names, for a person to judge.
+/// Leaves pictures of the workspace in the folder that `PARTSIGHT_WINDOW_PICTURES` names, for visual inspection.
 #[test]
 fn pictures_of_the_workspace() {
     let Some(folder) = std::env::var_os("PARTSIGHT_WINDOW_PICTURES").map(PathBuf::from) else {

@@ -78,8 +78,8 @@ align-iteration = iteration { $place } of { $last }
 align-iteration-hint = iteration { $place } of { $last } · drag to scrub, P to play
 align-scrubber = Iteration shown
 align-scrubber-keys = E per iteration. Left and right go one iteration, Page Up and Page Down ten, Home and End to the ends, P plays
-align-no-way = No method found a pose: there is no way to show
-align-way = Run shows here how the mean squared distance E falls, iteration by iteration
+align-no-way = No method found a pose: there is nothing to show
+align-way = Press Run to see how the mean squared distance E falls, iteration by iteration
 
 ## Table I
 align-table = Table I

@@ -137,7 +137,7 @@ history-total = { $count } parts, { $share } OK
 history-drift = Drift: { $part }
 history-drift-score = Score
 history-drift-fit = Fit to the reference, rms
-history-drift-ends = { $first } at first, { $last } at last
+history-drift-ends = first { $first }, last { $last }
 history-drift-place = Place of the part: moved by x { $x }, y { $y }, z { $z }
 
 ## Work and notices

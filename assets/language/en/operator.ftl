@@ -6,7 +6,7 @@ operator-opening-camera = Opening the camera…
 operator-no-camera = No camera
 operator-inspecting = Inspecting…
 operator-no-result = No result
-operator-no-result-next = Press Capture; if it stays so, ask the engineer
+operator-no-result-next = Press Capture; if it persists, ask the engineer
 operator-no-library = No library
 operator-no-parts = No parts enrolled
 operator-no-parts-why = No part is enrolled in the library
@@ -44,26 +44,26 @@ operator-unconfirmed = Only its outline was compared
 operator-out-of-range = It is too near to the camera or too far away
 operator-damaged-file = The captured file is damaged
 operator-no-pose = It may be { $nearest }, but no pose was found
-operator-not-steady = It does not hang still yet
+operator-not-steady = It is not hanging still yet
 operator-few-frames = Too few frames were inspected so far
 operator-undecided = The frames do not agree
 
 ## What an operator can do about it
 
-operator-uncover-next = Take away what covers the part and press Capture; if it stays so, ask the engineer
+operator-uncover-next = Take away what covers the part and press Capture; if it persists, ask the engineer
 operator-all-in-picture-next = Turn its face to the camera, all of it inside the picture, and press Capture
 operator-enrol-if-painted-next = If it is to be painted, ask the engineer to enrol it
-operator-turn-next = Turn its face to the camera and press Capture; if it stays so, ask the engineer
+operator-turn-next = Turn its face to the camera and press Capture; if it persists, ask the engineer
 operator-turn-or-enrol-next = Turn its face to the camera and press Capture; if it is to be painted, ask the engineer to enrol it
 operator-mirrored-next = Do not paint it as { $nearest }: ask the engineer to enrol the part of this side
 operator-mirrored-image-next = Do not start the robot: ask the engineer to set the camera right
-operator-small-margin-next = Turn its face to the camera and press Capture; if it stays so, ask the engineer to remove one of the two from the library
+operator-small-margin-next = Turn its face to the camera and press Capture; if it persists, ask the engineer to remove one of the two from the library
 operator-unconfirmed-next = Ask the engineer to have the pose estimated too
 operator-check-camera-next = Ask the engineer to check the camera and its files
 operator-hang-next = Hang the part in front of the camera, at least 10 cm away from the wall, and press Capture
-operator-hang-or-empty-cell-next = Hang the part in front of the camera, at least 10 cm away from the wall, and press Capture; if it hangs there, ask the engineer to capture the empty cell anew
-operator-uncover-camera-next = Take away what covers the camera and press Capture; if it stays so, ask the engineer
-operator-turn-part-next = Turn the part's face to the camera and press Capture; if it stays so, ask the engineer
+operator-hang-or-empty-cell-next = Hang the part in front of the camera, at least 10 cm away from the wall, and press Capture; if it hangs there, ask the engineer to capture the empty cell again
+operator-uncover-camera-next = Take away what covers the camera and press Capture; if it persists, ask the engineer
+operator-turn-part-next = Turn the part's face to the camera and press Capture; if it persists, ask the engineer
 operator-ask = Ask the engineer
 
 ## The bars above and below
@@ -77,8 +77,8 @@ operator-num-parts = { $num ->
     }
 operator-num-ok = { $num } OK
 operator-num-not-ok = { $num } NOK
-operator-stop-live-says = Stop inspecting every part by itself (L)
-operator-live-says = Inspect every part by itself as it comes to hang still (L)
+operator-stop-live-says = Stop inspecting every part automatically (L)
+operator-live-says = Inspect every part automatically once it hangs still (L)
 operator-wrong-part = Wrong part?
 operator-wrong-part-says = Open the history, to say which part it is
 operator-source = Source: { $source }

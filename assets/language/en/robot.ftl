@@ -13,7 +13,7 @@ robot-saving = Saving the calibration
 robot-calculating = Calculating where the camera sits
 robot-no-folder = There is no folder for your own calibration
 robot-no-folder-advice = Write it with partsight calibrate --out FILE, and load that file here
-robot-saved = Saved; the former calibration is kept in { $path }
+robot-saved = Saved; the previous calibration is kept in { $path }
 
 ## In use
 
@@ -101,7 +101,7 @@ robot-reading-checks = Reading baseline and checks
 robot-taking-baseline = Taking the baseline
 robot-checking = Checking the cell
 robot-writing-checks = Writing the checks
-robot-check-of-scan = A scan is seen from several places and is no check of the cell
+robot-check-of-scan = A scan is taken from several places, so it cannot check the cell
 robot-check-of-scan-advice = Choose a camera as the source, or open a single capture
 robot-last-check = Last check
 robot-checked = checked
@@ -133,21 +133,21 @@ robot-moved-advice = Have an engineer look before parts are painted: Robot…, C
 ## Answering robots
 
 robot-answer = Answer robots
-robot-answer-says = Robots and PLCs ask over TCP for an inspection and get verdict and pose, as from partsight serve. Each trigger is answered from a frame that the window's source gives after it
+robot-answer-says = Robots and PLCs ask over TCP for an inspection and get verdict and pose, as from partsight serve. Each trigger is answered from a frame that the window's source delivers after it
 robot-protocol = Protocol
 robot-port = Port, or IP address and port
 robot-pose-told = Pose
 robot-pose-of-part = Where the part is
 robot-pose-offset = How far it is from its standard position
 robot-poses-as = poses as
-robot-no-address = "{ $text }" is no port, and no IP address with a port
+robot-no-address = "{ $text }" is neither a port nor an IP address with a port
 robot-no-address-advice = Give a port from 1 to 65535, or the address of this computer's network card with it, such as 192.168.1.10:30100
 robot-other-convention = Choose another convention beside the pose in Inspect
 robot-open-to-network = { $at } is open to the network without encryption: whoever reaches it can trigger inspections and read poses
-robot-open-to-network-advice = Use a network of the cell's own, and let the firewall pass only the robot and the PLC to this port
+robot-open-to-network-advice = Use a separate network for the cell, and let the firewall admit only the robot and the PLC to this port
 robot-turn-on = Turn on
 robot-turn-off = Turn off
-robot-calibrate-first = Calibrate it first: no pose can be given without
+robot-calibrate-first = Calibrate it first, or no pose can be given
 robot-answers-at = Answers robots · { $at }
 robot-answers-without-frames = Answers robots, without frames
 robot-answers-without-frames-advice = Press Live: until then every trigger is answered with an error
@@ -161,7 +161,7 @@ robot-clients = connections
 robot-last-client = last connection
 robot-client-connected = { $peer } connected
 robot-client-left = { $peer } left
-robot-client-turned-away = { $peer } was turned away: as many clients are connected as are allowed
+robot-client-turned-away = { $peer } was refused: the maximum number of clients is connected
 robot-client-turned-away-advice = Close a connection that is not used
 robot-last-trigger = last trigger
 robot-no-trigger = none yet

@@ -55,7 +55,7 @@ pub enum CameraError {
         title: String,
     },
     /// The request was cancelled.
-    #[error("nobody waits for the frame any more")]
+    #[error("the frame is no longer needed")]
     Cancelled,
 }
 
@@ -63,7 +63,7 @@ impl Advice for CameraError {
     fn advice(&self) -> String {
         match self {
             Self::Capture(error) => error.advice(),
-            Self::AtItsEnd { .. } => "Capture again to begin at its first frame".into(),
+            Self::AtItsEnd { .. } => "Capture again to start at its first frame".into(),
             Self::Cancelled => "Capture again".into(),
         }
     }

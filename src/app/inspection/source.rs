@@ -265,7 +265,7 @@ pub enum SceneError {
     #[error(transparent)]
     Kept(#[from] FrameError),
     /// The file is a mesh, not a scene of a camera.
-    #[error("{}: a mesh, expected what a depth camera saw", path.display())]
+    #[error("{}: a mesh, expected a depth camera's capture", path.display())]
     MeshIsNoScene {
         /// Path of the file.
         path: PathBuf,

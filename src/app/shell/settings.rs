@@ -262,7 +262,7 @@ enum BadSettings {
     Unreadable(#[from] io::Error),
     #[error("it is larger than {MAX_BYTES} bytes")]
     TooLarge,
-    #[error("it is not what Partsight writes ({0})")]
+    #[error("it is not in Partsight's format ({0})")]
     Garbled(String),
     #[error("it was written by a newer version of Partsight ({found}, this one knows {SCHEMA})")]
     Newer { found: u32 },
@@ -340,7 +340,9 @@ pub(in crate::app) fn set_aside(path: &Path) -> io::Result<PathBuf> {
             return Ok(aside);
         }
     }
-    Err(io::Error::other("a thousand were set aside before"))
+    Err(io::Error::other(
+        "a thousand files have already been set aside",
+    ))
 }
 
 /// Writes the file atomically.

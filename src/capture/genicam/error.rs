@@ -17,7 +17,7 @@ pub enum GenicamError {
     #[error("aravis, the library for GenICam cameras, is not installed")]
     NoLibrary,
     /// The place in a setting has no aravis.
-    #[error("{}: no aravis there", path.display())]
+    #[error("{}: aravis was not found there", path.display())]
     LibraryNotAt {
         /// The file or folder as given.
         path: PathBuf,
@@ -50,7 +50,7 @@ pub enum GenicamError {
         found: Vec<String>,
     },
     /// The camera cannot be opened, or one of its nodes cannot be read.
-    #[error("the camera does not open: {said}")]
+    #[error("the camera cannot be opened: {said}")]
     NotOpened {
         /// The library's message.
         said: String,
@@ -73,7 +73,7 @@ pub enum GenicamError {
         offered: Vec<String>,
     },
     /// The camera lacks a value that is needed to convert its pixels into lengths.
-    #[error("the camera does not tell its {node}, which its depth images need")]
+    #[error("the camera does not report its {node}, which its depth images need")]
     Untold {
         /// The missing node.
         node: &'static str,
@@ -89,7 +89,7 @@ pub enum GenicamError {
         expected: &'static str,
     },
     /// The camera opens, but its stream does not start.
-    #[error("the camera does not start: {said}")]
+    #[error("the camera cannot be started: {said}")]
     NotStarted {
         /// The library's message.
         said: String,
@@ -101,7 +101,7 @@ pub enum GenicamError {
         what: String,
     },
     /// The camera was unplugged, lost its power, or was taken by another program.
-    #[error("the camera is gone{}", said.as_ref().map(|said| format!(": {said}")).unwrap_or_default())]
+    #[error("the connection to the camera was lost{}", said.as_ref().map(|said| format!(": {said}")).unwrap_or_default())]
     Lost {
         /// The library's message.
         said: Option<String>,
@@ -216,7 +216,7 @@ impl Advice for GenicamError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum GenicamWarning {
     /// The camera has no `Scan3dDistanceUnit`.
-    #[error("the camera does not tell its unit of length, millimetres are assumed")]
+    #[error("the camera does not report its unit of length; millimetres are assumed")]
     UnitAssumed,
 }
 

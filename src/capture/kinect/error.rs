@@ -20,7 +20,7 @@ pub enum KinectError {
         tried: Vec<&'static str>,
     },
     /// The place in a setting has no libfreenect.
-    #[error("{}: no libfreenect there", path.display())]
+    #[error("{}: libfreenect was not found there", path.display())]
     LibraryNotAt {
         /// The file or folder as given.
         path: PathBuf,
@@ -59,7 +59,7 @@ pub enum KinectError {
         found: Vec<String>,
     },
     /// The system does not permit this user to open the Kinect.
-    #[error("a Kinect is plugged in, and the system does not permit to open it")]
+    #[error("a Kinect is plugged in, but the system does not allow it to be opened")]
     NoPermission {
         /// The installed udev rule that should permit it, if any.
         rule: Option<&'static str>,
@@ -71,22 +71,22 @@ pub enum KinectError {
     #[error("the Kinect is in use by Partsight itself")]
     InUse,
     /// The Kinect cannot be opened for another reason.
-    #[error("the Kinect does not open{}", words(said))]
+    #[error("the Kinect cannot be opened{}", words(said))]
     NotOpened {
         /// The library's messages.
         said: Vec<String>,
     },
     /// The Kinect offers depth in no supported format.
-    #[error("the Kinect offers depth in none of the forms that are read (millimetres, 11 bits)")]
+    #[error("the Kinect offers depth in none of the supported formats (millimetres, 11 bits)")]
     NoDepthMode,
     /// The Kinect opens, but its stream does not start.
-    #[error("the Kinect does not start{}", words(said))]
+    #[error("the Kinect cannot be started{}", words(said))]
     NotStarted {
         /// The library's messages.
         said: Vec<String>,
     },
     /// The Kinect was unplugged, or lost its power.
-    #[error("the Kinect is gone{}", words(said))]
+    #[error("the connection to the Kinect was lost{}", words(said))]
     Lost {
         /// The library's messages.
         said: Vec<String>,
@@ -98,7 +98,7 @@ pub enum KinectError {
         seconds: u64,
     },
     /// The library plays recorded sessions, and none is given.
-    #[error("{library} plays recorded sessions, and FAKENECT_PATH names none")]
+    #[error("{library} plays recorded sessions, but FAKENECT_PATH names none")]
     NoSession {
         /// Name or path of the library.
         library: String,
@@ -263,13 +263,13 @@ impl Advice for KinectError {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum KinectWarning {
     /// The library does not reveal the camera's focal length.
-    #[error("the Kinect's focal length is not known, {pixels:.1} pixels are assumed")]
+    #[error("the Kinect's focal length is not known; {pixels:.1} pixels are assumed")]
     FocalLengthAssumed {
         /// The assumed focal length along columns and rows, pixels.
         pixels: f64,
     },
     /// The library delivers steps of disparity without the values to convert them into lengths.
-    #[error("the Kinect's own calibration is not known, depths are those of a usual one")]
+    #[error("the Kinect's own calibration is not known; that of a typical Kinect is assumed")]
     DepthScaleAssumed,
 }
 
@@ -294,19 +294,19 @@ mod tests {
     #[test]
     fn the_reason_is_found_in_what_the_library_says() {
         for (said, expected) in [
-            ("Could not open camera: -3", "does not permit"),
-            ("Could not open camera: -4", "is gone"),
+            ("Could not open camera: -3", "does not allow"),
+            ("Could not open camera: -4", "was lost"),
             (
                 "Failed to claim camera interface: LIBUSB_ERROR_BUSY",
                 "another program",
             ),
             (
                 "Failed to detach camera kernel driver: LIBUSB_ERROR_ACCESS",
-                "does not permit",
+                "does not allow",
             ),
             (
                 "freenect_camera_init(): Failed to fetch const shift for device",
-                "does not open: ",
+                "cannot be opened: ",
             ),
         ] {
             let error = KinectError::of_opening(failed(said));

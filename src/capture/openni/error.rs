@@ -20,7 +20,7 @@ pub enum OpenNiError {
         tried: Vec<&'static str>,
     },
     /// The place in a setting has no libOpenNI2.
-    #[error("{}: no libOpenNI2 there", path.display())]
+    #[error("{}: libOpenNI2 was not found there", path.display())]
     LibraryNotAt {
         /// The file or folder as given.
         path: PathBuf,
@@ -42,7 +42,7 @@ pub enum OpenNiError {
         symbol: &'static str,
     },
     /// The library does not start, usually because it finds no drivers.
-    #[error("libOpenNI2 does not start{}", words(said))]
+    #[error("libOpenNI2 cannot be started{}", words(said))]
     NoDrivers {
         /// The library's messages.
         said: Vec<String>,
@@ -62,31 +62,31 @@ pub enum OpenNiError {
         found: Vec<String>,
     },
     /// The camera is plugged in but cannot be opened.
-    #[error("the OpenNI camera does not open{}", words(said))]
+    #[error("the OpenNI camera cannot be opened{}", words(said))]
     NotOpened {
         /// The library's messages.
         said: Vec<String>,
     },
     /// The camera offers depth in no supported format.
-    #[error("{title} offers depth neither in millimetres nor in tenths of one")]
+    #[error("{title} offers depth neither in millimetres nor in tenths of a millimetre")]
     NoDepthMode {
         /// The camera or file.
         title: String,
     },
     /// The camera does not report its field of view.
-    #[error("{title} does not tell its field of view")]
+    #[error("{title} does not report its field of view")]
     NoFieldOfView {
         /// The camera or file.
         title: String,
     },
     /// The camera does not report whether its picture is mirrored.
-    #[error("{title} does not tell whether its picture is mirrored")]
+    #[error("{title} does not report whether its picture is mirrored")]
     MirroringUnknown {
         /// The camera or file.
         title: String,
     },
     /// The camera sends only a part of the picture.
-    #[error("{title} sends a part of its picture only")]
+    #[error("{title} sends only a part of its picture")]
     Cropped {
         /// The camera or file.
         title: String,
@@ -98,13 +98,13 @@ pub enum OpenNiError {
         title: String,
     },
     /// The camera opens, but its stream does not start.
-    #[error("the OpenNI camera does not start{}", words(said))]
+    #[error("the OpenNI camera cannot be started{}", words(said))]
     NotStarted {
         /// The library's messages.
         said: Vec<String>,
     },
     /// The camera was unplugged, or reports an error.
-    #[error("the OpenNI camera is gone{}", words(said))]
+    #[error("the connection to the OpenNI camera was lost{}", words(said))]
     Lost {
         /// The library's messages.
         said: Vec<String>,
@@ -197,7 +197,7 @@ impl Advice for OpenNiError {
                 search::VARIABLE
             ),
             Self::LibraryUnusable { .. } => {
-                format!("Install the libOpenNI2 of this system with all that it needs ({INSTALL})")
+                format!("Install the libOpenNI2 of this system with all its dependencies ({INSTALL})")
             }
             Self::MissingSymbol { .. } => format!("Install libOpenNI2 2.2 ({INSTALL})"),
             Self::NoDrivers { .. } => {
@@ -207,7 +207,8 @@ impl Advice for OpenNiError {
                 "Use the camera where it is open already, or close it there first".into()
             }
             Self::NoDevice => {
-                "Plug the camera in; if it is, put its maker's driver into OpenNI2/Drivers beside the library".into()
+                "Plug the camera in; if it is plugged in, put its maker's driver into OpenNI2/Drivers beside the \
+                 library".into()
             }
             Self::NoSuchDevice { .. } => {
                 "See partsight capture --list: the name changes when the camera is plugged in again; openni alone takes the first one".into()
@@ -219,12 +220,12 @@ impl Advice for OpenNiError {
                 "Record it again in millimetres, or update the camera's driver".into()
             }
             Self::NoFieldOfView { .. } => {
-                "Update the camera's driver: without the field of view no reading has a place".into()
+                "Update the camera's driver: without the field of view, readings cannot be placed in space".into()
             }
             Self::MirroringUnknown { .. } => {
                 "Update the camera's driver, and record again with it: a mirrored picture gives wrong poses".into()
             }
-            Self::Cropped { .. } => "Switch cropping off, and record again the whole picture".into(),
+            Self::Cropped { .. } => "Switch cropping off, and record the whole picture again".into(),
             Self::Changed { .. } => {
                 "Leave the camera's settings as they are while it runs or records, then open it again".into()
             }

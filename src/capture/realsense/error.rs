@@ -17,7 +17,7 @@ pub enum RealsenseError {
     #[error("librealsense2, the library for RealSense cameras, is not installed")]
     NoLibrary,
     /// The place in a setting has no librealsense.
-    #[error("{}: no librealsense2 there", path.display())]
+    #[error("{}: librealsense2 was not found there", path.display())]
     LibraryNotAt {
         /// The file or folder as given.
         path: PathBuf,
@@ -39,7 +39,7 @@ pub enum RealsenseError {
         symbol: &'static str,
     },
     /// The library does not start.
-    #[error("librealsense2 does not start: {said}")]
+    #[error("librealsense2 cannot be started: {said}")]
     LibraryNotStarted {
         /// The library's message.
         said: String,
@@ -56,7 +56,7 @@ pub enum RealsenseError {
         found: Vec<String>,
     },
     /// The camera is plugged in but cannot be opened.
-    #[error("the RealSense camera does not open: {said}")]
+    #[error("the RealSense camera cannot be opened: {said}")]
     NotOpened {
         /// The library's message.
         said: String,
@@ -88,7 +88,7 @@ pub enum RealsenseError {
         model: &'static str,
     },
     /// The camera reports impossible numbers.
-    #[error("{title} tells numbers that no camera has: {what}")]
+    #[error("{title} reports impossible intrinsics: {what}")]
     BadNumbers {
         /// The camera or file.
         title: String,
@@ -96,13 +96,13 @@ pub enum RealsenseError {
         what: String,
     },
     /// The camera opens, but its stream does not start.
-    #[error("the RealSense camera does not start: {said}")]
+    #[error("the RealSense camera cannot be started: {said}")]
     NotStarted {
         /// The library's message.
         said: String,
     },
     /// The camera was unplugged, or reports an error.
-    #[error("the RealSense camera is gone{}", said.as_ref().map(|said| format!(": {said}")).unwrap_or_default())]
+    #[error("the connection to the RealSense camera was lost{}", said.as_ref().map(|said| format!(": {said}")).unwrap_or_default())]
     Lost {
         /// The library's message.
         said: Option<String>,
@@ -165,7 +165,7 @@ impl RealsenseError {
             }
             Self::Lost { said } => {
                 let said = said.map(|said| format!(": {said}")).unwrap_or_default();
-                format!("librealsense cannot play it on{said}")
+                format!("librealsense cannot play the rest of it{said}")
             }
             Self::Silent { .. } => "it has no depth image that can be read".to_owned(),
             other => return other,
@@ -203,13 +203,14 @@ impl Advice for RealsenseError {
                 "Correct the source's library option or {VARIABLE}, or leave both out to use the system's librealsense2"
             ),
             Self::LibraryUnusable { .. } => {
-                format!("Install the librealsense2 of this system with all that it needs ({INSTALL})")
+                format!("Install the librealsense2 of this system with all its dependencies ({INSTALL})")
             }
             Self::MissingSymbol { .. } | Self::LibraryNotStarted { .. } => {
                 format!("Install a newer librealsense 2 ({INSTALL})")
             }
             Self::NoDevice => {
-                "Plug the camera in, with a cable for USB 3; if it is, install the udev rule that lets your user open it".into()
+                "Plug the camera in, with a cable for USB 3; if it is plugged in, install the udev rule that lets \
+                 your user open it".into()
             }
             Self::NoSuchDevice { .. } => {
                 "Plug that one in, or list the cameras and choose another: partsight capture --list".into()

@@ -223,7 +223,7 @@ impl RecordedFrame {
             Content::Listed(checksum, camera) => {
                 let bytes = read_bytes(&self.path)?;
                 if crc32(&bytes) != checksum {
-                    return Err(self.damaged("it does not have its checksum".into()));
+                    return Err(self.damaged("its checksum does not match".into()));
                 }
                 match camera {
                     Some(camera) => {

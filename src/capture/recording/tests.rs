@@ -232,7 +232,7 @@ fn recordings_that_cannot_be_are_refused_in_words() {
             error.to_string()
         }
     };
-    assert!(refused().contains("no recording"));
+    assert!(refused().contains("neither a recording"));
     fs::write(&list, "{\"partsight_recording\":9}\n").unwrap();
     assert!(refused().contains("newer version"));
     fs::write(&list, "{\"partsight_recording\":1}\n").unwrap();

@@ -137,7 +137,8 @@ fn recorded_file<'a>(device: Option<&'a str>, endings: &[&str]) -> Option<&'a Pa
 pub enum SpecError {
     /// The kind of source is unknown.
     #[error(
-        "{text:?} is no source, expected one that begins with simulated, recording, watch, kinect, genicam, openni or realsense"
+        "{text:?} is not a source; expected one that begins with simulated, recording, watch, kinect, genicam, openni \
+         or realsense"
     )]
     UnknownKind {
         /// The whole text.
@@ -179,7 +180,7 @@ impl Advice for SpecError {
             ),
             Self::UnknownKind { .. } => "List the sources: partsight capture --list".into(),
             Self::NoFolder { text } => format!(
-                "Put the folder behind a colon, for example {}:captures",
+                "Put the folder after a colon, for example {}:captures",
                 text.trim_end_matches(':')
             ),
             Self::UnknownOption { .. } | Self::BadValue { .. } => {
@@ -527,8 +528,8 @@ mod tests {
     #[test]
     fn nonsense_is_refused_in_words() {
         for (text, words) in [
-            ("camera", "is no source"),
-            ("", "is no source"),
+            ("camera", "is not a source"),
+            ("", "is not a source"),
             ("watch", "names no folder"),
             ("recording:", "names no folder"),
             ("recording,pace=0:x", "frames a second"),

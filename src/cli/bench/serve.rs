@@ -146,7 +146,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     let inspections = Arc::new(Inspections::new()?);
     let service = Service::start(&inspections)?;
     console.line(&format_args!(
-        "The server on this computer, over one connection and over {NUM_CONNECTIONS}, at what else it is doing now."
+        "The server on this computer, over one connection and over {NUM_CONNECTIONS}, under its present load."
     ));
     // Before the first inspection, so that all answers have the same length.
     let status = service.protocols.iter().map(status_times);
@@ -213,7 +213,7 @@ fn check_triggers(service: &Service, num_triggers: usize) -> anyhow::Result<()> 
     }
     Err(advised_error(
         format!("{num_triggers} triggers led to {num_inspected} inspections"),
-        "Report this as a mistake of the program",
+        "Report this as a bug",
     ))
 }
 
@@ -397,7 +397,7 @@ impl ServedProtocol {
 
     fn connect(&self) -> anyhow::Result<Client> {
         Client::connect(self.address, self.framing)
-            .with_context(|| format!("{} cannot be connected to", self.name))
+            .with_context(|| format!("cannot connect to {}", self.name))
     }
 
     fn busy_rate(&self, request: &[u8], num_each: usize) -> anyhow::Result<f64> {

@@ -59,7 +59,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         (vec![("files", timings)], words)
     };
     console.line(&format_args!(
-        "{words}; one core, at what else it is doing now."
+        "{words}; one core, under the machine's present load."
     ));
     console.line(&"");
     let timings: Vec<Timings> = sets.iter().flat_map(|set| &set.1).copied().collect();
@@ -91,7 +91,7 @@ fn read_earlier(path: &Path) -> anyhow::Result<EarlierSpeed> {
         .map_err(|error| {
             advised_error(
                 format!("{error:#}"),
-                "Give a file that partsight bench speed --json FILE has written",
+                "Give a file that partsight bench speed --json FILE wrote",
             )
         })
 }

@@ -37,7 +37,7 @@ Examples:
 
 PAIRS has a line for each pair: the robot's pose (robot_from_flange, as the controller shows the flange without a tool),
 then the camera's (camera_from_target: where the camera sees a target). With eye in hand the target stands in the cell,
-with eye to hand it is on the flange. A name may stand before the numbers, and lines at the top name the conventions:
+with eye to hand it is on the flange. A name may precede the numbers, and lines at the top name the conventions:
 
   # robot: kuka                 X Y Z mm, A B C degrees
   # camera: rotation-vector     x y z m, rx ry rz; without this line a matrix of 16 numbers
@@ -47,7 +47,7 @@ With --captures the target is any enrolled part, fixed where a target would be: 
 each after the name of its capture in DIR (without names, in the order of the files).
 
 Take 8 to 15 pairs, the target in all parts of the picture, the flange turned about two different axes by 30 degrees and
-more. Exit codes: 0 written, 1 the poses leave the camera's place open or do not agree (nothing is written without
+more. Exit codes: 0 written, 1 the poses do not determine the camera's place or do not agree (nothing is written without
 --even-if-doubtful), 2 something could not be read.")]
 pub(super) struct HandEyeArgs {
     /// Pairs of poses: CSV or JSON
@@ -60,10 +60,10 @@ pub(super) struct HandEyeArgs {
     kept: CalibrationOutput,
     #[command(flatten)]
     targets: TargetChoice,
-    /// Convention of the robot's poses, where the file does not say it
+    /// Convention of the robot's poses, if the file does not name it
     #[arg(long, value_name = "CONVENTION", value_parser = parse_convention)]
     robot_convention: Option<Convention>,
-    /// Convention of the camera's poses, where the file does not say it
+    /// Convention of the camera's poses, if the file does not name it
     #[arg(long, value_name = "CONVENTION", value_parser = parse_convention, conflicts_with = "captures")]
     camera_convention: Option<Convention>,
     /// Leave these pairs out: their names, or the numbers of their lines
@@ -121,7 +121,8 @@ pub(super) fn run(args: &HandEyeArgs, console: &mut Console) -> anyhow::Result<O
             keep(camera, Origin::HandEye(fit), &args.kept, console)?;
         }
     } else if !solved.is_usable() {
-        console.note(&"Nothing was written: the result must not be used. Take the pairs as said above, or insist with --even-if-doubtful.");
+        console.note(&"Nothing was written: the result must not be used. Take the pairs as advised above, or insist \
+            with --even-if-doubtful.");
     }
     Ok(if solved.is_usable() {
         Outcome::Accepted
@@ -145,7 +146,7 @@ fn leave_out(pairs: &mut Vec<PosePair>, without: &[String]) -> anyhow::Result<Ve
         let Some(at) = pairs.iter().position(is_meant) else {
             let names: Vec<&str> = pairs.iter().map(|pair| pair.name.as_str()).collect();
             return Err(advised_error(
-                format!("no pair is called {name}"),
+                format!("no pair is named {name}"),
                 format!("Name one of {}", names.join(", ")),
             ));
         };
@@ -174,7 +175,8 @@ fn show(solved: &HandEye, console: &mut Console) {
     table.show(console);
     let span = &solved.span;
     let text = format!(
-        "the flange turned by {:.0}° at most, about other axes than its main one by {:.0}° (rms); the target moved by {:.0} mm before the camera",
+        "the flange turned by {:.0}° at most, about other axes than its main one by {:.0}° (rms); the target moved by \
+         {:.0} mm in front of the camera",
         span.largest_turn.degrees(),
         span.other_turn.degrees(),
         span.travel.mm()
@@ -182,7 +184,8 @@ fn show(solved: &HandEye, console: &mut Console) {
     console.entry("span", &text);
     if solved.bounds.shift.0.is_finite() {
         let text = format!(
-            "off by less than {:.2} mm where the targets stood and {:.3}° in 95 of 100 cases, if the pairs err independently",
+            "off by less than {:.2} mm where the targets stood and {:.3}° in 95 of 100 cases, if the errors of the \
+             pairs are independent",
             solved.bounds.shift.mm(),
             solved.bounds.turn.degrees()
         );

@@ -24,7 +24,7 @@ Examples:
   partsight calibrate show --calibration cell.toml --as kuka
   partsight calibrate show --json")]
 pub(super) struct ShowArgs {
-    /// The calibration; without it, your own
+    /// The calibration; default: your own
     #[arg(long, value_name = "FILE")]
     calibration: Option<PathBuf>,
     /// Also in this convention

@@ -22,11 +22,12 @@ use crate::{
 /// What is said of the arm.
 #[derive(Debug, Args)]
 pub(super) struct ArmChoice {
-    /// With a camera on the flange: where the arm stands for all frames, as `kuka X Y Z A B C`, or 16 numbers of a matrix
+    /// With a camera on the flange: the flange pose for all frames, as `kuka X Y Z A B C`, or the 16 numbers of a
+    /// matrix
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true, conflicts_with = "robot_poses")]
     robot_pose: Option<WrittenPose>,
-    /// With a camera on the flange: a file with the arm's pose for each frame, a line each, the convention in a line
-    /// `# robot: kuka`; or - to read them from standard input, where each line takes one frame: for partsight scan
+    /// With a camera on the flange: file with the flange pose of each frame, one per line, and the convention in a line
+    /// `# robot: kuka`; or - for standard input, where each line takes one frame. partsight scan needs these poses
     #[arg(long, value_name = "FILE")]
     robot_poses: Option<PathBuf>,
 }

@@ -16,10 +16,10 @@ use crate::{
 /// Which database is read instead of the history here.
 #[derive(Debug, Args)]
 pub(super) struct FromChoice {
-    /// Of all cells that send their histories to this PostgreSQL database, instead of the history here
+    /// Inspections of all cells that send their histories to this PostgreSQL database, instead of the history here
     #[arg(long, value_name = "postgres://USER@HOST[:PORT]/DATABASE")]
     from: Option<String>,
-    /// With --from: of this cell alone
+    /// With --from: only inspections of this cell
     #[arg(long, value_name = "NAME", requires = "from", value_parser = parse_cell)]
     cell: Option<CellName>,
     #[command(flatten)]
@@ -48,7 +48,7 @@ pub(super) struct SendArgs {
     cell: CellName,
     #[command(flatten)]
     files: DatabaseFiles,
-    /// Take the cell's name over from another history, whose computer or disk is gone; what that one sent stays
+    /// Take over the cell's name from another history whose computer or disk is gone; what that history sent stays
     #[arg(long)]
     take_over: bool,
 }
@@ -117,7 +117,7 @@ fn list(database: &Database, asked: &ListArgs, console: &mut Console) -> anyhow:
     note_counts(&rows, [num_matching, page.num_all], asked, console);
     for count in &page.cells {
         console.note(&format_args!(
-            "  {}: {}, {} of them accepted; it sent last at {}",
+            "  {}: {}, {} of them accepted; last sent at {}",
             count.cell,
             count.num_matching,
             count.num_accepted,

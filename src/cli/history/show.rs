@@ -239,7 +239,7 @@ fn card(history: &History, record: &Record, console: &mut Console) {
     row("inspection", summary.number.to_string());
     row(
         "time",
-        format!("{} here, {} UTC", here(summary.at), summary.at),
+        format!("{} local time, {} UTC", here(summary.at), summary.at),
     );
     row(
         "scene",

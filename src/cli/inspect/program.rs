@@ -22,12 +22,12 @@ use crate::{
 /// Whether and how a program is written.
 #[derive(Debug, Args)]
 pub(super) struct ProgramChoice {
-    /// Write the part's stored spray path as a program for the robot's controller, called as the file: .src, .ls, .mod,
-    /// .script, .jbi or .drl. Needs a calibration and one file. Nothing is written of a part that is not accepted, of a
-    /// capture older than 10 minutes, or if --arm does not reach every point
+    /// Write the part's stored spray path as a program for the robot's controller, named like the file: .src, .ls,
+    /// .mod, .script, .jbi or .drl. Needs a calibration and one file. Nothing is written if the part is not accepted, if
+    /// the capture is older than 10 minutes, or if --arm does not reach every point
     #[arg(long, value_name = "FILE", conflicts_with = "spray")]
     program: Option<PathBuf>,
-    /// Its language, where the file's ending does not say it: krl, ls, rapid, urscript, jbi or drl
+    /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
     #[arg(long, value_name = "FORMAT", value_parser = parse_format, requires = "program")]
     robot_program_format: Option<ProgramFormat>,
     #[command(flatten)]
@@ -84,7 +84,7 @@ impl CapturedProgram {
         let first = inspection.ranking.entries.first();
         let part = inspection.segmentation.part.as_ref().ok();
         let (Some((pose, first)), Some(part)) = (pose.zip(first), part) else {
-            console.note(&"no program was written, since no part was found with a pose");
+            console.note(&"no program was written: no part was found with a pose");
             return Ok(Outcome::NotAccepted);
         };
         let (name, is_simulated) = &self.parts[first.reference];
@@ -95,7 +95,7 @@ impl CapturedProgram {
                 return Ok(Outcome::NotAccepted);
             }
             return Err(advised_error(
-                format!("{name} has no spray path, so there is nothing to write a program of"),
+                format!("{name} has no spray path, so there is nothing to write a program from"),
                 format!("Store one: partsight library path {name} path.csv"),
             ));
         };

@@ -26,14 +26,14 @@ pub(super) fn check(args: &InspectArgs) -> anyhow::Result<()> {
     let is_wanted = args.mqtt.is_wanted();
     if is_wanted && args.source.is_none() {
         return Err(advised_error(
-            "--mqtt goes with --source",
+            "--mqtt needs --source",
             "Follow a camera, a recording or a folder, such as --source watch:DIR",
         ));
     }
     if !is_wanted && args.numbers.is_given() {
         return Err(advised_error(
-            "--as, --transform and --number go with --mqtt",
-            "Leave them out, or name a broker with --mqtt",
+            "--as, --transform and --number need --mqtt",
+            "Leave them out, or give a broker with --mqtt",
         ));
     }
     Ok(())
@@ -59,7 +59,7 @@ impl ChosenPublisher {
         };
         let Some(robot) = robot else {
             return Err(advised_error(
-                "--mqtt publishes poses in the robot's base frame, and no calibration says where the camera sits",
+                "--mqtt publishes poses in the robot's base frame, but no calibration says where the camera sits",
                 "Make one with partsight calibrate, or name one with --calibration",
             ));
         };

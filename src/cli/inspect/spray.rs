@@ -23,11 +23,11 @@ use crate::{
 /// Whether and how the spray path is written.
 #[derive(Debug, Args)]
 pub(super) struct SprayChoice {
-    /// Write the part's stored spray path, carried to where it hangs now, in the robot's base frame: .csv or .json. Needs
-    /// a calibration and one file; of a part that is not accepted nothing is written
+    /// Write the part's stored spray path, moved to where the part hangs now, in the robot's base frame: .csv or .json.
+    /// Needs a calibration and one file; nothing is written if the part is not accepted
     #[arg(long, value_name = "FILE")]
     spray: Option<PathBuf>,
-    /// The convention of its poses
+    /// Convention of the poses in that file
     #[arg(long, value_name = "CONVENTION", default_value = "matrix", value_parser = parse_convention, requires = "spray")]
     spray_as: Convention,
 }
@@ -81,7 +81,7 @@ pub(super) fn check_placed_part(
 ) -> anyhow::Result<()> {
     if files.len() != 1 {
         return Err(advised_error(
-            format!("{option} writes the path over one part"),
+            format!("{option} writes the path of a single part"),
             "Give one capture",
         ));
     }
@@ -121,7 +121,7 @@ impl SprayFile {
         let found = pose.zip(first).filter(|_| inspection.verdict.is_accepted());
         let part = inspection.segmentation.part.as_ref().ok();
         let (Some((pose, first)), Some(part)) = (found, part) else {
-            console.note(&"no spray path was written, since the part was not accepted with a pose");
+            console.note(&"no spray path was written: the part was not accepted with a pose");
             return Ok(Outcome::NotAccepted);
         };
         let reference = &library.references[first.reference];
@@ -139,7 +139,7 @@ impl SprayFile {
         let is_stored = stored.is_some();
         let Some(path) = stored.or_else(|| default_path(reference, params)) else {
             return Err(advised_error(
-                format!("{name} has no spray path, and no surface to begin on"),
+                format!("{name} has neither a spray path nor a surface to start on"),
                 format!("Store one: partsight library path {name} path.csv"),
             ));
         };
@@ -165,7 +165,8 @@ impl SprayFile {
         ));
         if !is_stored {
             console.note(&format_args!(
-                "note: {name} has no spray path: the one point is the start before its middle. To store one: partsight library path {name} path.csv"
+                "note: {name} has no spray path: the only point is a start in front of its middle. To store one: \
+                 partsight library path {name} path.csv"
             ));
         }
         Ok(Outcome::Accepted)

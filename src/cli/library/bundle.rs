@@ -15,16 +15,16 @@ use crate::{
     },
 };
 
-/// Make the keys by which versions of a library are signed and known
+/// Make the keys that sign and verify versions of a library
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   partsight library keys keys
 
-Writes library.key, the private key, which stays with whoever publishes and which only its owner can read, and library.pub,
-the public key, which every cell gets. Keys that are there are never replaced.")]
+Writes library.key, the private key, which stays with the publisher and which only its owner can read, and library.pub,
+the public key, which every cell gets. Existing keys are never replaced.")]
 pub(super) struct KeysArgs {
-    /// The folder for both; made if it is not there
+    /// The folder for both; created if missing
     #[arg(value_name = "DIR")]
     folder: PathBuf,
 }
@@ -36,9 +36,9 @@ Examples:
   partsight library publish --to /mnt/plant/library --key keys/library.key --note \"New doors\"
   partsight library publish --to s3://parts/hall-3 --key keys/library.key --library parts
 
-A store is a folder that is there, or s3://BUCKET/PREFIX. S3 takes endpoint, region and credentials from AWS_ENDPOINT,
+A store is an existing folder, or s3://BUCKET/PREFIX. S3 takes endpoint, region and credentials from AWS_ENDPOINT,
 AWS_REGION, AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY; over plain HTTP only with AWS_ALLOW_HTTP=true.
-Only what can be taken is published: every part is loaded first.")]
+Every part is loaded first, so that only a library that can be taken is published.")]
 pub(super) struct PublishArgs {
     /// The store
     #[arg(long, value_name = "STORE")]
@@ -51,7 +51,7 @@ pub(super) struct PublishArgs {
     note: String,
 }
 
-/// Take a published version in place of all parts of the library: whole or not at all
+/// Replace all parts of the library by a published version: whole or not at all
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -60,8 +60,8 @@ Examples:
   partsight library take --from s3://parts/hall-3 --trust library.pub --version 6
 
 Signature, digest and every part are checked before anything is changed. Parts that the version replaces are moved to the
-library's .trash. Without the store, the library that is there is used as before. A running program reads its library when
-it starts; the window notices by itself.")]
+library's .trash. Inspections do not need the store: they use the installed library. A running program keeps the library
+that it read at its start; only the window notices the change by itself.")]
 pub(super) struct TakeArgs {
     /// The store, as for publish (partsight library publish --help)
     #[arg(long, value_name = "STORE")]
@@ -69,10 +69,10 @@ pub(super) struct TakeArgs {
     /// The public key of whoever publishes
     #[arg(long, value_name = "FILE")]
     trust: PathBuf,
-    /// This version, also an older one; without it the newest, if it is newer than the installed one
+    /// Take this version, even an older one; default: the newest, if it is newer than the installed one
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     version: Option<u32>,
-    /// Move parts that were enrolled or changed here to the library's .trash, too
+    /// Also move parts that were enrolled or changed here to the library's .trash
     #[arg(long)]
     replace: bool,
 }
@@ -83,7 +83,7 @@ pub(super) fn make(args: &KeysArgs, console: &mut Console) -> anyhow::Result<Out
     console.line(&format_args!("Made the key {key}"));
     let private = private.display();
     console.line(&format_args!(
-        "  {private}  to publish with: keep it secret, and a copy of it safe"
+        "  {private}  to publish with: keep it secret, and keep a copy in a safe place"
     ));
     console.line(&format_args!("  {}  for every cell", public.display()));
     Ok(Outcome::Accepted)

@@ -24,16 +24,16 @@ Examples:
   partsight library path front_door
   partsight library path front_door --remove
 
-The path is a table in the part's own frame: that of its reference cloud, which is the camera's at the moment of
-enrolling (x right, y down, z forward). Its heading names columns and units, in one of two ways:
+The path is a table in the part's own frame: that of its reference cloud, which was the camera's when the part was
+enrolled (x right, y down, z forward). Its heading names columns and units, in one of two ways:
 
   nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z
   12.0,-40.5,1141.0,0,0,1                      the nozzle, and the way it points: towards the part
 
   x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm
-  12.0,-40.5,1291.0,0,0,-1,150                 a place of the surface, its normal towards the nozzle, the distance
+  12.0,-40.5,1291.0,0,0,-1,150                 a point of the surface, its normal towards the nozzle, the distance
 
-Exit code 1 if less than half of the points are before the part: the path is then stored nonetheless.")]
+Exit code 1 if fewer than half of the points have the part in front of them: the path is stored nevertheless.")]
 pub(super) struct PathArgs {
     /// Name of the part
     name: PartName,

@@ -25,7 +25,7 @@ use crate::{
     stages::{reference::ReferenceParams, stand_off::StandOffParams},
 };
 
-/// Check that an arm reaches the stored path of a part in its standard position, and runs into nothing
+/// Check that an arm reaches the stored path of a part in its standard position without collisions
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
     /// Name of the part
@@ -33,10 +33,10 @@ pub(super) struct CheckArgs {
     /// The arm: kr6-r900, m-20ia, irb2600, irb4600, gp25, or a TOML file
     #[arg(long, value_name = "ARM")]
     arm: String,
-    /// Where the nozzle is on the flange, z the way it points: `kuka X Y Z A B C`, or 16 numbers of a matrix
+    /// Pose of the nozzle on the flange, with z the way it points: `kuka X Y Z A B C`, or the 16 numbers of a matrix
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     nozzle: WrittenPose,
-    /// The arm's base in the frame of the calibration; without it they are the same
+    /// Pose of the arm's base in the calibration's frame; default: the two frames are the same
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     base: Option<WrittenPose>,
     #[command(flatten)]
@@ -178,13 +178,13 @@ fn show(
         let [x, y, z] = place.shift.map(|x| 1000.0 * x);
         let num = place.num_reached;
         console.line(&format_args!(
-            "  moved by {x:.0} {y:.0} {z:.0} mm its base would let it reach {num}"
+            "  with its base moved by {x:.0} {y:.0} {z:.0} mm it would reach {num}"
         ));
     }
     if let Some(place) = rail {
         let (at, num) = (1000.0 * place.shift[0], place.num_reached);
         console.line(&format_args!(
-            "  at {at:.0} mm of its rail it would reach {num}"
+            "  at {at:.0} mm on its rail it would reach {num}"
         ));
     }
 }

@@ -26,10 +26,10 @@ use crate::{
 pub(super) struct ExportArgs {
     /// Name of the part
     part: PartName,
-    /// Its language, where the file's ending does not say it: krl, ls, rapid, urscript, jbi or drl
+    /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
     #[arg(long = "as", value_name = "FORMAT", value_parser = parse_format)]
     format: Option<ProgramFormat>,
-    /// The program, called as the file. An earlier program of that name is removed first
+    /// File of the program, which is named like it. An earlier program of that name is removed first
     #[arg(id = "program", long = "output", short = 'o', value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
@@ -56,7 +56,7 @@ pub(super) fn run(
     let place = choice.open(console)?;
     let Some(path) = place.spray_path(name.as_str()).advised()? else {
         return Err(advised_error(
-            format!("{name} has no spray path, so there is nothing to write a program of"),
+            format!("{name} has no spray path, so there is nothing to write a program from"),
             format!("Plan one: partsight path plan {name} --coat primer --store"),
         ));
     };

@@ -22,13 +22,13 @@ pub(super) struct FitArgs {
     stripe: PathBuf,
     #[command(flatten)]
     coat: CoatChoice,
-    /// Speed at which the stripe was sprayed, mm/s; the coat's without it
+    /// Speed at which the stripe was sprayed, mm/s; default: the coat's
     #[arg(long, value_name = "MM/S")]
     speed: Option<f64>,
-    /// Distance from the mouth to the plate, mm; the coat's stand-off without it
+    /// Distance from the nozzle's mouth to the plate, mm; default: the coat's stand-off
     #[arg(long, value_name = "MM")]
     distance: Option<f64>,
-    /// Write the coat with this gun, called as the file
+    /// Write the coat with this gun, named like the file
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Replace a file of that name
@@ -55,17 +55,17 @@ pub(super) fn run(args: &FitArgs, console: &mut Console) -> anyhow::Result<Outco
         100.0 * gun.transfer
     ));
     console.line(&format_args!(
-        "  {:.2} µm rms are left, {:.2} µm by the other profile; middle of the stripe at {:.1} mm",
+        "  residual {:.2} µm rms, {:.2} µm with the other profile; middle of the stripe at {:.1} mm",
         1e6 * found.residual,
         1e6 * found.other_residual,
         1000.0 * found.middle
     ));
-    console.line(&"  The pattern's depth does not show in a stripe and stays as the coat has it");
+    console.line(&"  A stripe does not show the pattern's depth, which stays as in the coat");
     if let Some(file) = &args.output {
         if file.exists() && !args.force {
             return Err(advised_error(
-                format!("{} is there already", file.display()),
-                "Name another file, or replace it with --force",
+                format!("{} exists already", file.display()),
+                "Give another file, or replace it with --force",
             ));
         }
         let stem = file.file_stem().unwrap_or_default().to_string_lossy();

@@ -50,7 +50,7 @@ pub(super) struct SimulateArgs {
     part: PartName,
     #[command(flatten)]
     coat: CoatChoice,
-    /// A file of a path; without it the path that is stored with the part
+    /// File of the path; default: the path stored with the part
     #[arg(long, value_name = "FILE")]
     path: Option<PathBuf>,
     /// Write one line of JSON
@@ -64,7 +64,7 @@ pub(super) struct CoatChoice {
     /// The coat: `primer`, `base_coat`, `clear_coat`, one of your own, or a file
     #[arg(long, value_name = "NAME|FILE")]
     coat: String,
-    /// Give a parameter of the coat another value, in its own unit, such as spacing=60; may be given several times.
+    /// Set a parameter of the coat, in its own unit, such as spacing=60; may be given several times.
     /// docs/guide/paint.md lists names, units and ranges
     #[arg(long, value_name = "NAME=VALUE", value_parser = parse_setting::<Coat>)]
     set: Vec<Setting<Coat>>,

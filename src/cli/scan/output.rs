@@ -128,7 +128,8 @@ pub(super) fn show(scan: &Scan, part: &FusedCloud, console: &mut Console) {
     ] {
         if let Some((before, after)) = before.zip(after) {
             console.line(&format_args!(
-                "Where frames see {what} together they agree to {:.2} mm rms, median {:.2} mm (at the robot's poses {:.2} mm, {:.2} mm)",
+                "Where several frames see {what}, they agree to {:.2} mm rms, median {:.2} mm (at the robot's poses \
+                 {:.2} mm, {:.2} mm)",
                 after.rms.mm(),
                 after.median.mm(),
                 before.rms.mm(),

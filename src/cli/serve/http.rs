@@ -13,17 +13,17 @@ use crate::{
 
 #[derive(Debug, Args)]
 pub(super) struct HttpArgs {
-    /// Answer HTTP with JSON there, too: a port, or IP address and port; poses as --as
+    /// Also answer HTTP requests, with JSON: a port, or IP address and port; poses in the convention of --as
     #[arg(long, value_name = "[IP:]PORT", value_parser = parse_http)]
     http: Option<SocketAddr>,
-    /// File with the tokens of which HTTP clients have to send one, a line each; needed with an IP address that other
-    /// computers reach
+    /// File with tokens, one per line, one of which an HTTP client must send; needed with an IP address that other
+    /// computers can reach
     #[arg(long, value_name = "FILE", requires = "http")]
     http_token_file: Option<PathBuf>,
-    /// File with the certificate of HTTPS and its chain, PEM
+    /// PEM file with the HTTPS certificate and its chain
     #[arg(long, value_name = "FILE", requires_all = ["http", "http_key"])]
     http_cert: Option<PathBuf>,
-    /// File with the certificate's private key, PEM
+    /// PEM file with the certificate's private key
     #[arg(long, value_name = "FILE", requires = "http_cert")]
     http_key: Option<PathBuf>,
 }

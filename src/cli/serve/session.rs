@@ -212,7 +212,7 @@ impl ServeSession<'_> {
             FeedState::Running => {
                 self.has_run = true;
                 if self.trouble.take().is_some() {
-                    self.console.note(&"The camera is there again");
+                    self.console.note(&"The camera is back");
                 }
                 return;
             }
@@ -260,7 +260,7 @@ fn show_event(event: &ClientEvent, console: &Console) {
         ClientNews::Left => console.note(&format_args!("{peer} left")),
         ClientNews::TurnedAway => {
             console.note(&format_args!(
-                "warning: {peer} was turned away: as many clients are connected as are allowed"
+                "warning: {peer} was refused: the maximum number of clients is connected"
             ));
             console.note(&"  to do: Close a connection that is not used, or raise --max-clients");
         }
@@ -275,7 +275,8 @@ fn show_event(event: &ClientEvent, console: &Console) {
                 "warning: {peer} sent no token or a wrong one: {protocol}"
             ));
             console.note(
-                &"  to do: Give the client a token of --http-token-file; if you do not know it, find out who it is",
+                &"  to do: Give the client a token of --http-token-file; if you do not know the client, find out who \
+                    it is",
             );
         }
     }

@@ -31,7 +31,7 @@ pub(super) fn run(
         let placement = args.placement[(place / subjects.len()) % args.placement.len()];
         let seed = args.seed.checked_add(place as u64).ok_or_else(|| {
             advised_error(
-                "the seeds run out",
+                "the seeds go beyond the largest number",
                 "Begin with a smaller one, such as --seed 1",
             )
         })?;

@@ -30,7 +30,10 @@ pub(super) fn run(
     let subjects = args.subjects()?;
     let [subject] = subjects.as_slice() else {
         return Err(advised_error(
-            format!("{} parts, and a scan is of one", subjects.len()),
+            format!(
+                "{} parts are named, but a scan shows only one",
+                subjects.len()
+            ),
             "Name one, such as --part fender",
         ));
     };

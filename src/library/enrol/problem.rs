@@ -45,7 +45,8 @@ pub enum EnrolWarning {
     },
     /// The surface of a scan continues beyond the view of every frame.
     #[error(
-        "{percent} % of the scanned surface's outline is where the view of every frame ends: the part may go on there"
+        "{percent} % of the scanned surface's outline is where the view of every frame ends: the part may continue \
+         there"
     )]
     GoesOnUnseen {
         /// Share of the outline, rounded.
@@ -132,15 +133,17 @@ impl Advice for EnrolError {
             Self::NoPart(error) => error.advice(),
             Self::Reference(error) => error.advice(),
             Self::Background(_) => {
-                "Say which surface is the part with --segment N, or choose it in the window's Enrol workspace".into()
+                "Select the surface that is the part with --segment N, or choose it in the window's Enrol \
+                 workspace".into()
             }
             Self::NoSuchSurface { .. } => "Choose one of those found".into(),
             Self::TooFewPoints { .. } => {
-                "Capture the part from nearer, or export the cloud with more points".into()
+                "Capture the part from closer, or export the cloud with more points".into()
             }
             Self::TooFewKept { .. } => "Take back what was dropped: Undo, Reset, or Add".into(),
             Self::NoPartInScan { .. } => {
-                "Look at what was put together, partsight scan DIR --out scan.ply, and capture the part at least 10 cm before the background".into()
+                "Look at the fused cloud (partsight scan DIR --out scan.ply), and capture the part at least 10 cm in \
+                 front of the background".into()
             }
             Self::NoArea { .. } => "Export the mesh again with its faces".into(),
         }

@@ -79,7 +79,7 @@ pub enum PathLineProblem {
         cell: String,
     },
     /// The line has fewer cells than the heading names.
-    #[error("fewer numbers than the heading names columns")]
+    #[error("fewer numbers than the heading has columns")]
     TooShort,
     /// The position is out of reach of any arm.
     #[error("{:.0} m from the part's origin", distance.0)]

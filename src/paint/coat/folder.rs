@@ -67,7 +67,7 @@ impl Advice for CoatError {
     fn advice(&self) -> String {
         match self {
             Self::File(RecipeError::BadParameter { .. }) => {
-                "Correct the file, nothing of it was used; docs/guide/paint.md lists names, units and ranges".into()
+                "Correct the file (none of it was used); docs/guide/paint.md lists names, units and ranges".into()
             }
             Self::File(error) => error.advice(),
             Self::NotFound { name, available } => {

@@ -1,8 +1,8 @@
-//! Depth averaged over the last frames, pixel by pixel: less noise, and still no point between two surfaces.
+//! Depth averaged over the last frames, pixel by pixel: it reduces noise and creates no points between two surfaces.
 //!
-//! The readings of a pixel are taken as 1/z, in which a structured-light sensor's noise is the same at all depths. The
-//! median of the valid ones names the surface; the mean is over those that lie on it. Where fewer than half of the
-//! readings do, the pixel flickers between surfaces, and has no reading at all rather than one in mid-air.
+//! The readings of a pixel are averaged as 1/z, in which a structured-light sensor's noise is the same at all depths.
+//! The median of the valid ones selects the surface; the mean is over those that lie on it. If no more than half do,
+//! the pixel flickers between surfaces and gets no reading rather than one in mid-air.
 
 use std::{collections::VecDeque, sync::Arc};
 
@@ -14,16 +14,16 @@ use crate::{
     stages::{scene::SceneCloud, segment::noise_of_picture},
 };
 
-/// Frames that are averaged at most.
+/// Maximum number of frames averaged.
 pub const MAX_AVERAGED: usize = 16;
-/// Standard deviations of the noise within which readings are of one surface.
+/// Standard deviations of the noise within which readings belong to one surface.
 const SAME_SURFACE: f32 = 5.0;
-/// Noise that is assumed where the picture is too empty to tell it, metres at 1 m.
+/// Noise assumed if the picture is too empty to measure it, metres at 1 m.
 const USUAL_NOISE: f32 = 0.0015;
-/// A reading that only so small a share of the frames have is a flying pixel's.
+/// A pixel with readings in a smaller share of the frames is a flying pixel.
 const LEAST_SHARE: f32 = 0.25;
 
-/// The last frames of one camera whose scene stands still.
+/// The last frames of one camera while its scene is still.
 #[derive(Debug, Default)]
 pub struct DepthAverage {
     num_frames: usize,
@@ -31,7 +31,7 @@ pub struct DepthAverage {
 }
 
 impl DepthAverage {
-    /// Of up to `num_frames` frames, 1..=[`MAX_AVERAGED`]; one frame is left as it is.
+    /// Averages over up to `num_frames` frames, 1..=[`MAX_AVERAGED`]; 1 turns averaging off.
     pub fn over(num_frames: usize) -> Self {
         Self {
             num_frames: num_frames.clamp(1, MAX_AVERAGED),
@@ -39,7 +39,7 @@ impl DepthAverage {
         }
     }
 
-    /// Forgets every frame: the scene has moved.
+    /// Forgets every frame, because the scene has moved.
     pub fn clear(&mut self) {
         self.frames.clear();
     }
@@ -49,7 +49,7 @@ impl DepthAverage {
         self.frames.len()
     }
 
-    /// Takes in a frame; one that is no picture of the same camera starts anew.
+    /// Adds a frame; if its camera or its size differs, the earlier frames are forgotten.
     pub fn add(&mut self, scene: &Arc<SceneCloud>) {
         let is_same = |known: &Arc<SceneCloud>| {
             known.cloud.grid == scene.cloud.grid && known.intrinsics == scene.intrinsics
@@ -63,8 +63,8 @@ impl DepthAverage {
         }
     }
 
-    /// The scene with every depth averaged; `None` before the first frame. A scene without a pinhole camera, and a
-    /// single one, is the last one as it came.
+    /// The last scene with every depth averaged; `None` before the first frame. A scene without a pinhole camera, or
+    /// a single one, is returned unchanged.
     pub fn mean(&self) -> Option<Arc<SceneCloud>> {
         let last = self.frames.back()?;
         let (Some(grid), Some(camera), true) =
@@ -105,14 +105,14 @@ impl DepthAverage {
     }
 }
 
-/// The mean of the readings that lie on the median's surface; `None` where they are too few.
+/// The mean of the readings on the surface of the median; `None` if they are too few.
 fn settled(readings: &mut [f32], num_frames: usize, gate: f32) -> Option<f32> {
     let num = readings.len();
     if num == 0 || (num as f32) < LEAST_SHARE * num_frames as f32 {
         return None;
     }
     readings.sort_unstable_by(f32::total_cmp);
-    // Of an even number the upper one, which is the nearer surface: a reading, not something between two.
+    // Of an even number the upper middle value, which is on the nearer surface: a reading, not a value between two.
     let median = readings[num / 2];
     let on_surface = readings.iter().filter(|x| (**x - median).abs() <= gate);
     let (sum, count) = on_surface.fold((0.0, 0_usize), |(sum, n), x| (sum + x, n + 1));

@@ -1,9 +1,9 @@
-//! One verdict out of those on the last frames.
+//! One verdict from those on the last frames.
 //!
-//! A frame's verdict is a guess with a probability; frames of one still scene are guesses with the same systematic
-//! error, so their agreement is no proof, but their disagreement is a warning: a part is accepted only if nearly every
-//! frame accepts it, none accepts another, and their poses lie together. The score is the median, so that it never
-//! says more than a frame at hand.
+//! A frame's verdict is a guess with a probability. Frames of one still scene share a systematic error, so their
+//! agreement is no proof, but their disagreement is a warning: a part is accepted only if nearly every frame accepts
+//! it, none accepts another, and their poses lie together. The score is the lower median, which is the score of an
+//! actual frame.
 
 use std::{collections::VecDeque, time::Duration};
 
@@ -19,12 +19,12 @@ use crate::{
 /// When frames agree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConsensusParams {
-    /// Frames that the verdict rests on at most, 1..60. Raising it makes the verdict and the pose steadier and slower
-    /// to change.
+    /// Maximum number of frames that the verdict rests on, 1..60. Raising it makes verdict and pose steadier and
+    /// slower to change.
     pub num_frames: usize,
-    /// Frames that it rests on at least, 1..=`num_frames`. Raising it makes a person wait longer.
+    /// Minimum number of frames that it rests on, 1..=`num_frames`. Raising it makes the user wait longer.
     pub least_frames: usize,
-    /// Share of the frames that must say the same, 0.5..1. Lowering it accepts what some frames do not.
+    /// Share of the frames that must agree, 0.5..1. Lowering it accepts parts that some frames reject.
     pub least_share: f64,
     /// How far poses may lie apart to be averaged.
     pub tolerance: PoseTolerance,
@@ -51,13 +51,13 @@ pub struct ConsensusVerdict {
     pub verdict: Verdict,
     /// Frames that it rests on.
     pub num_frames: usize,
-    /// Frames that said the same.
+    /// Frames that agree with it.
     pub num_agreeing: usize,
-    /// The mean of the poses that agree; `None` where no part was named or no pose asked for.
+    /// Mean of the poses that agree; `None` if no part was named or no pose was asked for.
     pub pose: Option<MeanPose>,
 }
 
-/// What one frame said.
+/// The result of one frame.
 #[derive(Clone, Debug)]
 struct FrameVerdict {
     at: Duration,
@@ -65,11 +65,11 @@ struct FrameVerdict {
     /// The reference in whose coordinates the pose is.
     reference: Option<String>,
     camera_from_part: Option<RigidTransform>,
-    /// Of the part, in its own space.
+    /// Middle of the part, part space, metres.
     middle: Point3<f64>,
 }
 
-/// What the last frames of a scene said, as long as it does not move.
+/// The results of the last frames of a scene, as long as it does not move.
 #[derive(Debug)]
 pub struct Consensus {
     params: ConsensusParams,
@@ -77,7 +77,7 @@ pub struct Consensus {
 }
 
 impl Consensus {
-    /// Before the first frame.
+    /// Creates a consensus without frames.
     pub fn new(params: ConsensusParams) -> Self {
         Self {
             params,
@@ -85,12 +85,12 @@ impl Consensus {
         }
     }
 
-    /// Forgets every frame: the scene has moved.
+    /// Forgets every frame, because the scene has moved.
     pub fn clear(&mut self) {
         self.said.clear();
     }
 
-    /// Takes in what the frame taken at `at` said. `middle` is the named part's, part space, metres.
+    /// Adds the result of the frame taken at `at`. `middle` is the middle of the named part, part space, metres.
     pub fn add(&mut self, at: Duration, inspection: &Inspection, middle: Option<Point3<f64>>) {
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         self.said.push_back(FrameVerdict {
@@ -105,7 +105,7 @@ impl Consensus {
         }
     }
 
-    /// Frames from `since` on, of those that are needed.
+    /// Number of frames from `since` on, and the number needed.
     pub fn gathered(&self, since: Duration) -> (usize, usize) {
         let num = self.said.iter().filter(|said| said.at >= since).count();
         (num, self.least_frames())
@@ -117,7 +117,7 @@ impl Consensus {
             .clamp(1, self.params.num_frames.max(1))
     }
 
-    /// What the frames from `since` on agree upon; `None` while they are too few.
+    /// The verdict of the frames from `since` on; `None` while they are too few.
     pub fn agreed(&self, since: Duration, accept: &AcceptParams) -> Option<ConsensusVerdict> {
         let said: Vec<&FrameVerdict> = self.said.iter().filter(|said| said.at >= since).collect();
         if said.len() < self.least_frames() {
@@ -153,7 +153,8 @@ impl Consensus {
             said.verdict.is_accepted()
                 && named(&said.verdict).is_some_and(|(part, ..)| part != name)
         });
-        // The mean goes into the last frame, and each reference of a part has coordinates of its own.
+        // The mean replaces the last frame's pose, so only poses of its reference count: each reference has its own
+        // coordinates.
         let last = naming.last();
         let poses: Vec<RigidTransform> = naming
             .iter()
@@ -171,7 +172,7 @@ impl Consensus {
             needed,
         };
         let rejected = if num_accepting < needed || is_contradicted {
-            // What most frames complain about says more than that not all of them agree.
+            // A reason that most frames share says more than that not all of them agree.
             let mut complaints = naming.iter().filter_map(|said| said.verdict.rejected());
             let num_rejecting = naming.len() - num_accepting;
             let last = complaints.next_back().cloned();
@@ -217,7 +218,7 @@ impl Consensus {
     }
 }
 
-/// What was found where most frames found nothing to name.
+/// The verdict where most frames name no part: that of the last such frame.
 fn nothing_named(said: &[&FrameVerdict]) -> Option<ConsensusVerdict> {
     let mut empty = said.iter().filter(|said| named(&said.verdict).is_none());
     let num_agreeing = empty.clone().count();
@@ -229,8 +230,8 @@ fn nothing_named(said: &[&FrameVerdict]) -> Option<ConsensusVerdict> {
     })
 }
 
-/// Why frames that name one of two parts by turns do not agree, if that is it: both fit almost equally well, as at least
-/// one frame says and no more than a few contradict.
+/// The rejection for frames that disagree because two parts fit almost equally well: at least one frame says so, and
+/// at least `needed` frames fit that explanation.
 fn almost_equal(said: &[&FrameVerdict], name: &str, needed: usize) -> Option<Rejection> {
     let pair_of = |verdict: &Verdict| match verdict.rejected() {
         Some(Rejection::SmallMargin { part, other, .. }) if part == name => Some(other.clone()),
@@ -276,7 +277,7 @@ fn named(verdict: &Verdict) -> Option<(&str, f64, f64)> {
     }
 }
 
-/// The part that most frames name; of several the one named first.
+/// The part that most frames name; of several, the one named first.
 fn most_named<'a>(said: &[&'a FrameVerdict]) -> Option<&'a str> {
     let names = said.iter().filter_map(|said| named(&said.verdict));
     let names: Vec<&str> = names.map(|(part, ..)| part).collect();
@@ -291,7 +292,7 @@ fn most_named<'a>(said: &[&'a FrameVerdict]) -> Option<&'a str> {
     most.map(|(_, name)| name)
 }
 
-/// The lower one of the two in the middle: never more than half of the frames say less. 0 without any.
+/// The median, of an even number the lower middle value: it is always one of the values. 0 without any.
 fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_unstable_by(f64::total_cmp);

@@ -1,11 +1,13 @@
-//! One part after the other before a camera: which frames show the same hung part, and which of them speaks for it.
+//! One part after the other in front of a camera: which frames show the same hung part, and which of them represents
+//! it.
 //!
-//! A part hangs from the first frame that shows one. Before its verdict counts, it has left once frames show none for a
-//! while. Afterwards it has left as soon as the camera looks through most of the place where it hung: a person who walks
-//! by or a hand that turns it takes nothing away, and the same part hung into the same jig is another one.
+//! A hung part begins with the first frame that shows one. Before its verdict counts, it has left once frames show
+//! none for a while. Afterwards it has left as soon as the camera looks through most of the place where it hung: a
+//! person who walks by or a hand that turns the part does not end it, and the same part hung into the same jig again
+//! is a new one.
 //!
-//! Known limits: a part that is exchanged for another between two frames is taken for the same once its verdict counts.
-//! Of captures seconds apart, in which nothing can be seen to hang still, two of one name in a row are one part.
+//! Known limits: once a verdict counts, a part that is exchanged for another between two frames is taken for the
+//! same. In captures seconds apart, in which stillness cannot be observed, two of one name in a row are one part.
 
 use std::time::Duration;
 
@@ -21,55 +23,56 @@ use crate::{
     stages::scene::SceneCloud,
 };
 
-/// A frame that was inspected, and what it comes to.
+/// An inspected frame and the live verdict after it.
 #[derive(Clone, Copy, Debug)]
 pub struct HungFrame<'a> {
     /// The frame.
     pub scene: &'a SceneCloud,
-    /// The camera's time, from any moment on.
+    /// The camera's time, from any origin.
     pub at: Duration,
-    /// What was found in it.
+    /// Its inspection.
     pub inspection: &'a Inspection,
-    /// What counts after it.
+    /// The live verdict after it.
     pub verdict: &'a LiveVerdict,
     /// Middle of the named part, part space, metres.
     pub middle: Option<Point3<f64>>,
-    /// Tells recipes and libraries apart.
+    /// Identifies the recipe and the library.
     pub inputs: &'a str,
 }
 
-/// What a frame is for the part that hangs there.
+/// The role of a frame for the part that hangs there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameRole {
-    /// One of many.
+    /// None: one frame of many.
     Nothing,
-    /// Of a part whose verdict does not count yet: the frame that shows it best so far.
+    /// The best frame so far of a part whose verdict does not count yet.
     Best,
-    /// The one that the part's first verdict stands on.
+    /// The frame of the part's first verdict that counts.
     First,
-    /// The one that another verdict on the same part stands on, or one with another recipe or library, or elsewhere.
+    /// The frame of a further verdict on the same part: a different one, or one with another recipe, library or
+    /// place.
     Again,
 }
 
-/// What has left before its verdict counted.
+/// What has left without a verdict that counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Left {
     /// Nothing.
     Nothing,
     /// Something that looked like an enrolled part.
     Part,
-    /// Something that looked like nothing enrolled: somebody may have walked by.
+    /// Something unlike any enrolled part, such as a person walking by.
     Other,
 }
 
-/// Tells the parts before one camera apart. The same frames at the same times always lead to the same parts.
+/// Tells the parts in front of one camera apart. The same frames at the same times always give the same parts.
 #[derive(Debug, Default)]
 pub struct HungParts {
     state: HungState,
     visit: u64,
     departures: u64,
     last_at: Option<Duration>,
-    /// Since when, and in how many frames, no part was seen.
+    /// Time of the first frame without a part, and the number of such frames in a row.
     absent: Option<(Duration, usize)>,
 }
 
@@ -77,11 +80,11 @@ pub struct HungParts {
 enum HungState {
     #[default]
     Empty,
-    /// Something is there, and no verdict on it counts yet.
+    /// Something is there, but no verdict on it counts yet.
     Unsettled {
         best_score: f64,
         is_named: bool,
-        /// What the last frame called it.
+        /// The name that the last frame gave it.
         last: String,
     },
     Counted(Box<CountedPart>),
@@ -90,35 +93,37 @@ enum HungState {
 /// A part whose verdict counted.
 #[derive(Debug)]
 struct CountedPart {
-    /// What was said of it where it hangs now: its name, and whether it was accepted.
+    /// The verdicts on it where it hangs now: name, and whether accepted.
     said: Vec<(String, bool)>,
     inputs: String,
     camera_from_part: Option<RigidTransform>,
     /// Something moved since the last verdict.
     has_stirred: bool,
-    /// Some points of it: their places in the picture, and their depths, metres.
+    /// Some of its points: index in the picture, and depth, metres.
     surface: Vec<(u32, f32)>,
     grid: Option<Grid>,
     has_left: bool,
 }
 
-/// Without a frame for longer than this nobody knows what hangs there.
+/// After a longer gap between frames, it is unknown what hangs there.
 const MAX_BLIND: Duration = Duration::from_secs(10);
-/// Frames further apart than this are no motion picture: what the next one calls otherwise is something else.
+/// After a longer gap between frames, something of another name is another part.
 const APART: Duration = Duration::from_secs(2);
-/// A part that no frame shows for so long, and in so many frames, has left.
+/// A part has left once no frame shows one for this time, and in this many frames.
 const ABSENCE: (Duration, usize) = (Duration::from_millis(400), 2);
-/// Points of a part that are looked for at its place.
+/// Points of a part, approximately, that are looked for in its place.
 const NUM_POINTS: usize = 600;
-/// A reading this far behind a part's surface, metres, is seen through its place: some ten times a Kinect's noise.
+/// A reading this far behind a part's surface, metres, shows that its place is empty: about ten times a Kinect's
+/// noise.
 const BEHIND: f32 = 0.06;
-/// Share of its points that are looked through once a part has left; one that swings on its hook keeps more.
+/// Share of a part's points that must be looked through for it to have left; if it swings on its hook, fewer are.
 const LEFT_SHARE: f64 = 0.7;
-/// Share of its points that are still there at most, where the camera has no readings of what is behind.
+/// A part has also left if no part is seen and fewer than this share of its points are still there: the camera may
+/// have no readings of what is behind.
 const LEAST_THERE: f64 = 0.1;
 
 impl HungParts {
-    /// Counts the parts that hung there, the present one included.
+    /// Number of parts that hung there, including the present one.
     pub fn visit(&self) -> u64 {
         self.visit
     }
@@ -144,7 +149,7 @@ impl HungParts {
             Verdict::Part { part, score, .. } => Some((part.as_str(), *score)),
             Verdict::NoPart(_) => None,
         };
-        // A clock that was set back says nothing either.
+        // A clock that was set back is an unknown gap, too.
         let gap = before.map(|before| frame.at.checked_sub(before).unwrap_or(Duration::MAX));
         let is_blind = |gap| gap > MAX_BLIND || (gap > APART && self.is_another(shown));
         let mut left = Left::Nothing;
@@ -176,7 +181,7 @@ impl HungParts {
         (left, role)
     }
 
-    /// True if this is not what was seen last, before any verdict on that counted.
+    /// True if this has another name than what was seen last, and no verdict on that counts yet.
     fn is_another(&self, shown: Option<(&str, f64)>) -> bool {
         match (&self.state, shown) {
             (HungState::Unsettled { last, .. }, Some((name, _))) => last != name,
@@ -191,7 +196,7 @@ impl HungParts {
         at.saturating_sub(*since) >= ABSENCE.0 && *num_frames >= ABSENCE.1
     }
 
-    /// Nothing is seen there: a part whose verdict counted may still hang behind whatever hides it.
+    /// Handles a scene without a part. A part whose verdict counted may still hang behind something that hides it.
     fn leave_unless_hidden(&mut self) -> Left {
         match &self.state {
             HungState::Counted(part) if !part.has_left => Left::Nothing,
@@ -209,7 +214,7 @@ impl HungParts {
         }
     }
 
-    /// A part is seen, and no verdict counts.
+    /// Handles a frame that shows a part while no verdict counts.
     fn glimpse(&mut self, name: &str, score: f64, is_named: bool) -> FrameRole {
         let known = match &mut self.state {
             // It moves away, or something hides it.
@@ -227,7 +232,7 @@ impl HungParts {
                 Some((*is_named, *best_score))
             }
         };
-        // What looks like a part says more than what scores more and looks like none.
+        // A frame that looks like an enrolled part is better than one that looks like none, whatever their scores.
         let is_best = known.is_none_or(|known| (is_named, score) > known);
         if is_best {
             self.state = HungState::Unsettled {
@@ -240,7 +245,7 @@ impl HungParts {
         FrameRole::Nothing
     }
 
-    /// A verdict on a part counts.
+    /// Handles a frame after which a verdict on a part counts.
     fn count(&mut self, frame: &HungFrame<'_>, agreed: &ConsensusVerdict) -> FrameRole {
         let Verdict::Part { part, rejected, .. } = &agreed.verdict else {
             return FrameRole::Nothing;
@@ -249,7 +254,7 @@ impl HungParts {
         let is_in_line = best.is_some_and(|best| best.part == *part)
             && !matches!(frame.inspection.pose, Some(Err(_)));
         if !is_in_line {
-            // One of the few frames that see something else: no verdict stands on it.
+            // One of the few frames that see something else: it cannot represent the verdict.
             return FrameRole::Nothing;
         }
         let said = (part.clone(), rejected.is_none());
@@ -308,7 +313,7 @@ impl CountedPart {
         }
     }
 
-    /// True if it hangs elsewhere than when the last verdict on it counted.
+    /// True if it has moved since the last verdict on it counted.
     fn has_moved(&self, now: Option<&RigidTransform>, frame: &HungFrame<'_>) -> bool {
         let Some((before, now)) = self.camera_from_part.as_ref().zip(now) else {
             return false;
@@ -320,10 +325,10 @@ impl CountedPart {
         off.shift.0 > tolerance.shift.0 || off.rotation.0 > tolerance.turn.0
     }
 
-    /// True if the camera sees what is behind the place where it hung.
+    /// True if the camera looks through the place where it hung.
     fn is_looked_through(&self, scene: &SceneCloud, is_empty: bool) -> bool {
         if self.grid.is_none() || scene.cloud.grid != self.grid {
-            // Another picture.
+            // A picture with other rows and columns.
             return true;
         }
         let (mut num_behind, mut num_there) = (0_u32, 0_u32);

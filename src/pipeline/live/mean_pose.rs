@@ -1,9 +1,9 @@
-//! The mean of several estimates of one pose, outliers left out.
+//! The mean of several estimates of one pose, without outliers.
 //!
-//! Rotations are averaged as the unit quaternion that maximises Σ (q·qᵢ)², the eigenvector of Σ qᵢqᵢᵀ with the largest
-//! eigenvalue, for which q and -q are the same: F. L. Markley, Y. Cheng, J. L. Crassidis and Y. Oshman, "Averaging
+//! The mean rotation is the unit quaternion that maximises Σ (q·qᵢ)², the eigenvector of Σ qᵢqᵢᵀ with the largest
+//! eigenvalue; it treats q and -q alike: F. L. Markley, Y. Cheng, J. L. Crassidis and Y. Oshman, "Averaging
 //! Quaternions", Journal of Guidance, Control, and Dynamics 30(4), 2007. Positions are averaged at the part's middle,
-//! where a small turn moves nothing. Which estimates belong together is decided by the one that most others are near.
+//! which a small turn does not move. The estimates averaged are those near the one with the most neighbours.
 
 use nalgebra::{Matrix4, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
@@ -15,27 +15,27 @@ use crate::{
 /// How far estimates of the same pose may be apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseTolerance {
-    /// At the part's middle, 1..20 mm. Raising it averages what is not the same.
+    /// Distance at the part's middle, 1..20 mm. Raising it averages different poses.
     pub shift: Metres,
-    /// 0.2..5°. Raising it averages what is not the same.
+    /// Angle, 0.2..5°. Raising it averages different poses.
     pub turn: Radians,
 }
 
-/// A pose that several estimates agree upon.
+/// The mean of several estimates of a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeanPose {
-    /// Takes part space into camera space.
+    /// Transform from part space to camera space.
     pub camera_from_part: RigidTransform,
-    /// Estimates that it is the mean of.
+    /// Number of estimates averaged.
     pub num_agreeing: usize,
-    /// Root mean square distance of their middles from the mean's.
+    /// Root mean square distance of the part's middle from where the mean puts it.
     pub shift_rms: Metres,
-    /// Root mean square angle between them and the mean.
+    /// Root mean square angle between the estimates and the mean.
     pub turn_rms: Radians,
 }
 
-/// The mean of the largest group of estimates that agree; `middle` is the part's, part space, metres. `None` without
-/// any.
+/// Averages the largest group of estimates that agree. `middle` is the middle of the part, part space, metres. `None`
+/// without estimates.
 pub fn mean_pose(
     estimates: &[RigidTransform],
     middle: &Point3<f64>,
@@ -51,7 +51,7 @@ pub fn mean_pose(
             .filter(|other| is_near(pose, other))
             .count()
     };
-    // The first of equals, so that the same estimates always have the same mean.
+    // Of equals the first, so that the same estimates always have the same mean.
     let mut centre: Option<(usize, &RigidTransform)> = None;
     for pose in estimates {
         let num = num_near(pose);
@@ -145,7 +145,7 @@ mod tests {
             of_means += off(&mean.camera_from_part);
             of_estimates += good.iter().map(off).sum::<f64>() / 9.0;
         }
-        // A mean of nine is a third as far off.
+        // The mean of nine estimates should be a third as far off.
         let gain = of_means / of_estimates;
         assert!(gain < 0.45, "{gain}");
     }

@@ -1,12 +1,12 @@
-//! Frame after frame of one camera: when a verdict counts, and what it rests on.
+//! Following one camera: which verdict counts after many frames, and what it rests on.
 //!
 //! ```text
 //! frame ─► MotionDetector ─► DepthAverage ─► pipeline::run ─► Consensus ─► LiveVerdict ─► HungParts
-//!          does it move?      less noise      as ever         one verdict of many         one inspection a part
+//!          does it move?      less noise      each frame      one verdict of many         one inspection per part
 //! ```
 //!
-//! A verdict on a part that swings, or that is just being hung, is worth nothing to a robot. So every frame is looked
-//! at, but none counts until nothing has moved for a while and the last frames agree.
+//! A verdict on a part that swings or is just being hung is useless to a robot. So every frame is inspected, but no
+//! verdict counts until nothing has moved for a while and the last frames agree.
 
 mod average;
 mod consensus;
@@ -28,13 +28,13 @@ pub use self::{
 use super::{AcceptParams, Inspection, Rejection, Verdict};
 use crate::stages::{field_of_view::FieldOfView, scene::SceneCloud};
 
-/// How frames are followed.
+/// Parameters for following a camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveParams {
-    /// When the scene stands still.
+    /// When the scene counts as still.
     pub steady: SteadyParams,
-    /// Frames that depth is averaged over, 1..=[`MAX_AVERAGED`]; 1 leaves it as it is. Raising it lowers the noise and
-    /// takes a few milliseconds more a frame.
+    /// Frames that depth is averaged over, 1..=[`MAX_AVERAGED`]; 1 turns averaging off. Raising it lowers the noise
+    /// and takes a few milliseconds more per frame.
     pub average: usize,
     /// When frames agree.
     pub consensus: ConsensusParams,
@@ -50,25 +50,25 @@ impl Default for LiveParams {
     }
 }
 
-/// What is to be thought of the scene after a frame.
+/// The verdict on the scene after a frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum LiveVerdict {
-    /// No verdict counts: something moves, or too little was seen to say that nothing does.
+    /// No verdict counts: something moves, or too few frames were seen to rule that out.
     #[default]
     Open,
-    /// It stands still, and more frames are needed.
+    /// The scene is still, but more frames are needed.
     Gathering {
         /// Frames so far.
         num_frames: usize,
         /// Frames needed.
         needed: usize,
     },
-    /// The verdict that counts.
+    /// A verdict that counts.
     Counted(Box<ConsensusVerdict>),
 }
 
 impl LiveVerdict {
-    /// The verdict that counts.
+    /// The verdict that counts, if there is one.
     pub fn counted(&self) -> Option<&ConsensusVerdict> {
         match self {
             Self::Counted(agreed) => Some(agreed),
@@ -84,12 +84,12 @@ pub struct LiveTracker {
     average: DepthAverage,
     consensus: Consensus,
     last_at: Duration,
-    /// What the frames so far showed of the camera's field of view.
+    /// The camera's field of view, as far as the frames showed it.
     field_of_view: Option<Arc<FieldOfView>>,
 }
 
 impl LiveTracker {
-    /// Before the first frame.
+    /// Creates a tracker that has seen no frame.
     pub fn new(params: &LiveParams) -> Self {
         Self {
             steady: MotionDetector::new(params.steady.clone()),
@@ -100,7 +100,7 @@ impl LiveTracker {
         }
     }
 
-    /// What the frames so far say of the scene.
+    /// Whether the scene moves, judging by the frames so far.
     pub fn stillness(&self) -> MotionState {
         self.steady.stillness()
     }
@@ -110,13 +110,13 @@ impl LiveTracker {
         self.average.num_frames()
     }
 
-    /// What the frames so far showed of the camera's field of view.
+    /// The camera's field of view, as far as the frames showed it.
     pub fn known_view(&self) -> Option<Arc<FieldOfView>> {
         self.field_of_view.clone()
     }
 
-    /// Takes in a frame, and gives the scene to be inspected: the frame as it came, or averaged with the ones before
-    /// while nothing moves. `at` is the camera's time, from any moment on.
+    /// Takes in a frame and returns the scene to inspect: the frame itself, or its average with the previous ones
+    /// while nothing moves. `at` is the camera's time, from any origin.
     pub fn look(&mut self, mut scene: Arc<SceneCloud>, at: Duration) -> Arc<SceneCloud> {
         if self.field_of_view.is_some() && scene.known_view.is_none() {
             Arc::make_mut(&mut scene).set_known_view(self.field_of_view.clone());
@@ -138,9 +138,9 @@ impl LiveTracker {
         }
     }
 
-    /// Takes in what was found in the scene that [`look`](Self::look) gave last, and puts what counts in its place: the
-    /// verdict and the mean pose of all frames, or why the frame's own verdict does not count. `middle` is the named
-    /// part's, part space, metres.
+    /// Takes in the inspection of the scene last returned by [`look`](Self::look), and overwrites its verdict: with
+    /// the verdict and mean pose of all frames, or with the reason why its own verdict does not count. `middle` is
+    /// the middle of the named part, part space, metres.
     pub fn judge(
         &mut self,
         inspection: &mut Inspection,
@@ -165,7 +165,7 @@ impl LiveTracker {
 }
 
 impl LiveVerdict {
-    /// Nobody who is handed the inspection must take a single frame's verdict for one that counts.
+    /// Overwrites the verdict, so that a single frame's is not mistaken for one that counts.
     fn overwrite_verdict(&self, inspection: &mut Inspection) {
         match self {
             Self::Counted(agreed) => {
@@ -193,8 +193,8 @@ impl LiveVerdict {
     }
 }
 
-/// What was agreed upon, not accepted where this frame is one of the few that take the part for another or find no
-/// pose: what the frame holds besides the verdict would be of something else.
+/// Rejects the agreed verdict if this frame is one of the few that name another part or find no pose, because the
+/// rest of its inspection would belong to something else.
 fn unless_out_of_line(mut agreed: ConsensusVerdict, inspection: &Inspection) -> ConsensusVerdict {
     let best = inspection.ranking.entries.first();
     if let Verdict::Part {

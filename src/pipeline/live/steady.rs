@@ -1,13 +1,14 @@
-//! Whether everything before the camera hangs still.
+//! Detects whether everything in front of the camera is still.
 //!
-//! Reciprocal depth 1/z is compared over time on a grid of pixels: a structured-light sensor's error is one of the
-//! disparity, so the noise of 1/z is the same at all depths. Frames are gathered into spells of a third of the time
-//! that the scene has to stand still; the means of two spells are held against each other with a t statistic per
-//! pixel, whose spread is the picture's noise or the pixel's own, whichever is larger. A pixel at an edge flickers
-//! between two surfaces and has a large spread of its own, so that it only counts as changed once it settles on the
-//! other surface. That is how a part is seen to drift sideways, which changes the depth nowhere but along its outline.
+//! Reciprocal depth 1/z is compared over time on a grid of pixels: a structured-light sensor errs in disparity, so
+//! the noise of 1/z is the same at all depths. Frames are gathered into spells of a third of the time that the scene
+//! must be still. The means of two spells are compared by a t statistic per pixel, whose spread is the picture's
+//! noise or the pixel's own, whichever is larger. A pixel at an edge flickers between two surfaces and so has a large
+//! spread; it counts as changed only once it settles on the other surface. This detects a part that drifts sideways,
+//! which changes the depth only along its outline.
 //!
-//! Known limit: what shakes sideways within a few millimetres, many times a second, only blurs the outline.
+//! Known limit: a sideways vibration of a few millimetres, many times a second, only blurs the outline and is not
+//! detected.
 
 use std::{collections::VecDeque, time::Duration};
 
@@ -17,17 +18,19 @@ use crate::{
     units::Metres,
 };
 
-/// When the scene stands still.
+/// When a scene counts as still.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadyParams {
-    /// How long nothing may have moved, 0.3..5 s. Raising it finds slower motion and makes a person wait longer.
+    /// Time for which nothing may have moved, 0.3..5 s. Raising it detects slower motion and makes the user wait
+    /// longer.
     pub settle: Duration,
-    /// Standard deviations by which a pixel has to be off to be changed, 4..8. Raising it forgives noise that is not
-    /// what the picture's is, and small motion.
+    /// Standard deviations by which a pixel must differ to count as changed, 4..8. Raising it tolerates noise above
+    /// that of the picture, and small motion.
     pub deviations: f64,
-    /// Share of the pixels that may be changed from one spell to another, 0.00005..0.01. Raising it forgives small
-    /// things that move, such as a cable, and slow motion. In simulated frames of a still cell, up to three times a
-    /// Kinect's noise, it is 0.00001; of a part that drifts by 1 cm/s from 0.0009, at three times the noise 0.0002.
+    /// Share of the pixels that may change from one spell to another, 0.00005..0.01. Raising it tolerates small
+    /// moving things, such as a cable, and slow motion. In simulated frames of a still cell, with up to three times a
+    /// Kinect's noise, the share is 0.00001; with a part that drifts by 1 cm/s it is at least 0.0009, at three times
+    /// the noise 0.0002.
     pub max_changed: f64,
 }
 
@@ -41,19 +44,19 @@ impl Default for SteadyParams {
     }
 }
 
-/// What the last frames say of the scene.
+/// Whether the scene moves, judging by the last frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MotionState {
-    /// Too few frames since the first one, or since a gap, to say.
+    /// Unknown: too few frames since the first one, or since a gap.
     #[default]
     Watching,
     /// Something moves, or moved less than the settling time ago.
     Moving,
     /// Nothing moves.
     Steady {
-        /// Time of the first frame of all that agree.
+        /// Time of the first of the frames that agree.
         since: Duration,
-        /// From then to the last frame.
+        /// Time from then to the last frame.
         lasting: Duration,
     },
 }
@@ -65,30 +68,31 @@ impl MotionState {
     }
 }
 
-/// Pixels compared, about: a sixteenth of a camera of today, a quarter of a Kinect's.
+/// Approximate number of pixels compared: a quarter of a Kinect's, a sixteenth of 1280 × 960.
 const NUM_SAMPLES: usize = 76_800;
-/// Spells that must agree, all with all.
+/// Spells that must agree, each with each.
 const NUM_SPELLS: usize = 3;
-/// Frames in a spell at least, however far apart they are: a pixel at an edge that flickers between two surfaces must
-/// not be on one of them throughout a spell and on the other throughout the next, by chance.
+/// Minimum number of frames in a spell, however far apart: a pixel at an edge, which flickers between two surfaces,
+/// must not by chance be on one of them throughout a spell and on the other throughout the next.
 const LEAST_FRAMES: usize = 5;
-/// Frames further apart than this are no motion picture: what happened between them nobody knows.
+/// Longest gap between frames; what happens in a longer one is unknown.
 const MAX_GAP: Duration = Duration::from_secs(2);
-/// Share of the pixels that may be off in a single frame: one frame is noisier than a spell.
+/// Share of the pixels that may be off in a single frame, which is noisier than a spell.
 const MAX_OFF_AT_ONCE: f64 = 0.006;
-/// Standard deviations by which a pixel has to be off in a single frame.
+/// Standard deviations by which a pixel of a single frame must differ to be off.
 const DEVIATIONS_AT_ONCE: f32 = 6.0;
-/// Frames of a spell that is not complete, from which on a single frame is held against it.
+/// Number of frames from which an incomplete spell is compared with a single frame.
 const FRAMES_TO_JUDGE: usize = 4;
-/// Share of the pixels that may scatter by more than their noise, edges among them: more is shaking.
+/// Share of the pixels that may be restless, as those at edges are; more is shaking.
 const MAX_RESTLESS: f64 = 0.06;
-/// A pixel is restless from this many times the noise on.
+/// Multiple of the noise above which a pixel is restless.
 const RESTLESS: f32 = 3.5;
-/// Differences of the mean of 1/z below this, per metre, are nothing: 1 mm at 1 m.
+/// Smaller differences of the mean of 1/z, in 1/m, are ignored: 1 mm at 1 m.
 const LEAST_DIFFERENCE: f32 = 1e-3;
-/// Share of a spell's frames in which a reading has to be, or to be missing, to be held against another spell.
+/// Share of a spell's frames in which a pixel must have a reading in one spell, and none in the other, to count as
+/// changed.
 const CERTAIN: f32 = 0.85;
-/// Noise that is assumed where the picture is too empty to tell it, metres at 1 m.
+/// Noise assumed if the picture is too empty to measure it, metres at 1 m.
 const USUAL_NOISE: Metres = Metres(0.0015);
 
 /// Follows the frames of one camera.
@@ -98,12 +102,12 @@ pub struct MotionDetector {
     grid: Option<Grid>,
     /// Standard deviation of 1/z, per metre.
     noise: f32,
-    /// First reading of every sample since the last start, 1/m: sums are taken of what differs from it, so that
-    /// single precision holds them. 0 before there is one.
+    /// First reading of every sample since the last restart, 1/m; 0 before there is one. Sums are of the differences
+    /// from it, so that single precision suffices.
     pivots: Vec<f32>,
-    /// The first spell of all that agree: slow creeping shows against it.
+    /// The first of the spells that agree: slow creep shows against it.
     first: Option<SampleWindow>,
-    /// Complete, the newest last.
+    /// Complete spells, the newest last.
     spells: VecDeque<SampleWindow>,
     filling: SampleWindow,
     last_at: Duration,
@@ -111,7 +115,7 @@ pub struct MotionDetector {
     run: u64,
 }
 
-/// Sums over some frames in a row, one of each for every sample.
+/// Sums over consecutive frames, for every sample.
 #[derive(Clone, Debug, Default)]
 struct SampleWindow {
     from: Duration,
@@ -122,7 +126,7 @@ struct SampleWindow {
 }
 
 impl MotionDetector {
-    /// Before the first frame.
+    /// Creates a detector that has seen no frame.
     pub fn new(params: SteadyParams) -> Self {
         Self {
             params,
@@ -138,17 +142,18 @@ impl MotionDetector {
         }
     }
 
-    /// Counts how often the watch had to start anew: frames of different runs are not of one still scene.
+    /// Number of restarts so far; frames of different runs do not show one still scene.
     pub fn run(&self) -> u64 {
         self.run
     }
 
-    /// What the frames so far say.
+    /// Whether the scene moves, judging by the frames so far.
     pub fn stillness(&self) -> MotionState {
         self.stillness
     }
 
-    /// Takes in a frame. `at` is its camera's time; a scene without rows and columns is never steady.
+    /// Takes in a frame and returns the new state. `at` is the camera's time. A scene without rows and columns is
+    /// never steady.
     pub fn see(&mut self, scene: &SceneCloud, at: Duration) -> MotionState {
         let Some(grid) = scene.cloud.grid else {
             self.restart_consensus(MotionState::Watching, at);
@@ -229,7 +234,7 @@ impl MotionDetector {
         is_long && self.filling.num_frames >= LEAST_FRAMES
     }
 
-    /// Holds the spell that is full against the ones before.
+    /// Compares the full spell with the ones before.
     fn close_spell(&mut self, at: Duration) {
         let spell = std::mem::take(&mut self.filling);
         let earlier = self.spells.iter().chain(&self.first);
@@ -237,7 +242,7 @@ impl MotionDetector {
             .into_iter()
             .any(|earlier| self.changed_share(earlier, &spell) > self.params.max_changed);
         if differs || self.moving_share(&spell) > MAX_RESTLESS {
-            // The newest spell may be the first of a long rest; the motion lies before it, or in it.
+            // The motion lies before the newest spell or in it; if before, the spell may be the first of a long rest.
             let pivots = std::mem::take(&mut self.pivots);
             self.restart_consensus(MotionState::Moving, at);
             if self.moving_share(&spell) <= MAX_RESTLESS {
@@ -258,7 +263,7 @@ impl MotionDetector {
         }
     }
 
-    /// Share of the samples that went from one value to another between two spells.
+    /// Share of the samples that changed between two spells.
     fn changed_share(&self, a: &SampleWindow, b: &SampleWindow) -> f64 {
         let limit = (self.params.deviations * self.params.deviations) as f32;
         let noise_sq = self.noise * self.noise;
@@ -288,7 +293,7 @@ impl MotionDetector {
         f64::from(num_changed) / f64::from(num_read.max(1))
     }
 
-    /// Share of the samples that scatter more than noise does.
+    /// Share of the samples that scatter more than the noise.
     fn moving_share(&self, spell: &SampleWindow) -> f64 {
         let limit = (RESTLESS * self.noise).powi(2);
         let (mut num_restless, mut num_read) = (0_u32, 0_u32);
@@ -303,12 +308,12 @@ impl MotionDetector {
         f64::from(num_restless) / f64::from(num_read.max(1))
     }
 
-    /// True if so much of one frame is off the last spell that something moved: no need to wait for the next.
+    /// True if so much of one frame differs from the last spell that something must have moved.
     fn moved_in_one_frame(&self, spell: &SampleWindow, samples: &[f32]) -> bool {
         self.off_share(spell, samples) > MAX_OFF_AT_ONCE
     }
 
-    /// Share of the samples that are off a spell in one frame.
+    /// Share of the samples of one frame that differ from a spell.
     fn off_share(&self, spell: &SampleWindow, samples: &[f32]) -> f64 {
         let noise_sq = self.noise * self.noise;
         let (mut num_off, mut num_read) = (0_u32, 0_u32);
@@ -339,7 +344,7 @@ impl SampleWindow {
     }
 }
 
-/// 1/z of every so many pixels both ways, 1/m; 0 without a reading.
+/// 1/z of every n-th pixel of every n-th row, 1/m; 0 without a reading.
 fn samples(scene: &SceneCloud, grid: Grid) -> Vec<f32> {
     let step = ((grid.num_cells() as f64 / NUM_SAMPLES as f64)
         .sqrt()

@@ -1,4 +1,4 @@
-//! The whole way, on frames of the simulated cell against the shipped parts.
+//! End-to-end tests on frames of the simulated cell with the shipped parts.
 
 use super::*;
 use crate::{
@@ -17,7 +17,7 @@ fn scene(part: &HangingPart, number: u64, x: f64) -> Arc<SceneCloud> {
     Arc::new(scene_from_frame(&part.frame(noise, &moved)))
 }
 
-/// What a camera without noise would see.
+/// The frame of a camera without noise.
 fn truth(part: &HangingPart) -> DepthFrame {
     part.frame(SensorNoise::none(), &RigidTransform::identity())
 }
@@ -30,14 +30,14 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
     let follow = || {
         let mut watch = LiveTracker::new(&LiveParams::default());
         let said = (0..52_u64).map(|number| {
-            // Still, then away at 20 cm/s.
+            // Still, then moving away at 20 cm/s.
             let x = if number < 40 {
                 0.0
             } else {
                 0.2 / 30.0 * (number - 39) as f64
             };
             let scene = watch.look(scene(&part, number, x), FRAME * number as u32);
-            // Every frame is looked at, not every one can be inspected in time.
+            // Every frame is looked at, but not every one can be inspected in time.
             if number % 4 != 0 && number < 40 {
                 return None;
             }
@@ -63,11 +63,11 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
                 );
             }
             41.. => assert!(!verdict.is_accepted(), "{number}: {standing:?}"),
-            // About to count; the first frame on its way.
+            // The frames just before the verdict counts, and the first frame of the motion.
             24..=35 | 40 => {}
         }
     }
-    // The same frames again: the same verdicts, bit for bit.
+    // The same frames give the same verdicts, bit for bit.
     assert_eq!(follow(), said);
 }
 
@@ -103,10 +103,10 @@ fn an_averaged_depth_is_nearer_to_the_truth_and_has_nothing_between_surfaces() {
     let truth = truth(&part);
     let errors = |num: usize| depth_errors(&part, &truth, num);
     let [one, four, sixteen] = [1, 4, 16].map(errors);
-    // Independent errors fall with the root of their number; half of that is kept in hand.
+    // Independent errors fall with the root of their number, to 0.5 and 0.25; the limits leave a margin.
     assert!(four.rms < 0.62 * one.rms, "{four:?} of {one:?}");
     assert!(sixteen.rms < 0.40 * one.rms, "{sixteen:?} of {one:?}");
-    // What is left at the outline, and of holes, is no more than in a single frame.
+    // Flying pixels at the outline and holes are no more frequent than in a single frame.
     assert!(
         sixteen.share_between <= one.share_between,
         "{sixteen:?} of {one:?}"
@@ -117,7 +117,7 @@ fn an_averaged_depth_is_nearer_to_the_truth_and_has_nothing_between_surfaces() {
     );
 }
 
-/// Prints what averaging does, for the documentation.
+/// Prints the effect of averaging, for the documentation.
 #[test]
 #[ignore = "a table"]
 fn table_of_averages() {
@@ -132,16 +132,16 @@ fn table_of_averages() {
 
 #[derive(Debug)]
 struct DepthErrors {
-    /// Of what lies on its surface, metres.
+    /// Noise of the readings on their surface, metres.
     rms: f64,
-    /// Share of the readings further off than that.
+    /// Share of the readings off their surface.
     share_between: f64,
     /// Share of the pixels with a reading.
     share_read: f64,
 }
 
 fn depth_errors(part: &HangingPart, truth: &DepthFrame, num_frames: usize) -> DepthErrors {
-    /// Further off than this a reading is not on its surface, metres at 1 m.
+    /// A reading further off than this is not on its surface, metres at 1 m.
     const OFF: f64 = 0.012;
     let mut average = DepthAverage::over(num_frames);
     (0..num_frames as u64).for_each(|number| average.add(&scene(part, number, 0.0)));

@@ -7,10 +7,10 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// Numbers of rays: the transforms want powers of two.
+/// Numbers of rays: powers of two, for the Fourier transforms.
 const NUM_RAYS: [usize; 6] = [64, 128, 256, 512, 1024, 2048];
 
-/// Ways to the pose, as the options name them.
+/// Pose methods, in the order of the options.
 const POSES: [PoseChoice; 4] = [
     PoseChoice::By(PoseMethod::Global),
     PoseChoice::By(PoseMethod::Icp),
@@ -18,7 +18,7 @@ const POSES: [PoseChoice; 4] = [
     PoseChoice::Skip,
 ];
 
-/// A number stored as it is shown but for the unit.
+/// A number parameter.
 macro_rules! number {
     ($key:literal, $name:literal, $group:ident, $place:ident, $unit:ident, $range:expr, $decimals:literal,
      $get:expr, $set:expr, $help:literal) => {
@@ -110,7 +110,8 @@ pub const PARAMETERS: &[Parameter] = &[
         "Distance of the outlines at which the score has dropped to 1/e. Raising it forgives outlines that differ."),
     number!("rank.parallel_from", "All cores from", Match, Fold, None, [1.0, 100_000.0], 0,
         |r| r.rank.parallel_from as f64, |r, v| r.rank.parallel_from = v.round() as usize,
-        "Enrolled references from which all cores rank; the ranking stays the same. Lowering it costs time where starting them takes longer than ranking."),
+        "Enrolled references from which all cores rank; the ranking stays the same. Lowering it costs time if \
+         starting them takes longer than ranking."),
     Parameter {
         key: "pose",
         name: "Pose by",
@@ -135,7 +136,7 @@ pub const PARAMETERS: &[Parameter] = &[
     number!("icp.max_iterations", "ICP iterations at most", Pose, Fold, None, [1.0, 1000.0], 0,
         |r| r.icp.max_iterations as f64, |r, v| r.icp.max_iterations = v.round() as usize,
         "Most iterations of ICP. Raising it costs time in proportion."),
-    number!("icp.target_e_m2", "ICP is content below", Pose, Fold, SquareMillimetres, [0.0, 1000.0], 2,
+    number!("icp.target_e_m2", "ICP target E", Pose, Fold, SquareMillimetres, [0.0, 1000.0], 2,
         |r| r.icp.target_e_m2, |r, v| r.icp.target_e_m2 = v,
         "Algorithm 3 stops below this E; the paper's 1e-6 m² is 1 mm². Raising it ends the search earlier and coarser."),
     number!("icp.max_source_points", "ICP points at most", Pose, Fold, None, [100.0, 1_000_000.0], 0,
@@ -206,13 +207,13 @@ pub const PARAMETERS: &[Parameter] = &[
         "Share of children that blend two parents. Raising it searches more between the parents and less around each."),
     number!("icp_ga.vicinity.mutation_rate", "Near: mutation", IcpGa, Fold, None, [0.0, 1.0], 2,
         |r| r.icp_ga.vicinity.mutation_rate, |r, v| r.icp_ga.vicinity.mutation_rate = v,
-        "Chance of each gene to mutate; one always does. Raising it makes steps along one gene alone rarer."),
+        "Chance that each gene mutates; one always does. Raising it makes steps along one gene alone rarer."),
     number!("icp_ga.vicinity.mutation_decades", "Near: mutation decades", IcpGa, Fold, None, [0.0, 6.0], 1,
         |r| r.icp_ga.vicinity.mutation_decades, |r, v| r.icp_ga.vicinity.mutation_decades = v,
         "Orders of magnitude between the largest and the smallest mutation. Raising it settles more finely and jumps less often."),
     number!("icp_ga.vicinity.half_turn_rate", "Near: half turns", IcpGa, Fold, None, [0.0, 1.0], 2,
         |r| r.icp_ga.vicinity.half_turn_rate, |r, v| r.icp_ga.vicinity.half_turn_rate = v,
-        "Chance of a child to jump by half a turn in one angle. Raising it leaves fewer children to settle."),
+        "Chance that a child jumps by half a turn in one angle. Raising it leaves fewer children to settle."),
     number!("icp_ga.elsewhere.population", "Elsewhere: population", IcpGa, Fold, None, [4.0, 10_000.0], 0,
         |r| r.icp_ga.elsewhere.population as f64, |r, v| r.icp_ga.elsewhere.population = v.round() as usize,
         "Population size. Raising it searches more valleys at once and takes time in proportion."),
@@ -227,13 +228,13 @@ pub const PARAMETERS: &[Parameter] = &[
         "Share of children that blend two parents. Raising it searches more between the parents and less around each."),
     number!("icp_ga.elsewhere.mutation_rate", "Elsewhere: mutation", IcpGa, Fold, None, [0.0, 1.0], 2,
         |r| r.icp_ga.elsewhere.mutation_rate, |r, v| r.icp_ga.elsewhere.mutation_rate = v,
-        "Chance of each gene to mutate; one always does. Raising it makes steps along one gene alone rarer."),
+        "Chance that each gene mutates; one always does. Raising it makes steps along one gene alone rarer."),
     number!("icp_ga.elsewhere.mutation_decades", "Elsewhere: mutation decades", IcpGa, Fold, None, [0.0, 6.0], 1,
         |r| r.icp_ga.elsewhere.mutation_decades, |r, v| r.icp_ga.elsewhere.mutation_decades = v,
         "Orders of magnitude between the largest and the smallest mutation. Raising it settles more finely and jumps less often."),
     number!("icp_ga.elsewhere.half_turn_rate", "Elsewhere: half turns", IcpGa, Fold, None, [0.0, 1.0], 2,
         |r| r.icp_ga.elsewhere.half_turn_rate, |r, v| r.icp_ga.elsewhere.half_turn_rate = v,
-        "Chance of a child to jump by half a turn in one angle. Raising it leaves fewer children to settle."),
+        "Chance that a child jumps by half a turn in one angle. Raising it leaves fewer children to settle."),
     number!("accept.min_score", "Accept from", Acceptance, Front, None, [0.0, 1.0], 2,
         |r| r.accept.min_score, |r, v| r.accept.min_score = v,
         "Minimum score. Raising it turns wrong verdicts into rejections, and some right ones too."),

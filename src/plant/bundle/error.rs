@@ -15,7 +15,7 @@ use crate::{
 #[derive(Debug, Error)]
 pub enum BundleError {
     /// A text is no store.
-    #[error("{address:?} is no store: {reason}")]
+    #[error("{address:?} is not a store: {reason}")]
     BadAddress {
         /// As it was given.
         address: String,
@@ -34,7 +34,7 @@ pub enum BundleError {
     },
     /// The store writes over what is there, though it was asked not to.
     #[error(
-        "{store}: this store does not keep two publishers from making the same version: it ignores If-None-Match"
+        "{store}: this store does not prevent two publishers from making the same version: it ignores If-None-Match"
     )]
     NoConditionalPut {
         /// Which.
@@ -57,7 +57,7 @@ pub enum BundleError {
         newest: u32,
     },
     /// Somebody else has published this version meanwhile.
-    #[error("{store}: version {version} was published by somebody else meanwhile")]
+    #[error("{store}: somebody else has published version {version} in the meantime")]
     VersionTaken {
         /// Which.
         store: StoreAddress,
@@ -79,7 +79,7 @@ pub enum BundleError {
         name: String,
     },
     /// Another key than the trusted one signed it.
-    #[error("{name}: signed by the key {found}, trusted is {trusted}")]
+    #[error("{name}: signed with the key {found}, but the trusted key is {trusted}")]
     OtherKey {
         /// Its name in the store.
         name: String,
@@ -131,7 +131,7 @@ pub enum BundleError {
         limit: u64,
     },
     /// The note is no note.
-    #[error("the note has {found} characters, at most {limit} are allowed")]
+    #[error("the note has {found} characters, but at most {limit} are allowed")]
     LongNote {
         /// Characters given.
         found: usize,
@@ -147,7 +147,7 @@ pub enum BundleError {
         installed: u32,
     },
     /// Parts would leave the library that are in no version taken before.
-    #[error("these parts are in no version that was taken: {}", listed(parts))]
+    #[error("these parts are not from a version that was taken: {}", listed(parts))]
     LocalParts {
         /// Which, and what became of them since.
         parts: Vec<LocalPart>,
@@ -161,13 +161,13 @@ pub enum BundleError {
         reason: String,
     },
     /// A key is there already.
-    #[error("{}: there already", path.display())]
+    #[error("{}: exists already", path.display())]
     KeyExists {
         /// The file.
         path: PathBuf,
     },
     /// A file holds no key of the kind that is needed.
-    #[error("{}: no Ed25519 {what} in PEM: {reason}", path.display())]
+    #[error("{}: not an Ed25519 {what} in PEM form: {reason}", path.display())]
     BadKey {
         /// The file.
         path: PathBuf,
@@ -177,7 +177,7 @@ pub enum BundleError {
         reason: String,
     },
     /// The system gives no random numbers.
-    #[error("the system gives no random numbers, of which a key is made")]
+    #[error("the system provides no random numbers, from which keys are made")]
     NoRandom,
     /// The system gives no thread or socket for the connection.
     #[error("the connection cannot be prepared: {source}")]
@@ -234,9 +234,10 @@ impl Advice for BundleError {
             Self::Store {
                 store: StoreAddress::Folder(_),
                 ..
-            } => "Check that the folder is there and its drive or share connected, and that you may use it".into(),
+            } => "Check that the folder exists, that its drive or share is connected, and that you may use it".into(),
             Self::Store { .. } => {
-                "Check the network, the bucket and its name, and AWS_ENDPOINT, AWS_REGION, AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY in the environment; the library that is there works without the store".into()
+                "Check the network, the bucket and its name, and AWS_ENDPOINT, AWS_REGION, AWS_ACCESS_KEY_ID and \
+                 AWS_SECRET_ACCESS_KEY in the environment; the installed library works without the store".into()
             }
             Self::NoConditionalPut { .. } => {
                 "Publish to a folder, or to a store that knows If-None-Match, such as Amazon S3 or a recent MinIO".into()
@@ -244,7 +245,8 @@ impl Advice for BundleError {
             Self::NothingPublished { .. } => {
                 "Check the address, or publish one: partsight library publish --to STORE --key FILE".into()
             }
-            Self::NoSuchVersion { newest, .. } => format!("Ask for --version {newest} or less, or for the newest without --version"),
+            Self::NoSuchVersion { newest, .. } => format!("Give --version {newest} or less, or leave --version out to \
+                take the newest"),
             Self::VersionTaken { .. } => {
                 "Look at what they published with partsight library take, then publish again: yours then becomes the next version".into()
             }
@@ -253,7 +255,7 @@ impl Advice for BundleError {
             }
             Self::Newer { .. } => "Update Partsight on this computer".into(),
             Self::OtherKey { .. } => {
-                "Ask who publishes for the public key, library.pub, and give that with --trust if you trust it".into()
+                "Ask the publisher for the public key, library.pub, and give that with --trust if you trust it".into()
             }
             Self::UnreadablePart { version, .. } => {
                 format!("Update Partsight on this computer if it is older than where version {version} was published; else publish the library again")
@@ -261,11 +263,11 @@ impl Advice for BundleError {
             Self::Problem(problem) => problem.advice(),
             Self::SprayPath(warning) => warning.advice(),
             Self::NoParts { .. } => "Enrol a part first: partsight enrol FILE --name NAME".into(),
-            Self::Changing { .. } => "Wait until nobody enrols any more, then publish again".into(),
-            Self::TooLarge { .. } => "Publish fewer parts at once, in several stores".into(),
+            Self::Changing { .. } => "Wait until nobody is enrolling parts, then publish again".into(),
+            Self::TooLarge { .. } => "Split the parts over several stores".into(),
             Self::LongNote { .. } => "Shorten the note".into(),
             Self::Older { found, .. } => {
-                format!("Nothing is to be done, unless you want to go back: then ask for --version {found}")
+                format!("Nothing needs to be done, unless you want to go back: then give --version {found}")
             }
             Self::LocalParts { .. } => {
                 "Publish them with the library, or take with --replace, which moves them to the library's .trash".into()
@@ -274,9 +276,10 @@ impl Advice for BundleError {
                 format!("Remove {}, then take the version again", path.display())
             }
             Self::KeyExists { .. } => {
-                "Use this key, or name another folder; cells that trust it take nothing that another key signed".into()
+                "Use this key, or name another folder; cells that trust this key take nothing signed with another \
+                 one".into()
             }
-            Self::BadKey { what, .. } => format!("Give the {what} that partsight library keys has made"),
+            Self::BadKey { what, .. } => format!("Give the {what} that partsight library keys made"),
             Self::NoRandom => "Report this with the message".into(),
             Self::NoRuntime { .. } => "Close other programs, then try again".into(),
             Self::Pack { source } => advice_on(source).into(),

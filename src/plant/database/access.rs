@@ -123,7 +123,7 @@ pub struct UnencryptedDatabase {
 
 impl Advice for UnencryptedDatabase {
     fn advice(&self) -> String {
-        "Leave sslmode=disable out, or use a network of the plant's own".into()
+        "Leave sslmode=disable out, or use a separate network for the plant".into()
     }
 }
 

@@ -36,38 +36,38 @@ pub enum DatabaseAddressError {
     Scheme,
     /// It contains a password, which other users of this computer could read in the list of processes.
     #[error(
-        "the address has a password, which everybody who lists the programs of this computer can read"
+        "the address contains a password, which everybody who lists the programs of this computer can read"
     )]
     Password,
     /// It has no user name.
     #[error("the address names no user")]
     NoUser,
     /// The host is missing, or is neither a name nor an IP address.
-    #[error("{host:?} is no name or IP address of a database's server")]
+    #[error("{host:?} is not the name or IP address of a database server")]
     Host {
         /// The host as given.
         host: String,
     },
     /// The port is not a number from 1 to 65535.
-    #[error("{port:?} is no port")]
+    #[error("{port:?} is not a port")]
     Port {
         /// The port as given.
         port: String,
     },
     /// The name of the user or the database has a character that is not allowed, or a wrong length.
-    #[error("{name:?} is no name of a user or a database")]
+    #[error("{name:?} is not a valid name of a user or a database")]
     Name {
         /// The name as given.
         name: String,
     },
     /// It has an option other than `sslmode`.
-    #[error("the address has the option {option:?}, which is not known here")]
+    #[error("the address has an unknown option: {option:?}")]
     Option {
         /// Name of the option.
         option: String,
     },
     /// The `sslmode` is unknown, or would not protect the connection.
-    #[error("sslmode={mode} is not offered")]
+    #[error("sslmode={mode} is not supported")]
     SslMode {
         /// The mode as given.
         mode: String,
@@ -238,19 +238,19 @@ mod tests {
             ("postgres://me@db/parts?password=secret", "password"),
             ("postgres://db/parts", "names no user"),
             ("postgres://@db/parts", "names no user"),
-            ("postgres://me@/parts", "no name or IP"),
-            ("postgres://me@a b/parts", "no name or IP"),
-            ("postgres://me@db:0/parts", "no port"),
-            ("postgres://me@db:70000/parts", "no port"),
-            ("postgres://me@db", "no name of a user"),
-            ("postgres://me@db/", "no name of a user"),
-            ("postgres://me@db/a/b", "no name of a user"),
-            ("postgres://me@db/a\nb", "no name of a user"),
-            ("postgres://m e@db/a", "no name of a user"),
-            ("postgres://me@db/a?sslmode=prefer", "not offered"),
-            ("postgres://me@db/a?sslmode", "not offered"),
+            ("postgres://me@/parts", "not the name or IP"),
+            ("postgres://me@a b/parts", "not the name or IP"),
+            ("postgres://me@db:0/parts", "not a port"),
+            ("postgres://me@db:70000/parts", "not a port"),
+            ("postgres://me@db", "not a valid name of a user"),
+            ("postgres://me@db/", "not a valid name of a user"),
+            ("postgres://me@db/a/b", "not a valid name of a user"),
+            ("postgres://me@db/a\nb", "not a valid name of a user"),
+            ("postgres://m e@db/a", "not a valid name of a user"),
+            ("postgres://me@db/a?sslmode=prefer", "not supported"),
+            ("postgres://me@db/a?sslmode", "not supported"),
             ("postgres://me@db/a?host=b", "\"host\""),
-            (&long, "no name of a user"),
+            (&long, "not a valid name of a user"),
         ] {
             let error = text.parse::<DatabaseAddress>().expect_err(text);
             assert!(error.to_string().contains(words), "{text}: {error}");

@@ -15,7 +15,7 @@ const MAX_LETTERS: usize = 64;
 
 /// A text is not a valid name of a cell.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{name:?} is no name of a cell")]
+#[error("{name:?} is not a valid name of a cell")]
 pub struct BadCellName {
     name: String,
 }

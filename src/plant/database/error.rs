@@ -54,7 +54,7 @@ pub enum DatabaseError {
         cause: String,
     },
     /// The database's encoding cannot store every text.
-    #[error("{database} keeps text as {encoding}, in which not every name can be written")]
+    #[error("{database} stores text as {encoding}, which cannot represent every name")]
     Encoding {
         /// The database.
         database: Box<DatabaseAddress>,
@@ -182,24 +182,27 @@ impl Advice for DatabaseError {
     fn advice(&self) -> String {
         match self {
             Self::Unreachable { .. } => {
-                "Check the server and the network; inspections go on, and what is not sent stays in the history here".into()
+                "Check the server and the network; inspections continue, and what is not sent stays in the history \
+                 here".into()
             }
             Self::Refused { .. } => {
                 "Check the user in the address, --database-password-file, and what the server's pg_hba.conf allows".into()
             }
             Self::NotFound { database } => format!(
-                "Make it once: CREATE DATABASE \"{}\" ENCODING 'UTF8' TEMPLATE template0",
+                "Create it once: CREATE DATABASE \"{}\" ENCODING 'UTF8' TEMPLATE template0",
                 database.name
             ),
             Self::Tls { .. } => {
-                "Check that the address names the host that stands in the server's certificate, and --database-ca the authority that signed it".into()
+                "Check that the address names the host in the server's certificate, and --database-ca the authority \
+                 that signed it".into()
             }
             Self::Forbidden { database, .. } => format!(
-                "Let the database's owner send once, or grant this user what it needs: GRANT CREATE ON DATABASE \"{}\", or USAGE on the schema partsight and SELECT, INSERT, UPDATE on its tables",
+                "Have the database's owner send once, or grant this user what it needs: GRANT CREATE ON DATABASE \
+                 \"{}\", or USAGE on the schema partsight and SELECT, INSERT, UPDATE on its tables",
                 database.name
             ),
             Self::Encoding { .. } => {
-                "Use a database that was made with ENCODING 'UTF8'".into()
+                "Use a database that was created with ENCODING 'UTF8'".into()
             }
             Self::Newer { .. } => "Update Partsight on this computer".into(),
             Self::Empty { .. } => {

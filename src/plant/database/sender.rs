@@ -91,7 +91,7 @@ pub struct Unsent {
 
 impl Advice for Unsent {
     fn advice(&self) -> String {
-        "Nothing is lost: they are sent by the next start, or now by partsight history send".into()
+        "Nothing is lost: they are sent at the next start, or now by partsight history send".into()
     }
 }
 

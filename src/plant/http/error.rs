@@ -14,13 +14,13 @@ pub enum HttpError {
     #[error(transparent)]
     Serve(#[from] ServeError),
     /// The address is reachable by other computers, and no token is required.
-    #[error("{address} is open to the network, and no token is asked for")]
+    #[error("{address} is open to the network, but no token is required")]
     OpenWithoutToken {
         /// The address to listen at.
         address: SocketAddr,
     },
     /// The convention of poses was not chosen.
-    #[error("HTTP does not say in which numbers the robot expects a pose")]
+    #[error("HTTP has no convention of its own for poses, and none is chosen")]
     NoConvention,
     /// A file with tokens, a certificate or a key cannot be read.
     #[error(transparent)]
@@ -33,7 +33,8 @@ pub enum HttpError {
     },
     /// A line of the token file is not a valid token.
     #[error(
-        "line {line} of {} is no token: expected {min_letters} to {max_letters} printable ASCII letters without blanks",
+        "line {line} of {} is not a token: expected {min_letters} to {max_letters} printable ASCII letters without \
+         blanks",
         path.display()
     )]
     BadToken {
@@ -47,7 +48,7 @@ pub enum HttpError {
         max_letters: usize,
     },
     /// The file lacks the expected PEM section.
-    #[error("{} has no {what} in PEM: {reason}", path.display())]
+    #[error("{} has no {what} in PEM form: {reason}", path.display())]
     NotPem {
         /// Path of the file.
         path: PathBuf,

@@ -13,15 +13,15 @@ pub(super) const MAX_BODY_BYTES: usize = 1024;
 pub(super) enum Refusal {
     #[error("no token was sent, or a wrong one")]
     WrongToken,
-    #[error("a web page asks")]
+    #[error("the request comes from a web page")]
     WebPage,
-    #[error("nothing has this path")]
+    #[error("there is no such path")]
     NoSuchPath,
-    #[error("the path does not take this method")]
+    #[error("the path does not support this method")]
     WrongMethod,
-    #[error("a request that was not complete after {seconds} s")]
+    #[error("the request was not complete after {seconds} s")]
     Incomplete { seconds: u64 },
-    #[error("a body longer than {} bytes", MAX_BODY_BYTES)]
+    #[error("the body is longer than {} bytes", MAX_BODY_BYTES)]
     TooLong,
 }
 
@@ -61,7 +61,7 @@ impl Advice for Refusal {
             }
             Self::NoSuchPath => "GET /v1/openapi.json lists the paths".into(),
             Self::WrongMethod => "POST /v1/trigger, and GET the other paths".into(),
-            Self::Incomplete { .. } => "Send the request whole, with its body".into(),
+            Self::Incomplete { .. } => "Send the complete request, with its body".into(),
             Self::TooLong => "Send no body".into(),
         }
     }

@@ -66,7 +66,8 @@ impl HttpSettings {
 /// Others on the network can read what HTTP sends, including the tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
-    "http={address} is open to the network without encryption: whoever listens there reads the token and the poses"
+    "http={address} is open to the network without encryption: anyone along the network path can read the token and \
+     the poses"
 )]
 pub struct TokenInTheOpen {
     address: SocketAddr,
@@ -74,7 +75,7 @@ pub struct TokenInTheOpen {
 
 impl Advice for TokenInTheOpen {
     fn advice(&self) -> String {
-        "Give a certificate with --http-cert and --http-key, or use a network of the cell's own"
+        "Give a certificate with --http-cert and --http-key, or use a separate network for the cell"
             .into()
     }
 }

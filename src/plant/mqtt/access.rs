@@ -116,7 +116,7 @@ pub struct Unencrypted {
 
 impl Advice for Unencrypted {
     fn advice(&self) -> String {
-        "Use mqtts://, or a network of the plant's own".into()
+        "Use mqtts://, or a separate network for the plant".into()
     }
 }
 

@@ -35,11 +35,11 @@ pub enum AddressError {
     Scheme,
     /// It contains a password, which other users of this computer could read in the list of processes.
     #[error(
-        "the address has a password, which everybody who lists the programs of this computer can read"
+        "the address contains a password, which everybody who lists the programs of this computer can read"
     )]
     Password,
     /// The host is missing, or is neither a name nor an IP address.
-    #[error("{host:?} is no name or IP address of a broker")]
+    #[error("{host:?} is not the name or IP address of a broker")]
     Host {
         /// The host as given.
         host: String,
@@ -51,13 +51,13 @@ pub enum AddressError {
         host: String,
     },
     /// The port is not a number from 1 to 65535.
-    #[error("{port:?} is no port")]
+    #[error("{port:?} is not a port")]
     Port {
         /// The port as given.
         port: String,
     },
     /// The topic prefix is not valid.
-    #[error("{prefix:?} is no beginning of a topic")]
+    #[error("{prefix:?} is not a valid topic prefix")]
     Prefix {
         /// The prefix as given.
         prefix: String,
@@ -74,7 +74,7 @@ impl Advice for AddressError {
                 "Give 1 to {MAX_PREFIX_BYTES} letters, digits and slashes, without +, # and a $ at the beginning, such as mqtt://broker/hall3/cell7"
             ),
             Self::EncryptedIpv6 { .. } => {
-                "Give the name that stands in the broker's certificate".into()
+                "Give the name in the broker's certificate".into()
             }
             Self::Scheme | Self::Host { .. } | Self::Port { .. } => {
                 "Give an address such as mqtt://broker/cell7 or mqtts://user@192.168.1.5:8883/hall3/cell7".into()
@@ -176,24 +176,24 @@ mod tests {
             ("me:secret@broker/cell", "does not begin"),
             ("mqtt://me:secret@broker/cell", "password"),
             ("mqtt://me:secret/1@broker/cell", "password"),
-            ("mqtt:///cell", "no name"),
-            ("mqtt://a b/cell", "no name"),
-            ("mqtt://[::1/cell", "no name"),
-            ("mqtt://[nonsense]/cell", "no name"),
-            ("mqtt://::1/cell", "no name"),
+            ("mqtt:///cell", "not the name"),
+            ("mqtt://a b/cell", "not the name"),
+            ("mqtt://[::1/cell", "not the name"),
+            ("mqtt://[nonsense]/cell", "not the name"),
+            ("mqtt://::1/cell", "not the name"),
             ("mqtts://[::1]/cell", "name, not"),
-            ("mqtt://broker:0/cell", "no port"),
-            ("mqtt://broker:70000/cell", "no port"),
-            ("mqtt://broker:/cell", "no port"),
-            ("mqtt://broker", "no beginning of a topic"),
-            ("mqtt://broker/", "no beginning of a topic"),
-            ("mqtt://broker/a//b", "no beginning of a topic"),
-            ("mqtt://broker/a/", "no beginning of a topic"),
-            ("mqtt://broker/+/a", "no beginning of a topic"),
-            ("mqtt://broker/a/#", "no beginning of a topic"),
-            ("mqtt://broker/$SYS", "no beginning of a topic"),
-            ("mqtt://broker/a\nb", "no beginning of a topic"),
-            (&long, "no beginning of a topic"),
+            ("mqtt://broker:0/cell", "not a port"),
+            ("mqtt://broker:70000/cell", "not a port"),
+            ("mqtt://broker:/cell", "not a port"),
+            ("mqtt://broker", "not a valid topic prefix"),
+            ("mqtt://broker/", "not a valid topic prefix"),
+            ("mqtt://broker/a//b", "not a valid topic prefix"),
+            ("mqtt://broker/a/", "not a valid topic prefix"),
+            ("mqtt://broker/+/a", "not a valid topic prefix"),
+            ("mqtt://broker/a/#", "not a valid topic prefix"),
+            ("mqtt://broker/$SYS", "not a valid topic prefix"),
+            ("mqtt://broker/a\nb", "not a valid topic prefix"),
+            (&long, "not a valid topic prefix"),
         ] {
             let error = text.parse::<BrokerAddress>().expect_err(text);
             assert!(error.to_string().contains(words), "{text}: {error}");

@@ -83,7 +83,7 @@ impl LinkTrouble {
                     ConnectReturnCode::BadUserNamePassword | ConnectReturnCode::NotAuthorized => {
                         "the user or the password is wrong, or the user may not connect"
                     }
-                    ConnectReturnCode::BadClientId => "it does not take the client identifier",
+                    ConnectReturnCode::BadClientId => "it rejects the client identifier",
                     ConnectReturnCode::RefusedProtocolVersion => "it does not speak MQTT 3.1.1",
                     ConnectReturnCode::ServiceUnavailable | ConnectReturnCode::Success => {
                         "it is not available"
@@ -110,16 +110,19 @@ impl Advice for LinkTrouble {
     fn advice(&self) -> String {
         match self {
             Self::Unreachable { .. } => {
-                "Check the broker and the network; inspections go on, and connecting is tried again by itself".into()
+                "Check the broker and the network; inspections continue, and the connection is retried".into()
             }
             Self::Refused { .. } => {
-                "Check the user in --mqtt, --mqtt-password-file and the broker's list of users; connecting is tried again by itself".into()
+                "Check the user in --mqtt, --mqtt-password-file and the broker's list of users; the connection is \
+                 retried".into()
             }
             Self::Tls { .. } => {
-                "Check that --mqtt names the host that stands in the broker's certificate, and --mqtt-ca the authority that signed it".into()
+                "Check that --mqtt names the host in the broker's certificate, and --mqtt-ca the authority that \
+                 signed it".into()
             }
             Self::Broken { .. } => {
-                "Check the broker and the network, and that no other program publishes under this topic prefix; connecting is tried again by itself".into()
+                "Check the broker and the network, and that no other program publishes under this topic prefix; the \
+                 connection is retried".into()
             }
             Self::Fault(fault) => fault.advice(),
         }

@@ -12,7 +12,7 @@ pub enum ArmError {
     #[error(transparent)]
     File(#[from] FileError),
     /// No arm has this name.
-    #[error("no arm is called {name:?}")]
+    #[error("no arm is named {name:?}")]
     Unknown {
         /// The name given.
         name: String,
@@ -60,7 +60,7 @@ pub enum ArmError {
         high: f64,
     },
     /// The text does not describe a rail.
-    #[error("{text:?} is no rail")]
+    #[error("{text:?} is not a rail")]
     NoRail {
         /// The text given.
         text: String,
@@ -106,7 +106,7 @@ impl Advice for ArmError {
             }
             Self::Limits { .. } => "Give the lower limit first, then the upper one, in degrees".into(),
             Self::Rail { .. } => {
-                "Let it begin below where it ends, both within 100 m (100000 mm) of where the cell was calibrated".into()
+                "Give a start below the end, both within 100 m (100000 mm) of where the cell was calibrated".into()
             }
             Self::NoRail { .. } => {
                 "Give x, y or z, where it begins and ends in mm and, if it moves along the path, its top speed in mm/s and its acceleration in mm/s²: y,-2000,2000,1000,2000".into()

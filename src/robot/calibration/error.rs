@@ -20,7 +20,7 @@ pub enum CalibrationError {
         found: u32,
     },
     /// The file has unexpected content.
-    #[error("{}: no calibration: {found}", path.display())]
+    #[error("{}: not a calibration: {found}", path.display())]
     Bad {
         /// The file.
         path: PathBuf,
@@ -36,13 +36,13 @@ pub enum CalibrationError {
         key: &'static str,
     },
     /// The numbers would change in the file, so it was not written.
-    #[error("{}: not written: the numbers would not come back from the file as they are", path.display())]
+    #[error("{}: not written: the file would not give back the same numbers", path.display())]
     NotKept {
         /// The file.
         path: PathBuf,
     },
     /// The system names no folder for user data.
-    #[error("this system names no folder for a user's data")]
+    #[error("this system has no folder for user data")]
     NoUserFolder,
 }
 
@@ -58,7 +58,8 @@ impl Advice for CalibrationError {
                 "Correct the file in a text editor, or calibrate again; partsight calibrate set --help shows how".into()
             }
             Self::NotRigid { .. } => {
-                "Enter the matrix again with at least four digits behind the point: rows of a rotation, then the shift in metres, then 0 0 0 1".into()
+                "Enter the matrix again with at least four digits after the decimal point: rows of a rotation, then \
+                 the shift in metres, then 0 0 0 1".into()
             }
             Self::NotKept { .. } => {
                 "Check the numbers and their convention: a camera sits within metres of the robot".into()

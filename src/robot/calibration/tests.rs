@@ -198,7 +198,7 @@ fn what_is_no_calibration_is_refused_in_words() {
         ),
         (sound.replace("schema_version = 1", ""), "schema_version"),
         ("[[[".into(), "line 1"),
-        ("a\u{0}b".into(), "no calibration"),
+        ("a\u{0}b".into(), "not a calibration"),
     ] {
         let error = load_text(&text).expect_err(expected);
         assert!(error.to_string().contains(expected), "{error}");

@@ -69,7 +69,7 @@ pub enum CellCheckError {
         found: String,
     },
     /// The system names no folder for user data.
-    #[error("this system names no folder for a user's data")]
+    #[error("this system has no folder for user data")]
     NoUserFolder,
 }
 
@@ -216,7 +216,7 @@ impl CellCheckFolder {
         }
         let read: Text = toml::from_str(&text).map_err(first_line)?;
         if Path::new(&read.part).file_name() != Some(read.part.as_ref()) {
-            return Err(bad("the file of the points is not beside it".into()));
+            return Err(bad("the file of the points beside it is missing".into()));
         }
         let limits = CellLimits {
             shift: Metres(read.max_shift_m),
@@ -234,14 +234,14 @@ impl CellCheckFolder {
             PlanePatch::through(ends.map(Into::into)).filter(|_| is_near)
         });
         let background: Option<Vec<PlanePatch>> = background.collect();
-        let background = background.ok_or_else(|| bad("wall or floor is no plane".into()))?;
+        let background = background.ok_or_else(|| bad("wall or floor is not a plane".into()))?;
         let points = self.path.join(&read.part);
         let part = match open(&points)? {
             FileContent::Cloud(cloud) if cloud.points.iter().all(is_finite) => cloud,
             _ => {
                 return Err(CellCheckError::Bad {
                     path: points,
-                    found: "no points of a baseline".into(),
+                    found: "not the points of a baseline".into(),
                 });
             }
         };

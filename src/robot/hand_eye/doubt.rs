@@ -82,7 +82,7 @@ pub enum HandEyeDoubt {
     },
     /// A pair deviates far from what the others agree on.
     #[error(
-        "{pair} is suspect: {:.1} mm and {:.2}° off what the others say, which agree to {:.1} mm and {:.2}° rms",
+        "{pair} is suspect: {:.1} mm and {:.2}° off the other pairs, which agree to {:.1} mm and {:.2}° rms",
         off.shift.mm(), off.rotation.degrees(), others.shift.mm(), others.rotation.degrees()
     )]
     Suspect {
@@ -106,7 +106,7 @@ pub enum HandEyeDoubt {
         span: Span,
     },
     /// Too few pairs for their residuals to say much.
-    #[error("with {found} pairs the residuals say little of how far off the result is")]
+    #[error("with {found} pairs the residuals say little about how far off the result is")]
     FewPairs {
         /// Pairs given.
         found: usize,

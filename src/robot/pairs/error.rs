@@ -15,7 +15,7 @@ pub enum PairsError {
     #[error(transparent)]
     File(#[from] FileError),
     /// Neither the caller nor the file names the convention of the robot's poses.
-    #[error("{}: nothing says in which convention the robot's poses are written", path.display())]
+    #[error("{}: the convention of the robot's poses is not given", path.display())]
     NoConvention {
         /// The file.
         path: PathBuf,
@@ -31,7 +31,7 @@ pub enum PairsError {
         problem: LineProblem,
     },
     /// Not JSON of pairs.
-    #[error("{}: no JSON of pairs: {found}", path.display())]
+    #[error("{}: not a JSON file of pairs: {found}", path.display())]
     BadJson {
         /// The file.
         path: PathBuf,
@@ -71,7 +71,7 @@ pub enum LineProblem {
     #[error(transparent)]
     Pose(#[from] ConventionError),
     /// No convention has this name.
-    #[error("no convention is called {:?}", shortened(name))]
+    #[error("no convention is named {:?}", shortened(name))]
     NoSuchConvention {
         /// The name in the file.
         name: String,

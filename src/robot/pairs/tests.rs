@@ -82,10 +82,10 @@ fn poses_of_the_arm_name_their_captures() {
 #[test]
 fn what_is_wrong_is_named_with_its_line() {
     for (text, expected) in [
-        ("1 2 3\n", "nothing says in which convention"),
+        ("1 2 3\n", "convention of the robot's poses is not given"),
         (
             "# robot: kukka\n1 2 3\n",
-            "line 1: no convention is called \"kukka\"",
+            "line 1: no convention is named \"kukka\"",
         ),
         (
             "# robot: kuka\n# camera: kuka\n1 2 3 4 5 6 7 8 9 10 11\n",
@@ -102,7 +102,7 @@ fn what_is_wrong_is_named_with_its_line() {
         ("# robot: kuka\n# nothing\n", "no poses"),
         (
             "{\"robot\": \"kuka\"}",
-            "no JSON of pairs: missing field `pairs`",
+            "not a JSON file of pairs: missing field `pairs`",
         ),
         ("{\"robot\": \"kuka\", \"pairs\": []}", "no poses"),
         (

@@ -12,13 +12,13 @@ pub enum ProgramError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The file's ending is not that of a controller's language.
-    #[error("{}: the ending names no controller's language", path.display())]
+    #[error("{}: the ending does not stand for a controller's language", path.display())]
     UnknownEnding {
         /// The file.
         path: PathBuf,
     },
     /// The controller does not accept a program of this name.
-    #[error("{} takes no program called {name:?}", format.title())]
+    #[error("{} does not accept a program named {name:?}", format.title())]
     Name {
         /// The language.
         format: ProgramFormat,
@@ -37,7 +37,7 @@ pub enum ProgramError {
         point: usize,
     },
     /// A speed outside the controller's range.
-    #[error("point {point} asks for {:.1} mm/s, {} takes {:.0} to {:.0}", speed * 1000.0, format.title(), format.speeds()[0] * 1000.0, format.speeds()[1] * 1000.0)]
+    #[error("point {point} asks for {:.1} mm/s, but {} accepts {:.0} to {:.0}", speed * 1000.0, format.title(), format.speeds()[0] * 1000.0, format.speeds()[1] * 1000.0)]
     Speed {
         /// The language.
         format: ProgramFormat,
@@ -47,7 +47,7 @@ pub enum ProgramError {
         speed: f64,
     },
     /// More instructions between two places with the gun off than one program holds.
-    #[error("the gun stays on for {found} instructions, a program in {} holds {most} beside its header", format.title())]
+    #[error("the gun stays on for {found} instructions, but a program in {} holds at most {most} besides its header", format.title())]
     TooMany {
         /// The language.
         format: ProgramFormat,
@@ -57,7 +57,7 @@ pub enum ProgramError {
         most: usize,
     },
     /// Not a tool of the controller.
-    #[error("{tool:?} is no tool of {}", format.title())]
+    #[error("{tool:?} is not a tool of {}", format.title())]
     Tool {
         /// The language.
         format: ProgramFormat,
@@ -99,7 +99,7 @@ impl Advice for ProgramError {
             Self::UnknownEnding { .. } => {
                 let known = ProgramFormat::ALL.map(|format| format!(".{}", format.ending()));
                 format!(
-                    "Let the file end in {}, or name the language with --robot-program-format",
+                    "End the file's name in {}, or give the language with --robot-program-format",
                     known.join(", ")
                 )
             }

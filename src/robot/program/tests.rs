@@ -267,7 +267,7 @@ fn what_a_controller_would_not_take_is_refused_with_advice() {
     let usual = ProgramSettings::default();
     for format in ProgramFormat::ALL {
         for name in ["", "1st", "bon jour", "tür", &"x".repeat(65)] {
-            assert!(refused(&points, &usual, format, name).contains("called"));
+            assert!(refused(&points, &usual, format, name).contains("named"));
         }
         assert!(refused(&[], &usual, format, "p").contains("no points"));
         for bad in [f64::NAN, f64::INFINITY] {
@@ -294,7 +294,7 @@ fn what_a_controller_would_not_take_is_refused_with_advice() {
         if format != ProgramFormat::UrScript {
             for tool in ["0", "64", "gun 1", ""] {
                 let settings = with(&|s| s.tool = Some(tool.into()));
-                assert!(refused(&points, &settings, format, "p").contains("no tool"));
+                assert!(refused(&points, &settings, format, "p").contains("not a tool"));
             }
         }
     }

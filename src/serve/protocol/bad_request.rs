@@ -9,25 +9,25 @@ use crate::error::Advice;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum BadRequest {
     /// The request is longer than any valid one.
-    #[error("a request longer than {limit} bytes")]
+    #[error("the request is longer than {limit} bytes")]
     TooLong {
         /// Maximum length, bytes.
         limit: usize,
     },
     /// The request did not end in time.
-    #[error("a request that was not complete after {seconds} s")]
+    #[error("the request was not complete after {seconds} s")]
     Incomplete {
         /// How long its end was waited for, seconds.
         seconds: u64,
     },
     /// The word is not a request.
-    #[error("no request: {found:?}")]
+    #[error("not a request: {found:?}")]
     Unknown {
         /// The text found, in printable characters.
         found: String,
     },
     /// The text after `PATH` is not a number.
-    #[error("no number of a point: {found:?}")]
+    #[error("not the number of a point: {found:?}")]
     NoPoint {
         /// The text found, in printable characters.
         found: String,
@@ -36,7 +36,7 @@ pub enum BadRequest {
     #[error("the frame does not begin with PSRQ")]
     Magic,
     /// The frame has another version, or the other byte order.
-    #[error("a frame of version {found}, expected {}", VERSION)]
+    #[error("the frame has version {found}, expected {}", VERSION)]
     Version {
         /// The version found.
         found: u16,
@@ -44,7 +44,7 @@ pub enum BadRequest {
         order: ByteOrder,
     },
     /// The frame's length field is not the length of a request.
-    #[error("a frame that gives its length as {found} bytes, expected {expected}")]
+    #[error("the frame gives its length as {found} bytes, expected {expected}")]
     Length {
         /// The length found.
         found: u16,
@@ -112,7 +112,7 @@ impl Advice for BadRequest {
             Self::TooLong { .. } | Self::Unknown { .. } => {
                 "Send TRIGGER, STATUS, LAST or PATH, in the protocol of this port".into()
             }
-            Self::Incomplete { .. } => "Send the request whole, with its end".into(),
+            Self::Incomplete { .. } => "Send the complete request, with its terminator".into(),
             Self::NoPoint { .. } => "Send PATH, or PATH and the number of a point from 1".into(),
             Self::Magic => "Begin the frame with the bytes 50 53 52 51".into(),
             Self::Version { found, order } => {
@@ -128,7 +128,7 @@ impl Advice for BadRequest {
             }
             Self::Length { .. } => "Send the length of the whole frame with its checksum".into(),
             Self::Checksum { .. } => {
-                "Count CRC-32 (ISO 3309, as ZIP) over all bytes before the checksum".into()
+                "Calculate CRC-32 (ISO 3309, as in ZIP) over all bytes before the checksum".into()
             }
             Self::NotXml { .. } => {
                 "Send <Robot><Request>TRIGGER</Request><Point>0</Point></Robot>".into()

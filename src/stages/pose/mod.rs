@@ -233,7 +233,7 @@ impl crate::error::Advice for PoseWarning {
             Self::LittleOverlap { .. } => {
                 "Check that both clouds show the same thing and share at least half of it".into()
             }
-            Self::Ambiguous { .. } => "Say where to start with --initial".into(),
+            Self::Ambiguous { .. } => "Give a start with --initial".into(),
             Self::Loose { .. } => {
                 "Use clouds that show more of the part: an edge, a bend, a corner".into()
             }
@@ -277,7 +277,7 @@ pub enum PoseError {
     },
     /// The closest points leave the pose free.
     #[error(
-        "the {which} cloud leaves the pose free: its points lie on a line or a spot ({width:.5} m wide)"
+        "the {which} cloud does not determine the pose: its points lie on a line or a spot ({width:.5} m wide)"
     )]
     Degenerate {
         /// Source or target.
@@ -335,7 +335,7 @@ pub enum PoseError {
 impl crate::error::Advice for PoseError {
     fn advice(&self) -> String {
         match self {
-            Self::TooFewPoints { .. } => "Capture the part again from nearer, or enrol it again".into(),
+            Self::TooFewPoints { .. } => "Capture the part again from closer, or enrol it again".into(),
             Self::Degenerate { .. } => "Use a cloud that shows a surface, not a line or a single spot".into(),
             Self::OneSidedPairs { .. } | Self::NoOverlap { .. } => {
                 "Check that both clouds show the same part in metres, or give a start with --initial".into()

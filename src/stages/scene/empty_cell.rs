@@ -29,10 +29,10 @@ pub struct EmptyCell {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EmptyCellError {
     /// The capture has no rows and columns.
-    #[error("the capture of the empty cell is no picture: its points have no rows and columns")]
+    #[error("the capture of the empty cell is not a picture: its points have no rows and columns")]
     NoPicture,
     /// The capture has other rows and columns than the scene, so it is from another camera.
-    #[error("the empty cell was captured with other rows and columns, and is left aside")]
+    #[error("the empty cell was captured with another number of rows or columns, and is not used")]
     OtherPicture,
 }
 

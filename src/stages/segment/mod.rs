@@ -149,8 +149,8 @@ impl Advice for NoPart {
             Self::OnlyBackground {
                 knows_cell: true, ..
             } => {
-                "Hang the part in front of the camera, at least 10 cm away from the wall, and capture again; if it hung there \
-                 when the empty cell was captured, capture that anew without it"
+                "Hang the part in front of the camera, at least 10 cm away from the wall, and capture again; if it \
+                 hung there when the empty cell was captured, capture that again without it"
                     .into()
             }
             Self::OnlyBackground { .. } => {

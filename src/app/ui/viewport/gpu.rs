@@ -45,7 +45,7 @@ pub enum ViewError {
     },
     /// The requested picture is larger than the device can draw, or empty.
     #[error(
-        "a picture of {width} × {height} pixels was asked for, the device draws 1 × 1 to {most} × {most}"
+        "a picture of {width} × {height} pixels was requested, but the device draws 1 × 1 to {most} × {most}"
     )]
     PictureSize {
         /// Requested width, pixels.

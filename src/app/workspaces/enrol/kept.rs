@@ -199,7 +199,7 @@ fn examined(enrol: &EnrolState) -> Option<Arc<Selection>> {
 enum BadDraft {
     #[error(transparent)]
     Unreadable(#[from] FileError),
-    #[error("it is not what Partsight writes ({0})")]
+    #[error("it is not in Partsight's format ({0})")]
     Garbled(String),
     #[error("it was written by a newer version of Partsight ({found}, this one knows {SCHEMA})")]
     Newer { found: u32 },

@@ -83,7 +83,7 @@ fn one_frame_that_accepts_another_part_is_enough_to_reject() {
         needed: 8,
     };
     assert_eq!(found.verdict.rejected(), Some(&expected));
-    // One that only names it, without accepting it, is a bad frame among good ones.
+    // A frame that names another part without accepting it is only a bad frame among good ones.
     let mut frames: Vec<_> = (0..10).map(|_| (part("door", 0.99, None), 0.0)).collect();
     frames[3].0 = part("fender", 0.4, Some(unlike("fender")));
     assert!(agreed(frames).expect("enough frames").verdict.is_accepted());
@@ -136,7 +136,7 @@ fn poses_of_two_references_are_not_one_pose_though_they_lie_together() {
             .expect("enough frames")
     };
     assert!(of_last(2, "door").verdict.is_accepted());
-    // Nine of ten agree, but the frame that would carry their pose is of the other reference.
+    // Most frames agree, but the poses of the last frame's reference are too few.
     for (num_of_other, last, num_agreeing) in [(0, "door_b", 1), (3, "door", 7)] {
         let found = of_last(num_of_other, last);
         let complaint = found.verdict.rejected();
@@ -149,7 +149,7 @@ fn poses_of_two_references_are_not_one_pose_though_they_lie_together() {
 
 #[test]
 fn a_median_below_the_threshold_is_not_accepted_though_frames_were() {
-    // As when the threshold was raised between two frames.
+    // This happens when the threshold is raised between two frames.
     let frames = (0..10).map(|_| (part("door", 0.85, None), 0.0));
     assert!(!agreed(frames).expect("enough frames").verdict.is_accepted());
 }
@@ -198,7 +198,7 @@ fn frames_that_take_it_for_one_of_two_parts_by_turns_name_both_as_a_single_frame
     let by_turns = |i: usize| match i % 3 {
         0 => part("door", 0.97, Some(alike("door", "door_copy"))),
         1 => part("door_copy", 0.97, Some(alike("door_copy", "door"))),
-        // Now and then the lead is large enough.
+        // In a few frames the lead is large enough.
         _ if i == 5 => part("door_copy", 0.97, None),
         _ => part("door", 0.97, None),
     };
@@ -208,7 +208,7 @@ fn frames_that_take_it_for_one_of_two_parts_by_turns_name_both_as_a_single_frame
         Some(&alike("door", "door_copy")),
         "{found:?}"
     );
-    // A third part among them is another matter.
+    // With a third part among them, the frames are undecided.
     let mut frames: Vec<_> = (0..10).map(|i| (by_turns(i), 0.0)).collect();
     for frame in &mut frames[..3] {
         frame.0 = part("fender", 0.97, None);

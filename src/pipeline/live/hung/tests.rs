@@ -1,4 +1,4 @@
-//! Frames of the simulated cell, each inspected once, as one part after the other would show them.
+//! Sequences of frames of the simulated cell, each inspected once, as parts hung one after the other would give them.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::{
     units::{Metres, Radians},
 };
 
-/// A frame as it was inspected by itself.
+/// A frame with its own inspection.
 struct Seen {
     scene: Arc<SceneCloud>,
     inspection: Inspection,
@@ -44,7 +44,7 @@ fn part(kind: PartKind) -> SimulatedObject {
     }
 }
 
-/// Follows such frames, four a second.
+/// Follows such frames at four per second.
 #[derive(Default)]
 struct Line {
     parts: HungParts,
@@ -56,7 +56,7 @@ impl Line {
         self.see(seen, &LiveVerdict::Open, "")
     }
 
-    /// A frame after which the verdict of that very frame counts.
+    /// A frame whose own verdict counts at once.
     fn counted(&mut self, seen: &Seen, inputs: &str) -> (Left, FrameRole) {
         let pose = seen.inspection.pose.as_ref();
         let pose = pose.and_then(|pose| pose.as_ref().ok());
@@ -110,7 +110,7 @@ fn one_part_after_the_other_is_one_inspection_each_also_at_the_same_place() {
             assert_eq!(line.open(&empty), NOTHING);
         }
     }
-    // The next one hangs at once where the last did: a frame between them is enough.
+    // The next part hangs in the same place at once: one empty frame between them is enough.
     assert_eq!(line.counted(&fender, ""), FIRST);
     assert_eq!(line.open(&empty), NOTHING);
     assert_eq!(line.open(&fender), NOTHING);
@@ -137,14 +137,14 @@ fn another_verdict_recipe_or_place_is_the_same_part_again() {
         (Left::Nothing, FrameRole::First)
     );
     assert_eq!(line.counted(&fender, "a"), AGAIN);
-    // Once said is enough, however often it changes.
+    // Each verdict is reported once, however often it changes.
     assert_eq!(line.counted(&refused, "a"), NOTHING);
     assert_eq!(line.counted(&fender, "a"), NOTHING);
     assert_eq!(line.counted(&fender, "b"), AGAIN);
-    // Somebody walks by.
+    // A person walks by.
     assert_eq!(line.open(&fender), NOTHING);
     assert_eq!(line.counted(&fender, "b"), NOTHING);
-    // Somebody pushes it.
+    // A person pushes it.
     assert_eq!(line.open(&aside), NOTHING);
     assert_eq!(line.counted(&aside, "b"), AGAIN);
     assert_eq!(line.parts.visit(), 1);
@@ -159,7 +159,7 @@ fn what_leaves_before_its_verdict_counts_is_told_once_it_has_left_if_it_looked_l
     assert!(wheel.inspection.verdict.is_unknown());
     let mut line = Line::default();
     assert_eq!(line.open(&wheel).1, FrameRole::Best);
-    // A part says more than what looks like none.
+    // A frame that looks like a part is better than one that does not.
     assert_eq!(line.open(&fender).1, FrameRole::Best);
     assert_eq!(line.open(&wheel), NOTHING);
     assert_eq!(line.open(&empty), NOTHING, "one frame may miss it");
@@ -169,7 +169,7 @@ fn what_leaves_before_its_verdict_counts_is_told_once_it_has_left_if_it_looked_l
     assert_eq!(line.open(&wheel).1, FrameRole::Best);
     let left: Vec<Left> = (0..4).map(|_| line.open(&empty).0).collect();
     assert_eq!(left.iter().filter(|left| **left == Left::Other).count(), 1);
-    // Captures seconds apart, each of another part.
+    // Captures seconds apart of different parts.
     let door = seen(&library, part(PartKind::FrontDoor), 0.0);
     line.num_frames += 20;
     assert_eq!(line.open(&fender), (Left::Nothing, FrameRole::Best));
@@ -177,7 +177,7 @@ fn what_leaves_before_its_verdict_counts_is_told_once_it_has_left_if_it_looked_l
     assert_eq!(line.open(&door), (Left::Part, FrameRole::Best));
     line.num_frames += 20;
     assert_eq!(line.counted(&door, ""), FIRST);
-    // After a long time without a frame nobody knows whether it is the same.
+    // After a long time without a frame it may be another part.
     line.num_frames += 100;
     assert_eq!(line.counted(&door, ""), FIRST);
 }

@@ -1,4 +1,4 @@
-//! On frames of the simulated cell: what stands still, what swings, and nothing but noise between them.
+//! Detection of motion in frames of the simulated cell: still parts with noise, and moving ones.
 
 use std::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ impl Hanging {
         Self(part)
     }
 
-    /// The frame of this number, the part moved by this from its rest.
+    /// The frame of this number, with the part moved by this from its rest position.
     fn frame(&self, number: u64, moved: &RigidTransform) -> SceneCloud {
         let setup = &self.0.setup;
         let noise = SensorNoise {
@@ -33,12 +33,12 @@ impl Hanging {
         scene_from_frame(&self.0.frame(noise, moved))
     }
 
-    /// What is said of every frame.
+    /// The state after every frame.
     fn watched(&self, num_frames: u64, moved: impl Fn(f64) -> RigidTransform) -> Vec<MotionState> {
         self.watched_every(FRAME, num_frames, moved)
     }
 
-    /// The same, with frames so far apart.
+    /// The same, with this time between frames.
     fn watched_every(
         &self,
         apart: Duration,
@@ -55,7 +55,7 @@ impl Hanging {
     }
 }
 
-/// How far a part is from its rest after so many seconds.
+/// Displacement of a part from its rest position after a time in seconds.
 type Motion = Box<dyn Fn(f64) -> RigidTransform>;
 
 fn shifted(x: f64, y: f64, z: f64) -> RigidTransform {
@@ -184,7 +184,7 @@ fn a_gap_in_time_and_another_picture_begin_anew_and_a_cloud_without_rows_is_neve
     }
 }
 
-/// Prints what the thresholds are chosen by.
+/// Prints the figures from which the thresholds are chosen.
 #[test]
 #[ignore = "a table for whoever chooses the thresholds"]
 fn table() {

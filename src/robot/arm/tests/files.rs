@@ -75,12 +75,12 @@ fn a_rail_is_read_from_files_and_options() {
     let found = read(&format!("{TEXT}{text_of}{numbers}"));
     assert_eq!(found.expect("an arm").rail, Some(strong));
     for (option, wanted) in [
-        ("", "no rail"),
-        ("y", "no rail"),
-        ("y,1", "no rail"),
-        ("w,0,1", "no rail"),
-        ("y,0,1,2,3,4", "no rail"),
-        ("y,0,one", "no rail"),
+        ("", "not a rail"),
+        ("y", "not a rail"),
+        ("y,1", "not a rail"),
+        ("w,0,1", "not a rail"),
+        ("y,0,1,2,3,4", "not a rail"),
+        ("y,0,one", "not a rail"),
         ("y,5,-5", "runs from 5 to -5 mm"),
         ("y,nan,5", "runs from"),
         ("y,0,inf", "runs from"),
@@ -94,7 +94,7 @@ fn a_rail_is_read_from_files_and_options() {
         ("y,0,5,100,nan", "acceleration"),
         ("y,0,5,100,-3", "acceleration"),
         ("y,0,5,100,100001", "acceleration"),
-        ("y,0,5,100,fast", "no rail"),
+        ("y,0,5,100,fast", "not a rail"),
     ] {
         let error = option.parse::<Rail>().expect_err(option);
         assert!(!error.advice().is_empty());
