@@ -315,6 +315,9 @@ fn what_somebody_changed_in_the_store_is_refused_with_what_to_do() {
     other[4] = "others/library.pub";
     let text = plant.refused(&other);
     assert!(text.contains("signed with the key"), "{text}");
+    let another = ["--key", "others/library.key", "--library", "parts"];
+    let text = plant.refused(&[&["publish", "--to", "store"][..], &another].concat());
+    assert!(text.contains("but your key is"), "{text}");
     // No key is ever replaced.
     plant.refused(&["keys", "keys"]);
 }

@@ -88,6 +88,16 @@ pub enum BundleError {
         /// The key that was given.
         trusted: TrustedKey,
     },
+    /// The newest version in the store is signed with another key than the publisher's.
+    #[error("{name}: signed with the key {found}, but your key is {own}")]
+    OtherPublisher {
+        /// Its name in the store.
+        name: String,
+        /// The key that it names.
+        found: TrustedKey,
+        /// The publisher's key.
+        own: TrustedKey,
+    },
     /// A bundle is not the one that its manifest names, or holds what no bundle may hold.
     #[error("{name}: the bundle is damaged or was changed: {reason}")]
     BadBundle {
@@ -256,6 +266,11 @@ impl Advice for BundleError {
             Self::Newer { .. } => "Update Partsight on this computer".into(),
             Self::OtherKey { .. } => {
                 "Ask the publisher for the public key, library.pub, and give that with --trust if you trust it".into()
+            }
+            Self::OtherPublisher { .. } => {
+                "Publish with that key, because cells that trust it take no other, or publish to another folder or prefix; if \
+                 nobody knows that key, remove the version from the store"
+                    .into()
             }
             Self::UnreadablePart { version, .. } => {
                 format!("Update Partsight on this computer if it is older than where version {version} was published; else publish the library again")

@@ -8,7 +8,7 @@ use super::{
     error::BundleError,
     manifest::MAX_NOTE,
     sha256,
-    store::BundleStore,
+    store::{BundleStore, manifest_name},
 };
 use crate::{
     files::FileError,
@@ -55,7 +55,11 @@ pub fn publish(
             limit: MAX_BUNDLE_BYTES,
         });
     }
-    let version = store.newest()?.unwrap_or(0).saturating_add(1);
+    let newest = store.newest()?;
+    if let Some(newest) = newest {
+        check_publisher(store, newest, key)?;
+    }
+    let version = newest.unwrap_or(0).saturating_add(1);
     store.check_conditional_put()?;
     store.put_bundle(&check.sha256, bundle)?;
     let manifest = Manifest::new(version, Timestamp::now(), parts.len(), check, note);
@@ -66,6 +70,29 @@ pub fn publish(
             store: store.address().clone(),
             version,
         })
+    }
+}
+
+/// Refuses to publish after a version that another key signed: cells that trust that key could take nothing any more. A
+/// damaged version is no obstacle; the next one replaces it.
+fn check_publisher(store: &BundleStore, newest: u32, key: &SigningKey) -> Result<(), BundleError> {
+    let name = store.shown(&manifest_name(newest));
+    let bytes = match store.manifest(newest) {
+        Ok(Some(bytes)) => bytes,
+        Ok(None) | Err(BundleError::TooLarge { .. }) => return Ok(()),
+        Err(error) => return Err(error),
+    };
+    match Manifest::verified(&name, &bytes, key.trusted()) {
+        Err(BundleError::OtherKey {
+            name,
+            found,
+            trusted,
+        }) => Err(BundleError::OtherPublisher {
+            name,
+            found,
+            own: trusted,
+        }),
+        _ => Ok(()),
     }
 }
 

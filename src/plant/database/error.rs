@@ -182,8 +182,8 @@ impl Advice for DatabaseError {
     fn advice(&self) -> String {
         match self {
             Self::Unreachable { .. } => {
-                "Check the server and the network; inspections continue, and what is not sent stays in the history \
-                 here".into()
+                "Check the server and the network. Cells go on inspecting; what is not sent yet stays in their own \
+                 histories".into()
             }
             Self::Refused { .. } => {
                 "Check the user in the address, --database-password-file, and what the server's pg_hba.conf allows".into()
@@ -192,6 +192,10 @@ impl Advice for DatabaseError {
                 "Create it once: CREATE DATABASE \"{}\" ENCODING 'UTF8' TEMPLATE template0",
                 database.name
             ),
+            Self::Tls { cause, .. } if cause.contains("does not support TLS") => {
+                "Turn on ssl at the server, or end the address in ?sslmode=disable if nobody else can listen on this network"
+                    .into()
+            }
             Self::Tls { .. } => {
                 "Check that the address names the host in the server's certificate, and --database-ca the authority \
                  that signed it".into()

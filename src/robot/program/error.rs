@@ -99,7 +99,7 @@ impl Advice for ProgramError {
             Self::UnknownEnding { .. } => {
                 let known = ProgramFormat::ALL.map(|format| format!(".{}", format.ending()));
                 format!(
-                    "End the file's name in {}, or give the language with --robot-program-format",
+                    "End the file's name in {}, or choose the language with --robot-program-format (path export: --as)",
                     known.join(", ")
                 )
             }
