@@ -178,7 +178,8 @@ impl Library {
         };
         let found = title.chars().count();
         if found > MAX_TITLE {
-            let message = format!("the title has {found} characters, but at most {MAX_TITLE} are kept");
+            let message =
+                format!("the title has {found} characters, but at most {MAX_TITLE} are kept");
             return Err(refused(message, "Put the rest into the notes"));
         }
         let about = PartDescription {

@@ -493,6 +493,13 @@ impl eframe::App for Window {
     }
 
     fn on_exit(&mut self) {
+        // Nothing is drawn any more.
+        let ctx = egui::Context::default();
+        for event in live::close(&mut self.state) {
+            self.lend(WorkspaceKind::History, &ctx, |history, cx| {
+                history.on_event(&event, cx);
+            });
+        }
         for workspace in &mut self.workspaces {
             workspace.close();
         }

@@ -62,6 +62,11 @@ impl<E> Default for HungRows<E> {
 }
 
 impl<E> HungRows<E> {
+    /// Returns the role that [`see`](Self::see) would give the frame, without taking it in.
+    pub fn role_of(&self, frame: &HungFrame<'_>) -> FrameRole {
+        self.parts.clone().see(frame).1
+    }
+
     /// Takes in a frame. Returns the best inspection of a part that left before its verdict counted, and the role of
     /// the frame for the present part: pass the best one to [`hold`](Self::hold); write the first and every further one
     /// under [`id`](Self::id).
@@ -106,6 +111,12 @@ impl<E> HungRows<E> {
         self.best = Some(best);
     }
 
+    /// Takes the held inspection of a part whose verdict does not count yet, because nobody may see the part leave. Seen
+    /// again, it is the same part.
+    pub fn take_best(&mut self) -> Option<E> {
+        self.best.take()
+    }
+
     /// Ends the source. Returns the held inspection of a part whose verdict does not count yet.
     pub fn end(&mut self) -> Option<E> {
         self.parts = HungParts::default();
@@ -132,6 +143,12 @@ mod tests {
         stages::scene::SceneCloud,
     };
 
+    const FENDER: SimulatedObject = SimulatedObject::Part {
+        kind: PartKind::Fender,
+        side: Side::Left,
+        model_seed: 0,
+    };
+
     /// A frame of the same cell, as it was inspected by itself.
     struct Seen {
         scene: SceneCloud,
@@ -153,6 +170,16 @@ mod tests {
                 scene,
             }
         }
+
+        /// Its own verdict, once that counts.
+        fn counted(&self) -> LiveVerdict {
+            LiveVerdict::Counted(Box::new(ConsensusVerdict {
+                verdict: self.inspection.verdict.clone(),
+                num_frames: 5,
+                num_agreeing: 5,
+                pose: None,
+            }))
+        }
     }
 
     /// Follows such frames, four a second.
@@ -169,13 +196,7 @@ mod tests {
 
         /// A frame after which its own verdict counts.
         fn counted(&mut self, seen: &Seen) -> FrameRole {
-            let agreed = ConsensusVerdict {
-                verdict: seen.inspection.verdict.clone(),
-                num_frames: 5,
-                num_agreeing: 5,
-                pose: None,
-            };
-            self.see(seen, &LiveVerdict::Counted(Box::new(agreed)))
+            self.see(seen, &seen.counted())
         }
 
         fn see(&mut self, seen: &Seen, verdict: &LiveVerdict) -> FrameRole {
@@ -195,12 +216,7 @@ mod tests {
     #[test]
     fn an_inspection_beside_those_that_are_followed_is_of_the_part_that_hangs_there() {
         let library = shipped_library();
-        let fender = SimulatedObject::Part {
-            kind: PartKind::Fender,
-            side: Side::Left,
-            model_seed: 0,
-        };
-        let fender = Seen::of(&library, fender);
+        let fender = Seen::of(&library, FENDER);
         let empty = Seen::of(&library, SimulatedObject::Nothing);
         let mut line = Line::default();
         // Before and after its verdict counts.
@@ -238,5 +254,38 @@ mod tests {
         assert_ne!(line.rows.id_of_frame(false), third);
         line.open(&fender);
         assert_ne!(*line.rows.id(), third);
+    }
+
+    #[test]
+    fn a_frame_that_is_only_asked_about_is_not_taken_for_recorded() {
+        let fender = Seen::of(&shipped_library(), FENDER);
+        let open = HungFrame {
+            scene: &fender.scene,
+            at: Duration::ZERO,
+            inspection: &fender.inspection,
+            verdict: &LiveVerdict::Open,
+            middle: None,
+            inputs: "",
+        };
+        let counted = fender.counted();
+        let settled = HungFrame {
+            at: Duration::from_millis(150),
+            verdict: &counted,
+            ..open
+        };
+        let mut rows = HungRows::<&str>::default();
+        assert_eq!(rows.role_of(&open), FrameRole::Best);
+        assert_eq!(rows.see(&open), (None, FrameRole::Best));
+        rows.hold("refused");
+        // Following stops here, and goes on: it is the same part.
+        let id = rows.id().clone();
+        assert_eq!(rows.take_best(), Some("refused"));
+        assert_eq!(rows.take_best(), None);
+        for _ in 0..2 {
+            assert_eq!(rows.role_of(&settled), FrameRole::First);
+        }
+        assert_eq!(rows.see(&settled), (None, FrameRole::First));
+        assert_eq!(rows.role_of(&settled), FrameRole::Nothing);
+        assert_eq!(*rows.id(), id);
     }
 }

@@ -33,7 +33,7 @@ fn a_scan_is_put_together_and_written() {
     let place = with_scan("4");
     let ran = place.accepted(&["scan", "frames", "--out", "all.ply"]);
     assert!(ran.out.contains("frame-04.png"), "{}", ran.out);
-    assert!(ran.out.contains("the part together"), "{}", ran.out);
+    assert!(ran.out.contains("see the part, they agree"), "{}", ran.out);
     let only = [
         "scan",
         "frames",

@@ -259,12 +259,12 @@ fn what_the_service_cannot_start_with_is_said_with_what_to_do() {
     place.accepted(&CALIBRATE);
     let calibrated = ["--as", "kuka", "--calibration", "cell.toml"];
     for (args, words) in [
-        (&["--listen", "modbus=502"][..], "is no protocol"),
+        (&["--listen", "modbus=502"][..], "is not a protocol"),
         (&["--listen", "binary=0", "--as", "matrix"], "16 numbers"),
         (&["--number", "boat=1"], "no part boat"),
         (
             &["--number", "fender=1", "--number", "grille=1"],
-            "given before",
+            "already given",
         ),
         (&["--max-age", "0"], "expected a number"),
     ] {
@@ -281,5 +281,5 @@ fn what_the_service_cannot_start_with_is_said_with_what_to_do() {
     assert!(ran.err.contains("pace=10"), "{}", ran.err);
     let missing = ["--source", "recording:missing", "--listen", "ascii=0"];
     let ran = place.coded(2, &[&serve[..1], &missing[..], &calibrated[..]].concat());
-    assert!(ran.err.contains("the folder is not there"), "{}", ran.err);
+    assert!(ran.err.contains("the folder does not exist"), "{}", ran.err);
 }

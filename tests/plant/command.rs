@@ -124,7 +124,7 @@ fn what_cannot_be_served_is_said_with_advice() {
         (&["--http", "0"], "no convention of its own", "--as"),
         (
             &["--as", "kuka", "--http", "0", "--http-token-file", "tokens"],
-            "no token",
+            "not a token",
             "openssl",
         ),
         (

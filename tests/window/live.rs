@@ -255,6 +255,109 @@ fn two_parts_one_after_the_other_are_two_rows_and_one_that_swings_through_is_one
     );
 }
 
+/// Waits for this many rows in the history; returns whether the newest is of the fender, and its serial number.
+fn newest_of(harness: &mut WindowHarness, num_rows: usize) -> (bool, String) {
+    wait_for(harness, |window| {
+        let history = window.workspace::<HistoryWorkspace>();
+        history.is_some_and(|history| history.state().num_rows() == num_rows)
+    });
+    settle_history(harness);
+    let newest = history_of(harness).row(0).expect("listed");
+    let is_fender = newest.part.as_deref() == Some("fender");
+    (is_fender, newest.trace.serial.clone())
+}
+
+#[test]
+fn a_part_without_a_verdict_that_counts_is_recorded_when_live_stops_or_follows_another_source() {
+    let (mut harness, wire) = wired();
+    let serial = |harness: &WindowHarness| harness.state().state().session.trace.get().serial;
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 4]);
+    assert_eq!(history_of(&harness).num_rows(), 1);
+    harness.state().state().session.trace.set_serial("4711");
+    toggle(&mut harness);
+    settle(&mut harness);
+    assert_eq!(newest_of(&mut harness, 2), (true, String::new()));
+    // The part still hangs there.
+    assert_eq!(serial(&harness), "4711");
+
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 4]);
+    let choice = CellChoice::Part(PartKind::Grille, Side::Left);
+    act_live(&mut harness, Action::UseCell(choice));
+    assert_eq!(newest_of(&mut harness, 3), (true, "4711".to_owned()));
+    assert_eq!(serial(&harness), "");
+}
+
+/// Captures a frame of the fender in place of Live.
+fn capture(harness: &mut WindowHarness, wire: &Wire) {
+    act_live(harness, Action::Capture);
+    // A frame that comes before could be taken by Live.
+    wait_until(harness, |state| state.follower.is_idle());
+    wire.send(Step::Fender(0.0)).expect("the camera is open");
+    settle(harness);
+}
+
+#[test]
+fn a_capture_during_live_is_an_inspection_of_the_part_that_hangs_there() {
+    let (mut harness, wire) = wired();
+    let set_serial = |harness: &WindowHarness, serial| {
+        harness.state().state().session.trace.set_serial(serial);
+    };
+    let serial = |harness: &WindowHarness| harness.state().state().session.trace.get().serial;
+    let num_below = |harness: &WindowHarness| history_of(harness).row(0).map(|row| row.num_below);
+    toggle(&mut harness);
+    // Captures of a cell that is chosen from the list show another part each.
+    let spec = "simulated:fender".parse().expect("a source");
+    act_live(&mut harness, Action::Live(LiveAction::Use(spec)));
+    wait_until(&mut harness, |state| state.session.live.status.is_some());
+    sees(&mut harness, &wire, [0.0; 4]);
+    set_serial(&harness, "4711");
+    capture(&mut harness, &wire);
+    assert_eq!(newest_of(&mut harness, 2), (true, "4711".to_owned()));
+    assert_eq!(num_below(&harness), Some(1), "what Live saw");
+    assert_eq!(serial(&harness), "");
+
+    // Once its verdict has counted, the next serial number is of the next part.
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 22]);
+    harness.get_by_label("Accepted");
+    set_serial(&harness, "4712");
+    capture(&mut harness, &wire);
+    assert_eq!(newest_of(&mut harness, 3), (true, String::new()));
+    assert_eq!(num_below(&harness), Some(1), "the capture");
+    assert_eq!(serial(&harness), "4712");
+}
+
+#[test]
+fn a_part_without_a_verdict_that_counts_is_recorded_when_the_window_closes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let history = Some(folder.path().join("history"));
+    let (options, wire) = wired_options();
+    let options = WindowOptions {
+        history: history.clone(),
+        ..options
+    };
+    let mut harness = open_with(USUAL, options);
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 4]);
+    harness.state().state().session.trace.set_serial("4711");
+    eframe::App::on_exit(harness.state_mut());
+    drop(harness);
+    let options = WindowOptions {
+        history,
+        ..plain_options()
+    };
+    let harness = open_with(USUAL, options);
+    let history = history_of(&harness);
+    let rows = (0..history.num_rows()).filter_map(|place| history.row(place));
+    let fenders: Vec<_> = rows
+        .filter(|row| row.part.as_deref() == Some("fender"))
+        .map(|row| row.trace.serial.as_str())
+        .collect();
+    assert_eq!(fenders, ["4711"]);
+}
+
 #[test]
 fn the_view_stays_where_a_person_has_turned_it_and_each_frame_is_shown() {
     let (mut harness, wire) = wired();

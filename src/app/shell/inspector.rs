@@ -2,14 +2,14 @@
 
 use std::{
     path::{Path, PathBuf},
-    sync::Arc,
+    sync::{Arc, Mutex},
 };
 
 use super::{
     action::{Effect, notify},
     current_trace::CurrentTrace,
     library_loader::{self, LibraryLoader},
-    live,
+    live::{self, FollowedParts},
     message::{Event, ReinspectionPurpose},
     notice::Notice,
     session::{Inspecting, Shown, Source, WorkspaceKind},
@@ -30,6 +30,7 @@ use crate::{
         user_error::UserError,
     },
     capture::{CaptureWarning, SourceSpec},
+    error::lock,
     history::{HungId, StoredVerdict, Traceability},
     stages::scene::EmptyCell,
 };
@@ -138,12 +139,16 @@ impl State {
         None
     }
 
-    /// Inspects a scene or a scan as a hung part of its own; stops following the source.
+    /// Inspects a scene or a scan, as the part that Live sees if it follows the same source, else as a hung part of its own;
+    /// stops following the source.
     fn inspect(&mut self, title: String, job: InspectJob) {
+        let trace = self.session.trace.clone();
         let part = if self.inspector.is_start {
             PartAtHand::MaybeSeen
+        } else if self.session.is_live() {
+            PartAtHand::Followed(Arc::clone(&self.session.live.parts), trace)
         } else {
-            PartAtHand::New(self.session.trace.clone())
+            PartAtHand::New(trace)
         };
         self.inspect_part(title, job, ReinspectionPurpose::New, part);
     }
@@ -330,6 +335,9 @@ impl State {
 enum PartAtHand {
     /// A new one, which takes the current serial number.
     New(CurrentTrace),
+    /// The one that hangs before the source, as Live saw it last. One without a verdict that counts, or a new one, takes the
+    /// current serial number.
+    Followed(Arc<Mutex<FollowedParts>>, CurrentTrace),
     /// This one, which still hangs there or is in the history.
     Known(HungId, Traceability),
     /// A new one with this traceability.
@@ -373,6 +381,11 @@ fn run(
     match part {
         PartAtHand::New(current) => {
             summary.trace = current.take(summary.verdict != StoredVerdict::NoPart);
+        }
+        PartAtHand::Followed(parts, current) => {
+            let shows_part = summary.verdict != StoredVerdict::NoPart;
+            (summary.hung, summary.trace) =
+                lock(&parts).of_capture(&summary.source, shows_part, &current);
         }
         PartAtHand::Known(hung, trace) => (summary.hung, summary.trace) = (hung, trace),
         PartAtHand::Past(trace) => summary.trace = trace,

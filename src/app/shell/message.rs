@@ -103,7 +103,7 @@ pub enum Event {
         /// Purpose of the inspection.
         purpose: ReinspectionPurpose,
     },
-    /// A part left the followed source before its verdict counted.
+    /// A part left the followed source before its verdict counted, or following stopped before.
     Left(Box<NewEntry>),
     /// The poses of these shots were not found: the user has to choose their file.
     PosesWanted(ScanOrder),

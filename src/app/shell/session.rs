@@ -125,10 +125,10 @@ impl Session {
         }
     }
 
-    /// File of the calibration in use, even while it is still being loaded.
+    /// File of the calibration in use, even while it is still being loaded; the user's own may not exist.
     pub fn calibration_path(&self) -> Option<PathBuf> {
         match &self.cell {
-            RememberedCell::Usual => self.usual_cell.clone().filter(|path| path.exists()),
+            RememberedCell::Usual => self.usual_cell.clone(),
             RememberedCell::Forgotten => None,
             RememberedCell::File(path) => Some(path.clone()),
         }

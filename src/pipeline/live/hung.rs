@@ -66,7 +66,7 @@ pub enum Left {
 }
 
 /// Tells the parts in front of one camera apart. The same frames at the same times always give the same parts.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct HungParts {
     state: HungState,
     visit: u64,
@@ -76,7 +76,7 @@ pub struct HungParts {
     absent: Option<(Duration, usize)>,
 }
 
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 enum HungState {
     #[default]
     Empty,
@@ -91,7 +91,7 @@ enum HungState {
 }
 
 /// A part whose verdict counted.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct CountedPart {
     /// The verdicts on it where it hangs now: name, and whether accepted.
     said: Vec<(String, bool)>,

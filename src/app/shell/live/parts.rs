@@ -8,6 +8,7 @@ use std::{
 };
 
 use crate::{
+    app::shell::current_trace::CurrentTrace,
     capture::SourceSpec,
     history::{HungId, HungRows, NewEntry, Traceability},
 };
@@ -17,8 +18,8 @@ use crate::{
 pub(in crate::app) struct FollowedParts {
     source: String,
     pub(super) rows: HungRows,
-    /// Of the part whose verdict counted last.
-    pub(super) trace: Traceability,
+    /// The part whose verdict counted last, and its traceability.
+    pub(super) counted: Option<(HungId, Traceability)>,
     /// Frames whose part is asked for, until Live has seen one as new.
     asked: Vec<AskedFrame>,
 }
@@ -31,22 +32,35 @@ struct AskedFrame {
 }
 
 impl FollowedParts {
-    /// Those before this source: before another one nothing is known yet.
-    pub(super) fn before(&mut self, source: &SourceSpec) -> &mut Self {
+    /// Starts over if this is not the same source as before. Returns the inspection of the part that hangs before the
+    /// former source, if its verdict does not count yet.
+    pub(super) fn begin(&mut self, source: &SourceSpec) -> Option<NewEntry> {
         let source = source.to_string();
-        if self.source != source {
-            *self = Self {
-                source,
-                // They may be of this source: whoever asks may be faster than Live.
-                asked: mem::take(&mut self.asked),
-                ..Self::default()
-            };
+        if self.source == source {
+            return None;
         }
-        self
+        // Live sees none of the former source's frames any more.
+        let part = self.rows.id_of_frame(false);
+        self.asked.retain(|frame| {
+            let is_former = frame.source == self.source;
+            if is_former {
+                // Whoever asked may have gone.
+                let _ = frame.tell.send(part.clone());
+            }
+            !is_former
+        });
+        let left = self.rows.take_best();
+        *self = Self {
+            source,
+            // They may be of this source: whoever asks may be faster than Live.
+            asked: mem::take(&mut self.asked),
+            ..Self::default()
+        };
+        left
     }
 
-    /// Asks which part a frame of this source shows. The answer comes once Live has seen that frame or a later one; none
-    /// comes, and the sender is dropped, if Live follows another source by then.
+    /// Asks which part a frame of this source shows. The answer comes once Live has seen that frame or a later one, or goes
+    /// on to another source; none comes, and the sender is dropped, if Live follows another source already.
     pub(in crate::app) fn part_of_frame(
         &mut self,
         source: String,
@@ -69,6 +83,26 @@ impl FollowedParts {
         } else {
             HungId::new()
         }
+    }
+
+    /// The part that a capture of this source shows, which is taken in place of Live, and the traceability of that
+    /// inspection. A part whose verdict has counted keeps its own: the current serial number may be of the next part.
+    pub(in crate::app) fn of_capture(
+        &self,
+        source: &str,
+        shows_part: bool,
+        current: &CurrentTrace,
+    ) -> (HungId, Traceability) {
+        let part = if self.source == source {
+            self.rows.id_of_frame(shows_part)
+        } else {
+            HungId::new()
+        };
+        let trace = match &self.counted {
+            Some((counted, trace)) if *counted == part => trace.clone(),
+            _ => current.take(shows_part),
+        };
+        (part, trace)
     }
 
     /// Live has seen a frame that came then, after [`HungRows::see`].
@@ -126,16 +160,19 @@ mod tests {
         // Before Live has seen anything.
         let part = parts.part_of_frame(one.to_string(), later);
         let of_other = parts.part_of_frame(other.to_string(), later);
-        parts.before(&one).seen(begun, true);
+        assert!(parts.begin(&one).is_none());
+        parts.seen(begun, true);
         assert_eq!(part.try_recv(), Err(TryRecvError::Empty));
-        parts.before(&one).seen(later, true);
+        parts.seen(later, true);
         assert_eq!(part.try_recv(), Ok(parts.rows.id_of_frame(true)));
         assert_eq!(of_other.try_recv(), Err(TryRecvError::Disconnected));
 
-        // Live goes on to another source, and whoever asks is still at the one before.
-        parts.before(&other).seen(later, true);
+        // Live goes on to another source before it has seen a frame as new, and whoever asks is still at the one before.
+        let last = parts.part_of_frame(one.to_string(), later);
+        assert!(parts.begin(&other).is_none());
+        last.try_recv().expect("told at the change");
         let late = parts.part_of_frame(one.to_string(), later);
-        parts.before(&other).seen(later, true);
+        parts.seen(later, true);
         assert_eq!(late.try_recv(), Err(TryRecvError::Disconnected));
     }
 
@@ -148,12 +185,13 @@ mod tests {
         let [of_first, of_second] =
             [first, second].map(|arrived| parts.part_of_frame(one.to_string(), arrived));
         let id = HungId::new();
-        parts.before(&one).seen_alone(first, &id);
+        assert!(parts.begin(&one).is_none());
+        parts.seen_alone(first, &id);
         assert_eq!(of_first.try_recv(), Ok(id));
         assert_eq!(of_second.try_recv(), Err(TryRecvError::Empty));
         // One that Live could not inspect.
         let after = second + Duration::from_secs(1);
-        parts.before(&one).seen_alone(after, &HungId::new());
+        parts.seen_alone(after, &HungId::new());
         assert_eq!(of_second.try_recv(), Err(TryRecvError::Disconnected));
     }
 
@@ -162,10 +200,38 @@ mod tests {
         let [one, other] = sources();
         let mut parts = FollowedParts::default();
         let part = parts.part_of_frame(one.to_string(), Instant::now());
-        assert!(parts.before(&one).end().is_none());
+        assert!(parts.begin(&one).is_none() && parts.end().is_none());
         part.try_recv().expect("told at the end");
         let now = [&one, &other, &one].map(|source| parts.part_now(&source.to_string()));
         assert_ne!(now[0], now[1]);
         assert_ne!(now[0], now[2], "nothing hangs there");
+    }
+
+    #[test]
+    fn a_capture_in_place_of_live_takes_the_serial_number_unless_its_part_has_one() {
+        let [one, other] = sources();
+        let mut parts = FollowedParts::default();
+        assert!(parts.begin(&one).is_none());
+        let current = CurrentTrace::default();
+        let capture = |parts: &FollowedParts, source: &SourceSpec| {
+            current.set_serial("4712");
+            let (part, trace) = parts.of_capture(&source.to_string(), true, &current);
+            (part, trace.serial, current.get().serial)
+        };
+        let (part, taken, left) = capture(&parts, &one);
+        assert_eq!(
+            (part, &*taken, &*left),
+            (parts.rows.id_of_frame(true), "4712", "")
+        );
+        let its_own = Traceability {
+            serial: "4711".into(),
+            ..Traceability::default()
+        };
+        parts.counted = Some((parts.rows.id_of_frame(true), its_own));
+        let (_, taken, left) = capture(&parts, &one);
+        assert_eq!((&*taken, &*left), ("4711", "4712"));
+        let (part, taken, left) = capture(&parts, &other);
+        assert_ne!(part, parts.rows.id_of_frame(true));
+        assert_eq!((&*taken, &*left), ("4712", ""));
     }
 }

@@ -2,12 +2,17 @@
 
 use std::{
     path::PathBuf,
-    sync::{Arc, Mutex},
+    sync::{
+        Arc, Mutex,
+        mpsc::{Receiver, SyncSender, sync_channel},
+    },
+    thread,
+    time::Duration,
 };
 
 use super::{
     parts::FollowedParts,
-    work::{LiveAnswer, LiveStart, LiveStatus, SourceState, follow, rest},
+    work::{LiveAnswer, LiveRecord, LiveStart, LiveStatus, MAX_UNREAD, SourceState, follow, rest},
 };
 use crate::{
     app::{
@@ -15,6 +20,7 @@ use crate::{
         language::text,
         shell::{
             action::{DialogRequest, Effect, notify},
+            current_trace::CurrentTrace,
             message::{Event, ReinspectionPurpose},
             notice::Notice,
             session::{Session, Shown, Source, WorkspaceKind},
@@ -24,6 +30,7 @@ use crate::{
         user_error::UserError,
     },
     capture::{SourceSpec, WatchedSpec},
+    history::Traceability,
     pipeline::live::{LiveParams, MAX_AVERAGED},
 };
 
@@ -47,6 +54,9 @@ pub struct LiveState {
 /// Follows the source.
 #[derive(Debug)]
 pub struct Follower {
+    /// The inspections to be recorded, of every job. Dropped before the task, whose job may wait until they are read.
+    records: Receiver<LiveRecord>,
+    recorder: SyncSender<LiveRecord>,
     task: Task<LiveAnswer>,
     library_cache: LibraryCache,
     /// Incremented when following starts with another view; within one session the 3-D view keeps its camera.
@@ -58,7 +68,10 @@ pub struct Follower {
 impl Follower {
     /// Starts without following anything.
     pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
+        let (recorder, records) = sync_channel(MAX_UNREAD);
         Self {
+            records,
+            recorder,
             task: Task::new("live", runner),
             library_cache: library_cache.clone(),
             session: 0,
@@ -97,6 +110,9 @@ impl LiveState {
         own
     }
 }
+
+/// Time between two looks at whether the camera is closed.
+const TURN: Duration = Duration::from_millis(5);
 
 impl Session {
     /// True while a source is followed.
@@ -190,6 +206,8 @@ fn follow_source(state: &mut State) {
         record: state.session.live.recording.clone(),
         trace: state.session.trace.clone(),
         parts: Arc::clone(&state.session.live.parts),
+        recorder: state.follower.recorder.clone(),
+        session: state.follower.session,
     };
     state.session.live.is_on = true;
     state.session.live.status = None;
@@ -209,11 +227,38 @@ pub(in crate::app) fn restart_consensus(state: &mut State) {
 /// Stops following, if a source is followed, and closes the camera, because something else comes to the front.
 pub(in crate::app) fn give_way(state: &mut State) {
     if state.session.is_live() {
-        ended(state);
-        let library_cache = state.follower.library_cache.clone();
-        let task = &mut state.follower.task;
-        task.start(text!("live-closing"), move |_| Ok(rest(&library_cache)));
+        // The part still hangs there: its serial number goes with the verdict to come.
+        stop(state, |trace| trace.take(false));
     }
+}
+
+/// Stops following. A part that hangs there without a verdict that counts is recorded with this traceability.
+fn stop(state: &mut State, trace: fn(&CurrentTrace) -> Traceability) {
+    ended(state);
+    let current = state.session.trace.clone();
+    let follower = &mut state.follower;
+    let library_cache = follower.library_cache.clone();
+    let (parts, recorder) = (
+        Arc::clone(&state.session.live.parts),
+        follower.recorder.clone(),
+    );
+    follower.task.start(text!("live-closing"), move |_| {
+        Ok(rest(&library_cache, &parts, &recorder, || trace(&current)))
+    });
+}
+
+/// Stops following because the window closes, and waits until the camera is closed. Returns the events of everything that is
+/// still to be recorded.
+pub(in crate::app) fn close(state: &mut State) -> Vec<Event> {
+    if state.session.is_live() {
+        stop(state, |trace| trace.take(true));
+    }
+    let mut events = update(state);
+    while !state.follower.is_idle() {
+        thread::sleep(TURN);
+        events.extend(update(state));
+    }
+    events
 }
 
 /// Ends the recording and reports what was recorded.
@@ -245,23 +290,43 @@ fn ended(state: &mut State) {
 
 /// Polls the task; returns the events for all workspaces.
 pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
-    let mut counted = Vec::new();
-    while let Some(event) = state.follower.task.poll() {
-        match event {
-            TaskEvent::Partial(answer) | TaskEvent::Done(answer) => {
-                counted.extend(receive(state, answer));
-            }
+    // A job sends a record before the status that follows from it: read last, the records are complete.
+    let task = &mut state.follower.task;
+    let answers: Vec<_> = std::iter::from_fn(|| task.poll()).collect();
+    let records: Vec<_> = state.follower.records.try_iter().collect();
+    let records = records.into_iter();
+    let events = records.map(|record| take_record(state, record)).collect();
+    for answer in answers {
+        match answer {
+            TaskEvent::Partial(answer) | TaskEvent::Done(answer) => receive(state, answer),
             TaskEvent::Failed(error) => {
                 notify(state, error.into());
                 ended(state);
             }
         }
     }
-    counted
+    events
 }
 
-/// Handles an answer of the task; returns an event if a verdict counts.
-fn receive(state: &mut State, answer: LiveAnswer) -> Option<Event> {
+/// Shows a verdict that counts; returns the event by which the inspection is recorded.
+fn take_record(state: &mut State, record: LiveRecord) -> Event {
+    match record {
+        LiveRecord::Counts { inspected, session } => {
+            for warning in &inspected.warnings {
+                notify(state, UserError::of(warning).into());
+            }
+            if session == state.follower.session {
+                show(state, Arc::clone(&inspected));
+            }
+            let purpose = ReinspectionPurpose::New;
+            Event::Inspected { inspected, purpose }
+        }
+        LiveRecord::Left(entry) => Event::Left(entry),
+    }
+}
+
+/// Handles an answer of the task.
+fn receive(state: &mut State, answer: LiveAnswer) {
     match answer {
         LiveAnswer::Stands(told) if state.session.is_live() => {
             watch_source(state, &told.status.source);
@@ -270,15 +335,6 @@ fn receive(state: &mut State, answer: LiveAnswer) -> Option<Event> {
                 show(state, inspected);
             }
         }
-        LiveAnswer::Counts(inspected) => {
-            for warning in &inspected.warnings {
-                notify(state, UserError::of(warning).into());
-            }
-            show(state, Arc::clone(&inspected));
-            let purpose = ReinspectionPurpose::New;
-            return Some(Event::Inspected { inspected, purpose });
-        }
-        LiveAnswer::Left(entry) => return Some(Event::Left(entry)),
         LiveAnswer::NotRecorded(error) => {
             state.session.live.recording = None;
             notify(state, error.into());
@@ -295,7 +351,6 @@ fn receive(state: &mut State, answer: LiveAnswer) -> Option<Event> {
         }
         LiveAnswer::Stands(_) | LiveAnswer::Rests => {}
     }
-    None
 }
 
 /// Shows the latest inspection if Inspect is in front; other workspaces keep what they show.
@@ -350,15 +405,86 @@ fn dismiss_lost_notice(state: &mut State) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Instant;
+
+    use jiff::{SignedDuration, Timestamp};
+
     use super::*;
     use crate::{
         app::{
-            inspection::source::CellChoice,
+            inspection::{camera::Camera, source::CellChoice},
             shell::action::{Action, apply as apply_any},
         },
+        capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
+        geometry::rigid::RigidTransform,
+        history::StoredVerdict,
+        kit::HangingPart,
         pipeline::live::LiveVerdict,
-        simulate::{PartKind, Side},
+        simulate::{PartKind, SensorNoise, Side},
     };
+
+    /// A camera before which a fender hangs still, for a few seconds of its clock.
+    struct Hanging {
+        fender: HangingPart,
+        number: u64,
+    }
+
+    impl DepthSource for Hanging {
+        fn title(&self) -> String {
+            "short camera".into()
+        }
+
+        fn is_simulated(&self) -> bool {
+            true
+        }
+
+        fn next(&mut self, _: Duration) -> Result<NextCapture, CaptureError> {
+            self.number += 1;
+            if self.number > 22 {
+                return Ok(NextCapture::End);
+            }
+            let noise = SensorNoise::kinect(self.number);
+            let at = SignedDuration::from_millis(150 * self.number as i64);
+            Ok(NextCapture::Captured(Captured {
+                number: self.number,
+                name: format!("short frame {}", self.number),
+                taken_at: Timestamp::UNIX_EPOCH + at,
+                arrived: Instant::now(),
+                image: Image::Depth(self.fender.frame(noise, &RigidTransform::identity())),
+                is_simulated: true,
+                truth: None,
+                robot_from_flange: None,
+                warnings: Vec::new(),
+            }))
+        }
+    }
+
+    #[test]
+    fn a_verdict_that_the_window_has_not_read_is_recorded_when_live_stops_or_starts_over() {
+        for action in [LiveAction::Average(4), LiveAction::Toggle] {
+            let camera = Camera::opened_by(|_| {
+                Ok(Box::new(Hanging {
+                    fender: HangingPart::new(PartKind::Fender, 3),
+                    number: 0,
+                }))
+            });
+            let library_cache = LibraryCache::new(Some("reference_parts".into()), camera);
+            let mut state = State::new(&TaskRunner::without_threads(), &library_cache);
+            // Its frames wait for each other, so that none is dropped.
+            let spec = "recording,pace=step:short".parse().expect("a source");
+            state.session.source = Source::Camera(Box::new(spec));
+            toggle(&mut state);
+            assert!(state.follower.task.run_waiting());
+            apply_any(&mut state, Action::Live(action.clone()));
+            let events = update(&mut state);
+            let [Event::Inspected { inspected, purpose }] = events.as_slice() else {
+                panic!("{action:?}: {} events", events.len());
+            };
+            assert_eq!(*purpose, ReinspectionPurpose::New);
+            let summary = &inspected.entry.record.summary;
+            assert_eq!(summary.verdict, StoredVerdict::Accepted);
+        }
+    }
 
     /// Title of the running or waiting job.
     fn at_work(state: &State) -> Option<&str> {

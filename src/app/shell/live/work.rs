@@ -3,7 +3,7 @@
 use std::{
     collections::VecDeque,
     path::{Path, PathBuf},
-    sync::{Arc, Mutex},
+    sync::{Arc, Mutex, mpsc::SyncSender},
     time::{Duration, Instant},
 };
 
@@ -22,7 +22,7 @@ use crate::{
     },
     capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
     error::{Fault, guarded, lock},
-    history::{NewEntry, StoredVerdict},
+    history::{NewEntry, StoredVerdict, Traceability},
     pipeline::{
         self, NamedRecipe, ProgressObserver, Verdict,
         live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
@@ -47,6 +47,51 @@ pub(super) struct LiveStart {
     pub(super) trace: CurrentTrace,
     /// The parts that hang there: they outlive this, when the same source is followed with other settings.
     pub(super) parts: Arc<Mutex<FollowedParts>>,
+    /// Where the inspections to be recorded go.
+    pub(super) recorder: SyncSender<LiveRecord>,
+    /// The session of following, for [`LiveRecord::Counts`].
+    pub(super) session: u64,
+}
+
+impl LiveStart {
+    /// Records a part that left before its verdict counted.
+    fn record_left(&self, left: Option<NewEntry>) {
+        record_left(left, &self.recorder, || self.trace.take(true));
+    }
+}
+
+/// An inspection to be recorded. It has a channel of its own, so that it is recorded even if its job was replaced meanwhile.
+#[derive(Debug)]
+pub(super) enum LiveRecord {
+    /// A verdict that counts and was not reported before.
+    Counts {
+        /// The inspection that it stands on.
+        inspected: Arc<Inspected>,
+        /// The session of following that it belongs to.
+        session: u64,
+    },
+    /// A part left before its verdict counted, or following stopped before.
+    Left(Box<NewEntry>),
+}
+
+/// Maximum number of unread records, whose points and pictures take up to 15 MB each; the job waits beyond that.
+pub(super) const MAX_UNREAD: usize = 32;
+
+fn send(recorder: &SyncSender<LiveRecord>, record: LiveRecord) {
+    // Fails only if the window is gone.
+    let _ = recorder.send(record);
+}
+
+/// Records a part whose verdict did not count, with this traceability.
+fn record_left(
+    left: Option<NewEntry>,
+    recorder: &SyncSender<LiveRecord>,
+    trace: impl FnOnce() -> Traceability,
+) {
+    if let Some(mut left) = left {
+        left.record.summary.trace = trace();
+        send(recorder, LiveRecord::Left(Box::new(left)));
+    }
 }
 
 /// A result of the task.
@@ -54,10 +99,6 @@ pub(super) struct LiveStart {
 pub enum LiveAnswer {
     /// The latest status.
     Stands(Box<LiveStatusUpdate>),
-    /// A verdict that counts and was not reported before.
-    Counts(Arc<Inspected>),
-    /// A part left before its verdict counted.
-    Left(Box<NewEntry>),
     /// The recording has failed and ended.
     NotRecorded(UserError),
     /// A frame of the source could not be read or inspected.
@@ -122,14 +163,34 @@ pub(super) fn follow(
     library_cache: &LibraryCache,
     context: &TaskContext<LiveAnswer>,
 ) -> Result<LiveAnswer, TaskError> {
+    let left = lock(&request.parts).begin(&request.spec);
+    request.record_left(left);
     // The camera stays open afterwards: the next job may follow the same source.
     let feed = library_cache.camera().feed(&request.spec);
-    let feed = feed.map_err(|error| UserError::of(&error))?;
-    LiveSession::new(request, library_cache, context).follow(&feed)
+    let followed = feed
+        .map_err(|error| TaskError::from(UserError::of(&error)))
+        .and_then(|feed| LiveSession::new(request, library_cache, context).follow(&feed));
+    let left = match &followed {
+        Ok(_) => lock(&request.parts).end(),
+        // The part may still hang there when the source is followed again.
+        Err(TaskError::Failed(_)) => lock(&request.parts).rows.take_best(),
+        // The next job goes on with the part.
+        Err(TaskError::Cancelled) => None,
+    };
+    request.record_left(left);
+    followed
 }
 
-/// Ends the recording and closes the camera.
-pub(super) fn rest(library_cache: &LibraryCache) -> LiveAnswer {
+/// Ends the recording and closes the camera. A part that hangs there without a verdict that counts is recorded with this
+/// traceability.
+pub(super) fn rest(
+    library_cache: &LibraryCache,
+    parts: &Mutex<FollowedParts>,
+    recorder: &SyncSender<LiveRecord>,
+    trace: impl FnOnce() -> Traceability,
+) -> LiveAnswer {
+    let left = lock(parts).rows.take_best();
+    record_left(left, recorder, trace);
     library_cache.recording().end();
     library_cache.camera().rest();
     LiveAnswer::Rests
@@ -138,14 +199,13 @@ pub(super) fn rest(library_cache: &LibraryCache) -> LiveAnswer {
 struct LiveSession<'a> {
     library_cache: &'a LibraryCache,
     context: &'a TaskContext<LiveAnswer>,
+    request: &'a LiveStart,
     spec: &'a SourceSpec,
     /// The folder to record into; `None` after a failure.
     record: Option<&'a Path>,
     recorded: Option<Recorded>,
     recipe: &'a Arc<NamedRecipe>,
     recipe_identity: String,
-    trace: &'a CurrentTrace,
-    parts: &'a Mutex<FollowedParts>,
     empty_cell: Option<&'a Arc<EmptyCell>>,
     /// `None` for a source whose captures are independent.
     watch: Option<LiveTracker>,
@@ -180,13 +240,12 @@ impl<'a> LiveSession<'a> {
         Self {
             library_cache,
             context,
+            request,
             spec: &request.spec,
             record: request.record.as_deref(),
             recorded: None,
             recipe: &request.recipe,
             recipe_identity: request.recipe.identity(),
-            trace: &request.trace,
-            parts: &request.parts,
             empty_cell: request.empty_cell.as_ref(),
             stillness: watch.as_ref().map(LiveTracker::stillness),
             watch,
@@ -218,11 +277,7 @@ impl<'a> LiveSession<'a> {
                     self.context.partial(LiveAnswer::Skipped(error));
                 }
                 None => match feed.status().state {
-                    FeedState::Ended | FeedState::Stopped => {
-                        let left = lock(self.parts).before(self.spec).end();
-                        self.tell_left(left);
-                        return Ok(LiveAnswer::AtItsEnd);
-                    }
+                    FeedState::Ended | FeedState::Stopped => return Ok(LiveAnswer::AtItsEnd),
                     FeedState::Failed(error) => return Err(UserError::of(&*error).into()),
                     FeedState::Opening | FeedState::Running | FeedState::Lost { .. } => {}
                 },
@@ -273,11 +328,12 @@ impl<'a> LiveSession<'a> {
             scene = watch.look(scene, at);
         }
         let mut inspection = pipeline::run(&scene, &fitted, self.recipe, &watching)?;
+        let middle = FinishedInspection::middle(&inspection, &fitted);
+        let inputs = format!("{} {}", self.recipe_identity, shelved.shown.identity);
         let mut followed = None;
         // If captures are independent, each is a hung part of its own.
         let mut role = FrameRole::First;
         if let Some(watch) = &mut self.watch {
-            let middle = FinishedInspection::middle(&inspection, &fitted);
             self.standing = watch.judge(&mut inspection, middle, &self.recipe.accept);
             self.stillness = Some(watch.stillness());
             followed = Some(LiveFrameContext {
@@ -290,18 +346,12 @@ impl<'a> LiveSession<'a> {
                 inspection: &inspection,
                 verdict: &self.standing,
                 middle,
-                inputs: &format!("{} {}", self.recipe_identity, shelved.shown.identity),
+                inputs: &inputs,
             };
-            let shows_part = matches!(inspection.verdict, Verdict::Part { .. });
-            let (left, of_frame) = {
-                let mut parts = lock(self.parts);
-                let parts = parts.before(self.spec);
-                let seen = parts.rows.see(&frame);
-                parts.seen(arrived, shows_part);
-                seen
-            };
-            role = of_frame;
-            self.tell_left(left);
+            role = lock(&self.request.parts).rows.role_of(&frame);
+            if role == FrameRole::Nothing {
+                self.see(&frame, arrived);
+            }
         }
         self.num_inspected += 1;
         self.rate.came(Instant::now());
@@ -322,43 +372,68 @@ impl<'a> LiveSession<'a> {
             followed,
             source: self.spec.to_string(),
         };
-        let mut inspected = found.prepared(&fitted, &shelved.shown);
-        // What a trigger found out about the part before lies below.
-        inspected.entry.stands_for_part = matches!(role, FrameRole::First | FrameRole::Best);
-        let summary = &mut inspected.entry.record.summary;
-        match role {
-            FrameRole::First => {
-                summary.trace = self.trace.take(summary.verdict != StoredVerdict::NoPart);
-                lock(self.parts).trace = summary.trace.clone();
-            }
-            FrameRole::Again => summary.trace = lock(self.parts).trace.clone(),
-            FrameRole::Nothing | FrameRole::Best => {}
+        let inspected = found.prepared(&fitted, &shelved.shown);
+        if self.watch.is_some() && role != FrameRole::Nothing {
+            // Not before: after a panic on the way here, the next frame shall be recorded in place of this one.
+            let frame = HungFrame {
+                scene: &inspected.scene,
+                at,
+                inspection: &inspected.inspection,
+                verdict: &self.standing,
+                middle,
+                inputs: &inputs,
+            };
+            self.see(&frame, arrived);
         }
-        {
-            let mut parts = lock(self.parts);
-            let parts = parts.before(self.spec);
-            if self.watch.is_some() {
-                inspected.entry.record.summary.hung = parts.rows.id().clone();
-                if role == FrameRole::Best {
-                    parts.rows.hold(inspected.entry.clone());
-                }
-            } else {
-                parts.seen_alone(arrived, inspected.hung());
-            }
-        }
-        let inspected = Arc::new(inspected);
-        self.inspected = Some(Arc::clone(&inspected));
-        if matches!(role, FrameRole::First | FrameRole::Again) {
-            self.context.partial(LiveAnswer::Counts(inspected));
-        }
+        self.keep(inspected, role, arrived);
         Ok(())
     }
 
-    /// Hands over the inspection of a part that left before its verdict counted.
-    fn tell_left(&self, left: Option<NewEntry>) {
-        if let Some(mut left) = left {
-            left.record.summary.trace = self.trace.take(true);
-            self.context.partial(LiveAnswer::Left(Box::new(left)));
+    /// Takes in a frame, and records the part that left before it.
+    fn see(&self, frame: &HungFrame<'_>, arrived: Instant) {
+        let shows_part = matches!(frame.inspection.verdict, Verdict::Part { .. });
+        let mut parts = lock(&self.request.parts);
+        let (left, _) = parts.rows.see(frame);
+        parts.seen(arrived, shows_part);
+        // Recording may wait for the window.
+        drop(parts);
+        self.request.record_left(left);
+    }
+
+    /// Keeps the inspection of a frame to be shown, and records it if it is the first or another one of its part.
+    fn keep(&mut self, mut inspected: Inspected, role: FrameRole, arrived: Instant) {
+        // What a trigger found out about the part before lies below.
+        inspected.entry.stands_for_part = matches!(role, FrameRole::First | FrameRole::Best);
+        let mut parts = lock(&self.request.parts);
+        let summary = &mut inspected.entry.record.summary;
+        if self.watch.is_some() {
+            summary.hung = parts.rows.id().clone();
+        }
+        match role {
+            FrameRole::First => {
+                let is_part = summary.verdict != StoredVerdict::NoPart;
+                summary.trace = self.request.trace.take(is_part);
+                parts.counted = Some((summary.hung.clone(), summary.trace.clone()));
+            }
+            FrameRole::Again => {
+                if let Some((_, trace)) = &parts.counted {
+                    summary.trace = trace.clone();
+                }
+            }
+            FrameRole::Nothing | FrameRole::Best => {}
+        }
+        if self.watch.is_none() {
+            parts.seen_alone(arrived, inspected.hung());
+        } else if role == FrameRole::Best {
+            parts.rows.hold(inspected.entry.clone());
+        }
+        drop(parts);
+        let inspected = Arc::new(inspected);
+        self.inspected = Some(Arc::clone(&inspected));
+        if matches!(role, FrameRole::First | FrameRole::Again) {
+            let session = self.request.session;
+            let record = LiveRecord::Counts { inspected, session };
+            send(&self.request.recorder, record);
         }
     }
 

@@ -282,7 +282,10 @@ impl RobotCell {
 
     /// Loads the calibration that the window starts with.
     pub fn load_remembered(&mut self, cx: &mut ShellContext<'_>) {
-        if let Some(path) = cx.session.calibration_path() {
+        let is_usual = cx.session.cell == RememberedCell::Usual;
+        if let Some(path) = cx.session.calibration_path()
+            && (!is_usual || path.exists())
+        {
             self.load(path);
         }
     }
