@@ -21,11 +21,11 @@ use jiff::Timestamp;
 
 pub use self::error::{GenicamError, GenicamWarning};
 use self::{
-    aravis::{Aravis, Device, Frame, Library},
+    aravis::{Device, FoundDevice, Frame, Functions},
     scan3d::{Decoder, FOCAL_LENGTH, Scan3d},
 };
 use super::{
-    driver_search::DriverNames,
+    driver_search::CameraLibrary,
     error::{CaptureError, CaptureWarning},
     open::SourceListing,
     read_timeout::ReadTimeout,
@@ -34,20 +34,30 @@ use super::{
 };
 use crate::files::DepthCamera;
 
-/// Environment variable with aravis' file or folder; the source's own setting takes precedence.
-const VARIABLE: &str = "PARTSIGHT_ARAVIS";
-
-const NAMES: &[&str] = if cfg!(target_os = "macos") {
-    &[
-        "libaravis-0.8.0.dylib",
-        "libaravis-0.8.dylib",
-        // Homebrew's folder on Apple silicon is not among those that the system searches.
-        "/opt/homebrew/lib/libaravis-0.8.0.dylib",
-    ]
-} else if cfg!(windows) {
-    &["libaravis-0.8-0.dll", "aravis-0.8-0.dll"]
-} else {
-    &["libaravis-0.8.so.0", "libaravis-0.8.so"]
+static ARAVIS: CameraLibrary = CameraLibrary {
+    name: "aravis",
+    cameras: "GenICam cameras",
+    versions: "aravis 0.8.26 or a newer 0.8",
+    install: if cfg!(target_os = "macos") {
+        "brew install aravis"
+    } else if cfg!(windows) {
+        "on a computer with Linux or macOS"
+    } else {
+        "sudo apt-get install libaravis-0.8-0"
+    },
+    variable: "PARTSIGHT_ARAVIS",
+    file_names: if cfg!(target_os = "macos") {
+        &[
+            "libaravis-0.8.0.dylib",
+            "libaravis-0.8.dylib",
+            // Homebrew's folder on Apple silicon is not among those that the system searches.
+            "/opt/homebrew/lib/libaravis-0.8.0.dylib",
+        ]
+    } else if cfg!(windows) {
+        &["libaravis-0.8-0.dll", "aravis-0.8-0.dll"]
+    } else {
+        &["libaravis-0.8.so.0", "libaravis-0.8.so"]
+    },
 };
 
 /// A camera that sends nothing for this long is lost. It exceeds the 5 s or so after which the library notices that a GigE
@@ -75,50 +85,24 @@ pub(super) fn open(spec: &GenicamSpec) -> Result<Box<dyn DepthSource>, CaptureEr
 /// Lists the cameras that answer, or why there are none, using the environment's or the system's aravis. Takes about a
 /// second, the time cameras have to answer.
 pub(super) fn list() -> Vec<SourceListing> {
-    let found = library(&GenicamSpec::default()).and_then(|aravis| match &aravis.devices()[..] {
-        [] => Err(GenicamError::NoDevice),
-        found => Ok(found.iter().map(|device| device.id.clone()).collect()),
-    });
-    let ids: Vec<String> = match found {
-        Ok(ids) => ids,
-        Err(error) => {
-            return vec![SourceListing {
-                title: "GenICam".into(),
-                spec: None,
-                trouble: Some(error.into()),
-            }];
-        }
-    };
-    let listing = |id| {
+    let listing = |device: FoundDevice| {
         let spec = SourceSpec::Genicam(GenicamSpec {
-            device: Some(id),
+            device: Some(device.id),
             ..GenicamSpec::default()
         });
-        SourceListing {
-            title: spec.title(),
-            spec: Some(spec),
-            trouble: None,
-        }
+        SourceListing::openable(spec.title(), spec)
     };
-    ids.into_iter().map(listing).collect()
-}
-
-fn library(spec: &GenicamSpec) -> Result<Aravis, GenicamError> {
-    let driver = DriverNames {
-        variable: VARIABLE,
-        names: NAMES,
+    let found = ARAVIS.find(None, Functions::load);
+    let error = match found.map(Functions::devices) {
+        Ok(devices) if devices.is_empty() => GenicamError::NoDevice,
+        Ok(devices) => return devices.into_iter().map(listing).collect(),
+        Err(error) => error.into(),
     };
-    let (found, name) = driver.find(spec.library.as_deref(), Library::load)?;
-    found
-        .complete()
-        .map_err(|symbol| GenicamError::MissingSymbol {
-            library: name,
-            symbol,
-        })
+    vec![SourceListing::unusable("GenICam", error)]
 }
 
 /// Returns the ID of the requested camera, or of the first that answers.
-fn find_device(aravis: Aravis, wanted: Option<&str>) -> Result<String, GenicamError> {
+fn find_device(aravis: &Functions, wanted: Option<&str>) -> Result<String, GenicamError> {
     // Search even if an address is given: the library keeps cameras that are gone until the next search.
     let found = aravis.devices();
     let Some(wanted) = wanted else {
@@ -171,7 +155,9 @@ fn choose(
 impl Genicam {
     fn open(spec: &GenicamSpec) -> Result<Self, CaptureError> {
         let file = spec.camera.as_deref().map(DepthCamera::read).transpose()?;
-        let aravis = library(spec)?;
+        let aravis = ARAVIS
+            .find(spec.library.as_deref(), Functions::load)
+            .map_err(GenicamError::from)?;
         let id = find_device(aravis, spec.device.as_deref())?;
         let mut device = aravis.open(&id).map_err(not_opened)?;
         if !device.has_control() {
@@ -273,7 +259,7 @@ impl DepthSource for Genicam {
             self.num_frames += 1;
             return Ok(self.next_of(&frame));
         }
-        let timeout = self.silence.goes_on(start.elapsed());
+        let timeout = self.silence.add(start.elapsed());
         if !device.has_control() {
             return self.end(GenicamError::Lost { said: None });
         }

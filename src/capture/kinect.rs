@@ -11,11 +11,9 @@
 
 mod claim;
 mod error;
-mod failure;
 mod freenect;
 mod header;
 mod raw_depth;
-mod search;
 mod session;
 
 use std::{
@@ -27,12 +25,11 @@ use jiff::Timestamp;
 
 pub use self::error::{KinectError, KinectWarning};
 use self::{
-    failure::Failed,
-    freenect::{Context, Device, Library},
+    freenect::{Context, Device, Failed, Library},
     header::{DEPTH_11BIT, DEPTH_MM, DEPTH_MM_MAX, FrameMode},
-    search::LoadedDriver,
 };
 use super::{
+    driver_search::CameraLibrary,
     error::{CaptureError, CaptureWarning},
     open::SourceListing,
     read_timeout::ReadTimeout,
@@ -42,6 +39,33 @@ use super::{
 use crate::geometry::{
     depth_frame::{DepthFrame, Intrinsics},
     distortion::Distortion,
+};
+
+static FREENECT: CameraLibrary = CameraLibrary {
+    name: "libfreenect",
+    cameras: "Kinects",
+    versions: "libfreenect 0.5",
+    install: if cfg!(target_os = "macos") {
+        "brew install libfreenect"
+    } else if cfg!(windows) {
+        "put freenect.dll 0.5 and libusb-1.0.dll beside the program"
+    } else {
+        "sudo apt-get install libfreenect0.5"
+    },
+    variable: "PARTSIGHT_FREENECT",
+    file_names: if cfg!(target_os = "macos") {
+        &[
+            "libfreenect.0.5.dylib",
+            "libfreenect.0.dylib",
+            "libfreenect.dylib",
+            // Homebrew's folder on Apple silicon is not among those that the system searches.
+            "/opt/homebrew/lib/libfreenect.dylib",
+        ]
+    } else if cfg!(windows) {
+        &["freenect.dll", "libfreenect.dll"]
+    } else {
+        &["libfreenect.so.0.5", "libfreenect.so.0", "libfreenect.so"]
+    },
 };
 
 /// An open Kinect whose depth stream runs. Dropping it stops the stream and closes the camera.
@@ -77,8 +101,8 @@ pub(super) fn list() -> Vec<SourceListing> {
 }
 
 fn found_devices() -> Result<Vec<SourceListing>, KinectError> {
-    let library = search::find(None)?;
-    let (context, num_entries) = start(&library)?;
+    let library = FREENECT.find(None, Library::load)?;
+    let (context, num_entries) = start(library)?;
     let num_devices = context.num_devices().map_err(KinectError::of_opening)?;
     if num_devices == 0 {
         return Err(KinectError::NoDevice);
@@ -88,11 +112,7 @@ fn found_devices() -> Result<Vec<SourceListing>, KinectError> {
             serial,
             library: None,
         };
-        SourceListing {
-            title: title(&spec, &library),
-            spec: Some(SourceSpec::Kinect(spec)),
-            trouble: None,
-        }
+        SourceListing::openable(title(&spec, library), SourceSpec::Kinect(spec))
     };
     if num_entries.is_some() {
         return Ok(vec![can_be_opened(None)]);
@@ -109,15 +129,11 @@ fn found_devices() -> Result<Vec<SourceListing>, KinectError> {
 }
 
 fn cannot_be_opened(error: KinectError) -> SourceListing {
-    SourceListing {
-        title: "Kinect".into(),
-        spec: None,
-        trouble: Some(error.into()),
-    }
+    SourceListing::unusable("Kinect", error)
 }
 
-fn title(spec: &KinectSpec, library: &LoadedDriver) -> String {
-    if library.library.plays_sessions() {
+fn title(spec: &KinectSpec, library: &Library) -> String {
+    if library.plays_sessions() {
         "Kinect, a recorded session".into()
     } else {
         SourceSpec::Kinect(spec.clone()).title()
@@ -126,20 +142,18 @@ fn title(spec: &KinectSpec, library: &LoadedDriver) -> String {
 
 /// Starts the library. A build that plays recorded sessions terminates the program if there is no session, so check for it
 /// first. Returns the context and the session's number of entries.
-fn start(found: &LoadedDriver) -> Result<(Context, Option<usize>), KinectError> {
-    let plays_session = found.library.plays_sessions();
-    let num_entries = plays_session
-        .then(|| session::check(&found.name))
+fn start(library: &'static Library) -> Result<(Context, Option<usize>), KinectError> {
+    let num_entries = library
+        .plays_sessions()
+        .then(|| session::check(library.file()))
         .transpose()?;
-    let context =
-        Context::new(found.library).map_err(|error| KinectError::of_start(error, &found.name))?;
-    Ok((context, num_entries))
+    Ok((Context::new(library)?, num_entries))
 }
 
 impl Kinect {
     fn open(spec: &KinectSpec) -> Result<Self, KinectError> {
-        let library = search::find(spec.library.as_deref())?;
-        let (context, num_entries) = start(&library)?;
+        let library = FREENECT.find(spec.library.as_deref(), Library::load)?;
+        let (context, num_entries) = start(library)?;
         let mut device = open_device(context, num_entries.is_some(), spec.serial.as_deref())?;
         let mode = best_mode(&device.depth_modes()).ok_or(KinectError::NoDepthMode)?;
         let mut warnings = Vec::new();
@@ -159,10 +173,10 @@ impl Kinect {
             .map_err(|failed| KinectError::NotStarted { said: failed.said })?;
         Ok(Self {
             device: Some(device),
-            title: title(spec, &library),
+            title: title(spec, library),
             camera,
             units,
-            library: library.library,
+            library,
             num_entries,
             num_frames: 0,
             silence: ReadTimeout::default(),
@@ -229,7 +243,7 @@ impl DepthSource for Kinect {
                 Ok(Some(depth)) => return Ok(NextCapture::Captured(self.captured(depth))),
                 Ok(None) if self.num_entries.is_some() => {}
                 Ok(None) => {
-                    if let Some(seconds) = self.silence.goes_on(turn) {
+                    if let Some(seconds) = self.silence.add(turn) {
                         return self.end(KinectError::Silent { seconds });
                     }
                 }

@@ -26,6 +26,7 @@ mod source;
 mod spec;
 mod watched;
 
+pub use self::driver_search::CameraLibraryError;
 pub use self::error::{CaptureError, CaptureWarning, Recovery};
 pub use self::feed::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus};
 pub use self::genicam::{GenicamError, GenicamWarning};

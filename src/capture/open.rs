@@ -34,14 +34,31 @@ pub struct SourceListing {
     pub trouble: Option<CaptureError>,
 }
 
+impl SourceListing {
+    pub(super) fn openable(title: String, spec: SourceSpec) -> Self {
+        Self {
+            title,
+            spec: Some(spec),
+            trouble: None,
+        }
+    }
+
+    pub(super) fn unusable(title: &str, error: impl Into<CaptureError>) -> Self {
+        Self {
+            title: title.to_owned(),
+            spec: None,
+            trouble: Some(error.into()),
+        }
+    }
+}
+
 /// Lists the sources that need no folder: the simulated cell and every connected camera. Takes about a second, the time
 /// GenICam cameras have to answer.
 pub fn list() -> Vec<SourceListing> {
-    let simulated = SourceListing {
-        title: "Simulated cell".into(),
-        spec: Some(SourceSpec::Simulated(SimulatedSpec::default())),
-        trouble: None,
-    };
+    let simulated = SourceListing::openable(
+        "Simulated cell".into(),
+        SourceSpec::Simulated(SimulatedSpec::default()),
+    );
     [simulated]
         .into_iter()
         .chain(kinect::list())

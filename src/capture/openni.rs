@@ -9,12 +9,10 @@
 //! Known limits: a file stores only the mirroring at its start, so that if it was switched during the recording, all frames
 //! after that are wrong. libOpenNI2 reads files itself; we only check beforehand that a file is complete.
 
-mod answer;
 mod error;
 mod file;
 mod header;
 mod oni;
-mod search;
 
 use std::{
     ffi::CString,
@@ -26,15 +24,15 @@ use jiff::Timestamp;
 
 pub use self::error::OpenNiError;
 use self::{
-    answer::{Failed, FoundDevice, Received},
     header::{
         Cropping, DEPTH_1_MM, DEPTH_100_UM, DEVICE_REGISTRATION, DEVICE_REPEAT, DEVICE_SPEED,
         STREAM_CROPPING, STREAM_HORIZONTAL_VIEW, STREAM_MIRRORING, STREAM_MODE,
         STREAM_VERTICAL_VIEW, VideoMode,
     },
-    oni::{Context, Device},
+    oni::{Context, Device, Failed, FoundDevice, Functions, Received},
 };
 use super::{
+    driver_search::CameraLibrary,
     error::CaptureError,
     open::SourceListing,
     read_timeout::ReadTimeout,
@@ -44,6 +42,28 @@ use super::{
 use crate::geometry::{
     depth_frame::{DepthFrame, Intrinsics},
     distortion::Distortion,
+};
+
+static OPENNI: CameraLibrary = CameraLibrary {
+    name: "libOpenNI2",
+    cameras: "OpenNI cameras",
+    versions: "libOpenNI2 2.2",
+    install: if cfg!(target_os = "macos") {
+        "brew install openni2"
+    } else if cfg!(windows) {
+        "put OpenNI2.dll with its folder OpenNI2 beside the program"
+    } else {
+        "sudo apt-get install libopenni2-0"
+    },
+    variable: "PARTSIGHT_OPENNI",
+    // The library finds its drivers in the folder `OpenNI2/Drivers` beside it.
+    file_names: if cfg!(target_os = "macos") {
+        &["libOpenNI2.dylib", "/opt/homebrew/lib/ni2/libOpenNI2.dylib"]
+    } else if cfg!(windows) {
+        &["OpenNI2.dll"]
+    } else {
+        &["libOpenNI2.so.0", "libOpenNI2.so"]
+    },
 };
 
 /// Frame rate below which a mode is used only if there is no other, frames per second.
@@ -83,11 +103,7 @@ pub(super) fn open(spec: &OpenNiSpec) -> Result<Box<dyn DepthSource>, CaptureErr
 pub(super) fn list() -> Vec<SourceListing> {
     match found_devices(None) {
         Ok((_, devices)) => devices.into_iter().map(can_be_opened).collect(),
-        Err(error) => vec![SourceListing {
-            title: "OpenNI camera".into(),
-            spec: None,
-            trouble: Some(error.into()),
-        }],
+        Err(error) => vec![SourceListing::unusable("OpenNI camera", error)],
     }
 }
 
@@ -104,19 +120,16 @@ fn found_devices(library: Option<&Path>) -> Result<(Context, Vec<FoundDevice>), 
 }
 
 fn start(library: Option<&Path>) -> Result<Context, OpenNiError> {
-    let (library, name) = search::find(library)?;
-    Context::new(library).map_err(|error| OpenNiError::of_start(error, &name))
+    Context::new(OPENNI.find(library, Functions::load)?)
 }
 
 fn can_be_opened(found: FoundDevice) -> SourceListing {
-    SourceListing {
-        title: title(&found),
-        spec: Some(SourceSpec::OpenNi(OpenNiSpec {
-            device: Some(found.uri),
-            ..OpenNiSpec::default()
-        })),
-        trouble: None,
-    }
+    let title = title(&found);
+    let spec = OpenNiSpec {
+        device: Some(found.uri),
+        ..OpenNiSpec::default()
+    };
+    SourceListing::openable(title, SourceSpec::OpenNi(spec))
 }
 
 fn title(found: &FoundDevice) -> String {
@@ -203,7 +216,7 @@ impl OpenNi {
                 self.device = None;
                 Ok(NextCapture::End)
             }
-            Ok(None) => match self.silence.goes_on(start.elapsed()) {
+            Ok(None) => match self.silence.add(start.elapsed()) {
                 Some(seconds) => self.end(OpenNiError::Silent { seconds }),
                 None => Ok(NextCapture::NotYet),
             },

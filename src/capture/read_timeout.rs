@@ -1,11 +1,12 @@
-//! Detects a camera that no longer sends anything.
+//! Detects a camera that is still there but sends nothing any more. Its library does not report this: each wait for a frame
+//! just ends without one.
 
 use std::time::Duration;
 
-/// Default silence after which a camera is lost. Some take more than a second from the start to their first frame.
-const USUAL: Duration = Duration::from_secs(5);
+/// Some cameras take more than a second from the start to their first frame.
+const DEFAULT_LIMIT: Duration = Duration::from_secs(5);
 
-/// How long a camera has sent nothing while being waited for. Pauses in which nobody waited do not count.
+/// Sums up the waits in which a camera sent nothing; time in which nobody waited for a frame does not count.
 pub(super) struct ReadTimeout {
     limit: Duration,
     silent_for: Duration,
@@ -13,11 +14,12 @@ pub(super) struct ReadTimeout {
 
 impl Default for ReadTimeout {
     fn default() -> Self {
-        Self::of(USUAL)
+        Self::of(DEFAULT_LIMIT)
     }
 }
 
 impl ReadTimeout {
+    /// A camera is lost after `limit`.
     pub(super) fn of(limit: Duration) -> Self {
         Self {
             limit,
@@ -30,9 +32,9 @@ impl ReadTimeout {
         self.silent_for = Duration::ZERO;
     }
 
-    /// Adds `turn` to the silence. Returns its whole seconds once it reaches the limit.
-    pub(super) fn goes_on(&mut self, turn: Duration) -> Option<u64> {
-        self.silent_for += turn;
+    /// Adds a wait without a frame. Returns the whole seconds of the silence once it reaches the limit.
+    pub(super) fn add(&mut self, wait: Duration) -> Option<u64> {
+        self.silent_for += wait;
         (self.silent_for >= self.limit).then_some(self.seconds())
     }
 
@@ -49,14 +51,14 @@ mod tests {
     #[test]
     fn a_camera_is_silent_for_too_long_only_after_its_time() {
         let mut silence = ReadTimeout::default();
-        assert_eq!(silence.goes_on(Duration::ZERO), None);
-        assert_eq!(silence.goes_on(Duration::from_millis(4_999)), None);
+        assert_eq!(silence.add(Duration::ZERO), None);
+        assert_eq!(silence.add(Duration::from_millis(4_999)), None);
         assert_eq!(silence.seconds(), 4);
-        assert_eq!(silence.goes_on(Duration::from_millis(1)), Some(5));
+        assert_eq!(silence.add(Duration::from_millis(1)), Some(5));
         silence.restart();
-        assert_eq!(silence.goes_on(Duration::from_secs(4)), None);
+        assert_eq!(silence.add(Duration::from_secs(4)), None);
         assert_eq!(
-            ReadTimeout::of(Duration::from_secs(8)).goes_on(Duration::from_secs(9)),
+            ReadTimeout::of(Duration::from_secs(8)).add(Duration::from_secs(9)),
             Some(9)
         );
     }

@@ -10,6 +10,7 @@
 
 mod error;
 mod file;
+mod header;
 mod librealsense;
 
 use std::{
@@ -22,11 +23,12 @@ use std::{
 use jiff::Timestamp;
 
 pub use self::error::RealsenseError;
-use self::librealsense::{
-    Context, DepthMode, Device, Library, NoContext, RawIntrinsics, Received, Sensor, Stream,
+use self::{
+    header::RawIntrinsics,
+    librealsense::{Context, DepthMode, Device, Functions, Received, Sensor, Stream},
 };
 use super::{
-    driver_search::DriverNames,
+    driver_search::CameraLibrary,
     error::CaptureError,
     open::SourceListing,
     read_timeout::ReadTimeout,
@@ -38,8 +40,41 @@ use crate::geometry::{
     distortion::Distortion,
 };
 
-/// Environment variable with librealsense's file or folder; the source's own setting takes precedence.
-const VARIABLE: &str = "PARTSIGHT_REALSENSE";
+/// File names on Linux. If only the runtime packages are installed, the name contains the minor version; the newest is
+/// preferred.
+macro_rules! with_minor_versions {
+    ($($minor:literal)*) => {
+        &["librealsense2.so", $(concat!("librealsense2.so.2.", $minor)),*]
+    };
+}
+
+static REALSENSE: CameraLibrary = CameraLibrary {
+    name: "librealsense2",
+    cameras: "RealSense cameras",
+    versions: "librealsense 2.30 or a newer 2",
+    install: if cfg!(target_os = "macos") {
+        "brew install librealsense"
+    } else if cfg!(windows) {
+        "put realsense2.dll beside the program"
+    } else {
+        "librealsense2 from https://github.com/realsenseai/librealsense/blob/master/doc/distribution_linux.md"
+    },
+    variable: "PARTSIGHT_REALSENSE",
+    file_names: if cfg!(target_os = "macos") {
+        // Homebrew's folder on Apple silicon is not among those that the system searches.
+        &[
+            "librealsense2.dylib",
+            "/opt/homebrew/lib/librealsense2.dylib",
+        ]
+    } else if cfg!(windows) {
+        &["realsense2.dll"]
+    } else {
+        with_minor_versions!(
+            79 78 77 76 75 74 73 72 71 70 69 68 67 66 65 64 63 62 61 60 59 58 57 56 55
+            54 53 52 51 50 49 48 47 46 45 44 43 42 41 40 39 38 37 36 35 34 33 32 31 30
+        )
+    },
+};
 
 /// Preferred modes, best first: columns, rows, frames per second.
 const PREFERRED: [(c_int, c_int, c_int); 2] = [(848, 480, 30), (640, 480, 30)];
@@ -75,9 +110,9 @@ pub(super) fn open(spec: &RealsenseSpec) -> Result<Box<dyn DepthSource>, Capture
 pub(super) fn list() -> Vec<SourceListing> {
     let listed = start(None).and_then(|context| {
         let devices = context.devices().map_err(not_opened)?;
-        let listed = devices.open_each().map(|device| match device {
-            Ok(device) => can_be_opened(&device),
-            Err(said) => cannot_be_opened(not_opened(said)),
+        let listed = devices.open_each().map(|device| {
+            let listing = device.map_err(not_opened).and_then(listing_of);
+            listing.unwrap_or_else(cannot_be_opened)
         });
         let listed: Vec<SourceListing> = listed.collect();
         if listed.is_empty() {
@@ -88,23 +123,18 @@ pub(super) fn list() -> Vec<SourceListing> {
     listed.unwrap_or_else(|error| vec![cannot_be_opened(error)])
 }
 
-fn can_be_opened(device: &Device) -> SourceListing {
-    SourceListing {
-        title: title(device),
-        spec: Some(SourceSpec::Realsense(RealsenseSpec {
-            device: device.serial_number(),
-            ..RealsenseSpec::default()
-        })),
-        trouble: None,
-    }
+fn listing_of(device: Device) -> Result<SourceListing, RealsenseError> {
+    let title = title(&device);
+    let spec = RealsenseSpec {
+        device: device.serial_number(),
+        ..RealsenseSpec::default()
+    };
+    depth_sensor(device, &title)?;
+    Ok(SourceListing::openable(title, SourceSpec::Realsense(spec)))
 }
 
 fn cannot_be_opened(error: RealsenseError) -> SourceListing {
-    SourceListing {
-        title: "RealSense".into(),
-        spec: None,
-        trouble: Some(error.into()),
-    }
+    SourceListing::unusable("RealSense", error)
 }
 
 /// Model and serial number.
@@ -118,39 +148,8 @@ fn title(device: &Device) -> String {
 
 /// Starts the library at `library`, or the one of the environment or the system.
 fn start(library: Option<&Path>) -> Result<Context, RealsenseError> {
-    let names = names();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let driver = DriverNames {
-        variable: VARIABLE,
-        names: &names,
-    };
-    let (found, library) = driver.find(library, Library::load)?;
-    found.start().map_err(|error| match error {
-        NoContext::MissingSymbol(symbol) => RealsenseError::MissingSymbol { library, symbol },
-        NoContext::Failed(said) => RealsenseError::LibraryNotStarted { said },
-    })
-}
-
-/// File names of the library. If only its runtime packages are installed, the name contains the minor version; the newest
-/// is preferred.
-fn names() -> Vec<String> {
-    if cfg!(target_os = "macos") {
-        // Homebrew's folder on Apple silicon is not among those that the system searches.
-        let names = [
-            "librealsense2.dylib",
-            "/opt/homebrew/lib/librealsense2.dylib",
-        ];
-        names.map(String::from).to_vec()
-    } else if cfg!(windows) {
-        vec!["realsense2.dll".into()]
-    } else {
-        let versions = (30..80).rev();
-        let versions = versions.map(|minor| format!("librealsense2.so.2.{minor}"));
-        ["librealsense2.so".to_owned()]
-            .into_iter()
-            .chain(versions)
-            .collect()
-    }
+    let functions = REALSENSE.find(library, Functions::load)?;
+    Context::new(functions).map_err(|said| RealsenseError::LibraryNotStarted { said })
 }
 
 fn not_opened(said: String) -> RealsenseError {
@@ -161,20 +160,13 @@ impl Realsense {
     fn open(spec: &RealsenseSpec) -> Result<Self, RealsenseError> {
         let context = start(spec.library.as_deref())?;
         let file = spec.file().map(Path::to_path_buf);
-        let (device, title) = if let Some(path) = &file {
+        let (title, (sensor, mode)) = if let Some(path) = &file {
             let title = SourceSpec::Realsense(spec.clone()).title();
-            (open_file(&context, path)?, title)
+            let depth = depth_sensor(open_file(&context, path)?, &title)?;
+            (title, depth)
         } else {
-            let device = open_camera(&context, spec.device.as_deref())?;
-            let title = title(&device);
-            (device, title)
+            open_camera(&context, spec.device.as_deref())?
         };
-        let no_depth = || RealsenseError::NoDepth {
-            title: title.clone(),
-        };
-        let sensor = device.depth_sensor().map_err(not_opened)?;
-        let sensor = sensor.ok_or_else(no_depth)?;
-        let mode = best_mode(sensor.modes()).ok_or_else(no_depth)?;
         if let Some(preset) = &spec.preset {
             set_preset(&sensor, preset, &title)?;
         }
@@ -231,7 +223,7 @@ impl Realsense {
     /// still there.
     fn silent(&mut self, turn: Duration) -> Result<NextCapture, CaptureError> {
         let seconds_before = self.silence.seconds();
-        let timeout = self.silence.goes_on(turn);
+        let timeout = self.silence.add(turn);
         let is_to_ask = self.file.is_none() && self.silence.seconds() > seconds_before;
         if let Some(stream) = self.stream.as_ref().filter(|_| is_to_ask) {
             match stream.is_connected() {
@@ -294,30 +286,54 @@ fn open_file(context: &Context, path: &Path) -> Result<Device, RealsenseError> {
     context.open_file(&name).map_err(not_opened)
 }
 
-/// Opens the camera with that serial number, or the first one that can be opened.
-fn open_camera(context: &Context, serial: Option<&str>) -> Result<Device, RealsenseError> {
+/// Opens the depth sensor of the camera with that serial number, or of the first camera that has one. Also returns the
+/// camera's title.
+fn open_camera(
+    context: &Context,
+    serial: Option<&str>,
+) -> Result<(String, (Sensor, DepthMode)), RealsenseError> {
     let devices = context.devices().map_err(not_opened)?;
-    let (mut found, mut trouble) = (Vec::new(), None);
+    let (mut found, mut error) = (Vec::new(), None);
     for device in devices.open_each() {
-        match device {
-            Ok(device) => {
-                let its_serial = device.serial_number();
-                if serial.is_none() || its_serial.as_deref() == serial {
-                    return Ok(device);
-                }
-                found.extend(its_serial);
+        let device = match device {
+            Ok(device) => device,
+            // It may be the requested one.
+            Err(said) => {
+                error = Some(not_opened(said));
+                continue;
             }
-            Err(said) => trouble = Some(said),
+        };
+        let its_serial = device.serial_number();
+        if serial.is_some() && its_serial.as_deref() != serial {
+            found.extend(its_serial);
+            continue;
+        }
+        let title = title(&device);
+        match depth_sensor(device, &title) {
+            Ok(depth) => return Ok((title, depth)),
+            Err(reason) if serial.is_some() => return Err(reason),
+            // A depth camera that does not open matters more than one without depth.
+            Err(reason @ RealsenseError::NoDepth { .. }) => error = error.or(Some(reason)),
+            Err(reason) => error = Some(reason),
         }
     }
-    Err(match (trouble, serial) {
-        // The one that failed may be the requested one.
-        (Some(said), _) => not_opened(said),
+    Err(match (error, serial) {
+        (Some(error), _) => error,
         (None, Some(serial)) if !found.is_empty() => RealsenseError::NoSuchDevice {
             serial: serial.to_owned(),
             found,
         },
         (None, _) => RealsenseError::NoDevice,
+    })
+}
+
+/// Returns the device's depth sensor, with its best mode.
+fn depth_sensor(device: Device, title: &str) -> Result<(Sensor, DepthMode), RealsenseError> {
+    let sensor = device.depth_sensor().map_err(not_opened)?;
+    let mode = sensor.as_ref().and_then(|sensor| best_mode(sensor.modes()));
+    let depth = sensor.zip(mode);
+    depth.ok_or_else(|| RealsenseError::NoDepth {
+        title: title.to_owned(),
     })
 }
 

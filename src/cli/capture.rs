@@ -16,7 +16,10 @@ use super::{
     follow::{follow, parse_source},
 };
 use crate::{
-    capture::{CaptureWarning, FeedItem, Recorder, SourceSpec, list},
+    capture::{
+        CaptureError, CaptureWarning, FeedItem, OpenNiError, RealsenseError, Recorder, SourceSpec,
+        list,
+    },
     error::Advice as _,
 };
 
@@ -148,22 +151,44 @@ fn show_list(console: &mut Console) -> Outcome {
             table.row([spec.to_string(), listed.title.clone()]);
         }
     }
-    for (pattern, what) in [
+    // A file needs the library of its camera, but no camera.
+    let (mut plays_openni, mut plays_realsense) = (true, true);
+    for trouble in found.iter().filter_map(|listed| listed.trouble.as_ref()) {
+        match trouble {
+            CaptureError::OpenNi(OpenNiError::Library(_) | OpenNiError::NoDrivers { .. }) => {
+                plays_openni = false;
+            }
+            CaptureError::Realsense(
+                RealsenseError::Library(_) | RealsenseError::LibraryNotStarted { .. },
+            ) => plays_realsense = false,
+            _ => {}
+        }
+    }
+    for (is_usable, pattern, what) in [
         (
+            true,
             "recording:DIR",
             "A recording, an RGB-D sequence, or a folder of clouds",
         ),
         (
+            true,
             "watch:DIR",
             "A folder that another program saves captures into",
         ),
-        ("openni:FILE.oni", "A file that OpenNI 2 recorded"),
         (
+            plays_openni,
+            "openni:FILE.oni",
+            "A file that OpenNI 2 recorded",
+        ),
+        (
+            plays_realsense,
             "realsense:FILE.db3",
             "A file that librealsense recorded, or FILE.bag",
         ),
     ] {
-        table.row([pattern.to_owned(), what.to_owned()]);
+        if is_usable {
+            table.row([pattern.to_owned(), what.to_owned()]);
+        }
     }
     table.show(console);
     for listed in &found {

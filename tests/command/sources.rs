@@ -10,7 +10,10 @@ use std::{
 
 use serde_json::Value;
 
-use crate::workplace::{Ran, Workplace};
+use crate::{
+    kit::{SHARED, compile_c},
+    workplace::{Ran, Workplace},
+};
 
 /// Timeout with room for a busy machine; what is awaited normally comes at once.
 const PATIENCE: Duration = Duration::from_mins(2);
@@ -208,4 +211,42 @@ fn what_cannot_be_opened_is_said_with_what_to_do() {
         out.lines().any(|line| line.starts_with("simulated ")),
         "{out}"
     );
+}
+
+#[test]
+fn a_cameras_files_are_listed_only_if_its_library_is_there() {
+    let place = Workplace::new();
+    fs::create_dir(place.path("empty")).expect("made");
+    let list = |realsense: &str| -> Ran {
+        let mut command = place.command(&["capture", "--list"]);
+        command
+            .env("PARTSIGHT_OPENNI", place.path("empty"))
+            .env("PARTSIGHT_REALSENSE", place.path(realsense))
+            .env("STUB", "no camera");
+        command.output().expect("starts").into()
+    };
+    let Ran { code, out, err } = list("empty");
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("recording:DIR"), "{out}");
+    assert!(!out.contains("FILE"), "{out}");
+    for words in [
+        "libOpenNI2 was not found there",
+        "librealsense2 was not found there",
+        "PARTSIGHT_REALSENSE",
+    ] {
+        assert!(err.contains(words), "{err}");
+    }
+
+    // With the library a file can be played, even if no camera is plugged in.
+    let library = place.path("stub.so");
+    if let Err(why) = compile_c("tests/realsense/camera.c", &library, &SHARED) {
+        let is_required = std::env::var("PARTSIGHT_REQUIRE_COMPILER").is_ok_and(|is| is == "1");
+        assert!(!is_required, "PARTSIGHT_REQUIRE_COMPILER=1, and {why}");
+        return println!("skipped: {why}");
+    }
+    let Ran { code, out, err } = list("stub.so");
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("realsense:FILE.db3"), "{out}");
+    assert!(!out.contains("openni:FILE.oni"), "{out}");
+    assert!(err.contains("no RealSense camera is plugged in"), "{err}");
 }

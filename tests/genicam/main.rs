@@ -17,8 +17,9 @@ use std::{
 use partsight::{
     Advice as _,
     capture::{
-        BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, FeedState,
-        GenicamError, GenicamSpec, Image, NextCapture, Recovery, SourceSpec, list, open,
+        BackpressurePolicy, CameraLibraryError, CaptureError, Captured, DepthSource, Feed,
+        FeedItem, FeedState, GenicamError, GenicamSpec, Image, NextCapture, Recovery, SourceSpec,
+        list, open,
     },
     geometry::{cloud::Grid, depth_frame::DepthFrame},
 };
@@ -71,7 +72,10 @@ impl FakeCamera {
                 if listed.title == format!("GenICam {ID}") {
                     return Some(camera);
                 }
-                if let Some(CaptureError::Genicam(GenicamError::NoLibrary)) = listed.trouble {
+                if let Some(CaptureError::Genicam(GenicamError::Library(
+                    CameraLibraryError::NotInstalled { .. },
+                ))) = listed.trouble
+                {
                     skipped("aravis is not installed (apt-get install libaravis-0.8-0)");
                     return None;
                 }

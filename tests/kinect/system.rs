@@ -1,7 +1,7 @@
 //! The system's own libfreenect, with or without a Kinect.
 
 use partsight::{
-    capture::{CaptureError, KinectError, KinectSpec, SourceSpec, open},
+    capture::{CameraLibraryError, CaptureError, KinectError, KinectSpec, SourceSpec, open},
     error::Advice as _,
 };
 
@@ -27,7 +27,9 @@ fn the_systems_library_is_found_by_itself_and_says_whether_a_kinect_is_there() {
         assert!(kinect.spec.is_none());
         println!("figures: {}: {error}. {}", kinect.title, error.advice());
         match trouble_of(error) {
-            KinectError::NoLibrary { .. } => skipped("libfreenect is not installed"),
+            KinectError::Library(CameraLibraryError::NotInstalled { .. }) => {
+                skipped("libfreenect is not installed");
+            }
             // The errors of a machine without a Kinect, without USB, or without permission.
             KinectError::NoDevice
             | KinectError::NoUsb { .. }

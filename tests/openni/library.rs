@@ -12,7 +12,7 @@ use std::{
 };
 
 use partsight::{
-    capture::{OpenNiError, OpenNiSpec, SourceSpec, open},
+    capture::{CameraLibraryError, OpenNiError, OpenNiSpec, SourceSpec, open},
     error::Advice as _,
 };
 
@@ -53,7 +53,7 @@ fn the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there() {
         assert!(camera.spec.is_none());
         println!("figures: {}: {error}. {}", camera.title, error.advice());
         match trouble_of(error) {
-            error @ OpenNiError::NoLibrary { .. } => {
+            error @ OpenNiError::Library(CameraLibraryError::NotInstalled { .. }) => {
                 assert!(
                     error.advice().contains("PARTSIGHT_OPENNI"),
                     "{}",
@@ -72,7 +72,13 @@ fn the_systems_library_is_found_by_itself_and_says_whether_a_camera_is_there() {
 fn a_place_without_the_library_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let error = trouble_in(folder.path());
-    assert!(matches!(&error, OpenNiError::LibraryNotAt { path } if path == folder.path()));
+    assert!(
+        matches!(
+            &error,
+            OpenNiError::Library(CameraLibraryError::NotAt { path, .. }) if path == folder.path()
+        ),
+        "{error}"
+    );
     assert!(
         error.advice().contains("PARTSIGHT_OPENNI"),
         "{}",
@@ -82,7 +88,10 @@ fn a_place_without_the_library_is_named() {
     fs::write(folder.path().join("libOpenNI2.so.0"), "no library").expect("written");
     let error = trouble_in(folder.path());
     assert!(
-        matches!(error, OpenNiError::LibraryUnusable { .. }),
+        matches!(
+            error,
+            OpenNiError::Library(CameraLibraryError::Unusable { .. })
+        ),
         "{error}"
     );
 }

@@ -32,6 +32,9 @@ static int is(const char *state) {
     return now != NULL && strcmp(now, state) == 0;
 }
 
+/* The first camera may be a tracking camera. */
+static int lacks_depth(int camera) { return is("no depth") || (is("tracking") && camera <= 0); }
+
 static void *counted(size_t size) {
     alive++;
     return calloc(1, size);
@@ -98,11 +101,15 @@ const char *rs2_get_device_info(const void *device, int info, void **error) {
     return info == 0 ? "Intel RealSense D435" : serials[camera_of(device)];
 }
 
-/* Files; this library has none. */
+/* Files; this library has none. In librealsense, each of these calls for a camera throws an exception. */
+static void no_playback(void) {
+    fputs("a camera plays no file\n", stderr);
+    abort();
+}
 void *rs2_context_add_device(void *context, const char *path, void **error) { (void)context, (void)path; fail(error, "no files here"); return NULL; }
-void rs2_playback_device_set_real_time(const void *device, int real_time, void **error) { (void)device, (void)real_time; fail(error, "no playback"); }
-void rs2_playback_device_set_playback_speed(const void *device, float speed, void **error) { (void)device, (void)speed; fail(error, "no playback"); }
-int rs2_playback_device_get_current_status(const void *device, void **error) { (void)device; fail(error, "no playback"); return 0; }
+void rs2_playback_device_set_real_time(const void *device, int real_time, void **error) { (void)device, (void)real_time, (void)error; no_playback(); }
+void rs2_playback_device_set_playback_speed(const void *device, float speed, void **error) { (void)device, (void)speed, (void)error; no_playback(); }
+int rs2_playback_device_get_current_status(const void *device, void **error) { (void)device, (void)error; no_playback(); return 0; }
 
 /* Sensors: one for motion, one for depth. */
 void *rs2_query_sensors(const void *device, void **error) { (void)error; return object(camera_of(device)); }
@@ -127,7 +134,7 @@ void rs2_set_option(const void *sensor, int option, float value, void **error) {
 
 /* Profiles. */
 void *rs2_get_stream_profiles(void *sensor, void **error) {
-    if (camera_of(sensor) < 0 && !is("no depth")) {
+    if (camera_of(sensor) < 0 && !lacks_depth(-1)) {
         fail(error, "the motion module is busy");
         return NULL;
     }
@@ -135,8 +142,8 @@ void *rs2_get_stream_profiles(void *sensor, void **error) {
 }
 void rs2_delete_stream_profiles_list(void *list) { forget(list); }
 int rs2_get_stream_profiles_count(const void *list, void **error) {
-    (void)list, (void)error;
-    return is("no depth") ? 1 : (int)(sizeof profiles / sizeof *profiles);
+    (void)error;
+    return lacks_depth(camera_of(list)) ? 1 : (int)(sizeof profiles / sizeof *profiles);
 }
 const void *rs2_get_stream_profile(const void *list, int index, void **error) { (void)list, (void)error; return &profiles[index]; }
 void rs2_get_stream_profile_data(const void *profile, int *stream, int *format, int *index, int *id, int *rate, void **error) {

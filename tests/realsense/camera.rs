@@ -74,6 +74,27 @@ fn a_camera_is_listed_and_opened_by_its_serial_number() {
 }
 
 #[test]
+fn a_camera_without_depth_is_passed_over_and_listed_as_such() {
+    let test = "camera::a_camera_without_depth_is_passed_over_and_listed_as_such";
+    with_cameras(test, "tracking", || {
+        let mut camera = open_camera().expect("opens the second");
+        assert_eq!(camera.title(), "Intel RealSense D435 B2");
+        assert_eq!(next_frame(camera.as_mut()).depth[CAMERA_NUMBER], 1);
+        drop(camera);
+
+        let error = open_text("realsense:A1").err().expect("no depth");
+        assert!(error.to_string().contains("A1 has no depth"), "{error}");
+
+        let [tracking, depth] = <[_; 2]>::try_from(listed()).expect("two cameras");
+        assert!(tracking.spec.is_none());
+        let error = trouble_of(tracking.trouble.expect("a reason"));
+        assert!(matches!(error, RealsenseError::NoDepth { .. }), "{error}");
+        let spec = depth.spec.expect("can be opened");
+        assert_eq!(spec.to_string(), "realsense:B2");
+    });
+}
+
+#[test]
 fn a_preset_is_set_by_its_name_and_its_unit_is_read() {
     let test = "camera::a_preset_is_set_by_its_name_and_its_unit_is_read";
     with_cameras(test, "well", || {
@@ -200,6 +221,15 @@ fn no_bandwidth() {
 #[test]
 fn no_depth() {
     refused("camera::no_depth", "no depth", "has no depth", "firmware");
+}
+
+#[test]
+fn a_camera_that_may_get_its_firmware_is_tried_again() {
+    let test = "camera::a_camera_that_may_get_its_firmware_is_tried_again";
+    with_cameras(test, "no depth", || {
+        let error = open_camera().err().expect("no depth");
+        assert_eq!(error.recovery(), Recovery::Reopen);
+    });
 }
 
 #[test]

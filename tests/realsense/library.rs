@@ -2,7 +2,10 @@
 
 use std::fs;
 
-use partsight::{capture::RealsenseError, error::Advice as _};
+use partsight::{
+    capture::{CameraLibraryError, RealsenseError},
+    error::Advice as _,
+};
 
 use crate::{
     kit::{SHARED, compile_c},
@@ -27,7 +30,7 @@ fn the_systems_library_is_found_by_itself_or_told_to_be_absent() {
         assert!(camera.spec.is_none());
         println!("figures: {}: {error}. {}", camera.title, error.advice());
         match trouble_of(error) {
-            error @ RealsenseError::NoLibrary => {
+            error @ RealsenseError::Library(CameraLibraryError::NotInstalled { .. }) => {
                 for word in ["librealsense2", "https://", "PARTSIGHT_REALSENSE"] {
                     assert!(error.advice().contains(word), "{}", error.advice());
                 }
@@ -49,7 +52,13 @@ fn a_place_without_the_library_and_other_libraries_are_told_apart() {
     let source = format!("realsense,library={}", folder.path().display());
     let trouble = || trouble_of(open_text(&source).err().expect("does not open"));
     let error = trouble();
-    assert!(matches!(&error, RealsenseError::LibraryNotAt { path } if path == folder.path()));
+    assert!(
+        matches!(
+            &error,
+            RealsenseError::Library(CameraLibraryError::NotAt { path, .. }) if path == folder.path()
+        ),
+        "{error}"
+    );
     assert!(
         error.advice().contains("PARTSIGHT_REALSENSE"),
         "{}",
@@ -60,7 +69,10 @@ fn a_place_without_the_library_and_other_libraries_are_told_apart() {
     fs::write(&library, "no library").expect("written");
     let error = trouble();
     assert!(
-        matches!(error, RealsenseError::LibraryUnusable { .. }),
+        matches!(
+            error,
+            RealsenseError::Library(CameraLibraryError::Unusable { .. })
+        ),
         "{error}"
     );
 

@@ -116,53 +116,35 @@ pub(super) struct FoundDevice {
     pub(super) address: Option<String>,
 }
 
-impl Library {
-    /// Returns the library if it has every function, else the name of the first missing one.
-    pub(super) fn complete(&'static self) -> Result<Aravis, &'static str> {
-        match &self.functions {
-            Ok(functions) => Ok(Aravis { functions }),
-            Err(symbol) => Err(*symbol),
-        }
-    }
-}
-
-/// A library with every function.
-#[derive(Clone, Copy)]
-pub(super) struct Aravis {
-    functions: &'static Functions,
-}
-
-impl Aravis {
+impl Functions {
     /// Searches every network interface and USB for cameras. Takes about a second, the time cameras have to answer.
-    pub(super) fn devices(self) -> Vec<FoundDevice> {
+    pub(super) fn devices(&self) -> Vec<FoundDevice> {
         static SEARCH: Mutex<()> = Mutex::new(());
         let _guard = lock(&SEARCH);
-        let functions = self.functions;
         // SAFETY: takes nothing; the library locks what it changes.
-        unsafe { (functions.arv_update_device_list)() };
+        unsafe { (self.arv_update_device_list)() };
         // SAFETY: as above.
-        let num = unsafe { (functions.arv_get_n_devices)() };
+        let num = unsafe { (self.arv_get_n_devices)() };
         (0..num)
             .filter_map(|index| {
                 // SAFETY: an index below the number; the text lives until the next search, which waits for the guard.
-                let id = unsafe { text((functions.arv_get_device_id)(index)) }?;
+                let id = unsafe { text((self.arv_get_device_id)(index)) }?;
                 // SAFETY: as above.
-                let address = unsafe { text((functions.arv_get_device_address)(index)) };
+                let address = unsafe { text((self.arv_get_device_address)(index)) };
                 Some(FoundDevice { id, address })
             })
             .collect()
     }
 
     /// Opens the camera with that ID or address.
-    pub(super) fn open(self, id: &str) -> Result<Device, String> {
+    pub(super) fn open(&'static self, id: &str) -> Result<Device, String> {
         let id = CString::new(id).map_err(|error| error.to_string())?;
-        let functions = self.functions;
-        let camera = functions.checked(|error| {
+        let camera = self.checked(|error| {
             // SAFETY: a C string that lives during the call.
-            unsafe { (functions.arv_camera_new)(id.as_ptr(), error) }
+            unsafe { (self.arv_camera_new)(id.as_ptr(), error) }
         })?;
         Ok(Device {
-            functions,
+            functions: self,
             camera: NonNull::new(camera).ok_or("no reason given")?,
             stream: None,
             buffer_bytes: 0,

@@ -1,43 +1,18 @@
 //! Errors and warnings of GenICam cameras, with advice.
 
-use std::path::PathBuf;
-
 use thiserror::Error;
 
-use super::VARIABLE;
 use crate::{
-    capture::{Recovery, driver_search::NotLoaded},
+    capture::{CameraLibraryError, Recovery},
     error::Advice,
 };
 
 /// Why a GenICam camera cannot be used or delivers no more, or why a frame cannot be read.
 #[derive(Debug, Error)]
 pub enum GenicamError {
-    /// aravis is not installed.
-    #[error("aravis, the library for GenICam cameras, is not installed")]
-    NoLibrary,
-    /// The place in a setting has no aravis.
-    #[error("{}: aravis was not found there", path.display())]
-    LibraryNotAt {
-        /// The file or folder as given.
-        path: PathBuf,
-    },
-    /// aravis was found, but the system cannot load it.
-    #[error("{library} cannot be loaded: {reason}")]
-    LibraryUnusable {
-        /// Name or path of the library.
-        library: String,
-        /// The system's message.
-        reason: String,
-    },
-    /// The library is an older aravis, or not aravis.
-    #[error("{library} has no function {symbol}: not aravis 0.8.26 or a newer 0.8")]
-    MissingSymbol {
-        /// Name or path of the library.
-        library: String,
-        /// The missing function.
-        symbol: &'static str,
-    },
+    /// aravis cannot be used.
+    #[error(transparent)]
+    Library(#[from] CameraLibraryError),
     /// No camera answered.
     #[error("no GenICam camera answers on any network interface or USB port")]
     NoDevice,
@@ -114,16 +89,6 @@ pub enum GenicamError {
     },
 }
 
-impl From<NotLoaded> for GenicamError {
-    fn from(error: NotLoaded) -> Self {
-        match error {
-            NotLoaded::Absent => Self::NoLibrary,
-            NotLoaded::NotAt(path) => Self::LibraryNotAt { path },
-            NotLoaded::Unusable { library, reason } => Self::LibraryUnusable { library, reason },
-        }
-    }
-}
-
 impl GenicamError {
     /// How to recover: a camera may be plugged in, released or configured at any time; a library does not appear by itself.
     pub(crate) fn recovery(&self) -> Recovery {
@@ -136,10 +101,7 @@ impl GenicamError {
             | Self::Lost { .. }
             | Self::Silent { .. } => Recovery::Reopen,
             Self::BadFrame { .. } => Recovery::AskAgain,
-            Self::NoLibrary
-            | Self::LibraryNotAt { .. }
-            | Self::LibraryUnusable { .. }
-            | Self::MissingSymbol { .. }
+            Self::Library(_)
             | Self::NoDepthFormat { .. }
             | Self::FormatNotOffered { .. }
             | Self::Untold { .. }
@@ -148,29 +110,10 @@ impl GenicamError {
     }
 }
 
-const INSTALL: &str = if cfg!(target_os = "macos") {
-    "brew install aravis"
-} else if cfg!(windows) {
-    "on a computer with Linux or macOS"
-} else {
-    "sudo apt-get install libaravis-0.8-0"
-};
-
 impl Advice for GenicamError {
     fn advice(&self) -> String {
         match self {
-            Self::NoLibrary => format!(
-                "Install it ({INSTALL}), or set {VARIABLE} to the folder that holds it"
-            ),
-            Self::LibraryNotAt { .. } => format!(
-                "Correct the source's library option or {VARIABLE}, or leave both out to use the system's aravis"
-            ),
-            Self::LibraryUnusable { .. } => {
-                format!("Install the aravis of this system with all that it needs ({INSTALL})")
-            }
-            Self::MissingSymbol { .. } => {
-                format!("Install aravis 0.8.26 or a newer 0.8 ({INSTALL})")
-            }
+            Self::Library(error) => error.advice(),
             Self::NoDevice => {
                 "Check the camera's power and cable, and that a GigE camera has an address in the network of this computer".into()
             }
@@ -235,18 +178,6 @@ mod tests {
         let said = String::from("timeout");
         let offered = vec![String::from("Mono8")];
         let errors = [
-            GenicamError::NoLibrary,
-            GenicamError::LibraryNotAt {
-                path: "/opt".into(),
-            },
-            GenicamError::LibraryUnusable {
-                library: "libaravis".into(),
-                reason: "no ELF".into(),
-            },
-            GenicamError::MissingSymbol {
-                library: "libaravis".into(),
-                symbol: "arv_camera_new",
-            },
             GenicamError::NoDevice,
             GenicamError::NoSuchDevice {
                 device: "A".into(),

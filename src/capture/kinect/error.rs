@@ -4,43 +4,18 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::{
-    failure::{Failed, NoContext},
-    search,
+use super::{FREENECT, freenect::Failed};
+use crate::{
+    capture::{CameraLibraryError, Recovery},
+    error::Advice,
 };
-use crate::{capture::Recovery, error::Advice};
 
 /// Why a Kinect cannot be used, or delivers no more.
 #[derive(Debug, Error)]
 pub enum KinectError {
-    /// libfreenect is not installed.
-    #[error("libfreenect is not installed (looked for {})", tried.join(", "))]
-    NoLibrary {
-        /// The names that were tried.
-        tried: Vec<&'static str>,
-    },
-    /// The place in a setting has no libfreenect.
-    #[error("{}: libfreenect was not found there", path.display())]
-    LibraryNotAt {
-        /// The file or folder as given.
-        path: PathBuf,
-    },
-    /// libfreenect was found, but the system cannot load it.
-    #[error("{library} cannot be loaded: {reason}")]
-    LibraryUnusable {
-        /// Name or path of the library.
-        library: String,
-        /// The system's message.
-        reason: String,
-    },
-    /// The library is another version, or not libfreenect.
-    #[error("{library} has no function {symbol}: not libfreenect 0.5")]
-    MissingSymbol {
-        /// Name or path of the library.
-        library: String,
-        /// The missing function.
-        symbol: &'static str,
-    },
+    /// libfreenect cannot be used.
+    #[error(transparent)]
+    Library(#[from] CameraLibraryError),
     /// The library cannot access USB.
     #[error("libfreenect cannot start: USB error {code}")]
     NoUsb {
@@ -136,10 +111,7 @@ impl KinectError {
             | Self::NotStarted { .. }
             | Self::Lost { .. }
             | Self::Silent { .. } => Recovery::Reopen,
-            Self::NoLibrary { .. }
-            | Self::LibraryNotAt { .. }
-            | Self::LibraryUnusable { .. }
-            | Self::MissingSymbol { .. }
+            Self::Library(_)
             | Self::NoUsb { .. }
             | Self::NoDepthMode
             | Self::NoSession { .. }
@@ -152,15 +124,6 @@ impl KinectError {
             .into_iter()
             .find(|rule| std::path::Path::new(rule).is_file());
         Self::NoPermission { rule }
-    }
-
-    pub(super) fn of_start(error: NoContext, library: &str) -> Self {
-        let library = library.to_owned();
-        match error {
-            NoContext::MissingSymbol(symbol) => Self::MissingSymbol { library, symbol },
-            NoContext::InUse => Self::InUse,
-            NoContext::Failed(code) => Self::NoUsb { code },
-        }
     }
 
     /// Classifies the failure to open a camera. The library returns -1 for every failure and logs the reason as a line that
@@ -200,29 +163,10 @@ fn words(said: &[String]) -> String {
         .unwrap_or_default()
 }
 
-const INSTALL: &str = if cfg!(target_os = "macos") {
-    "brew install libfreenect"
-} else if cfg!(windows) {
-    "put freenect.dll 0.5 and libusb-1.0.dll beside the program"
-} else {
-    "sudo apt-get install libfreenect0.5"
-};
-
 impl Advice for KinectError {
     fn advice(&self) -> String {
         match self {
-            Self::NoLibrary { .. } => format!(
-                "Install it ({INSTALL}), or set {} to the folder that holds it",
-                search::VARIABLE
-            ),
-            Self::LibraryNotAt { .. } => format!(
-                "Correct the source's library option or {}, or leave both out to use the system's libfreenect",
-                search::VARIABLE
-            ),
-            Self::LibraryUnusable { .. } => format!(
-                "Install the libfreenect of this system with all that it needs ({INSTALL})"
-            ),
-            Self::MissingSymbol { .. } => format!("Install libfreenect 0.5 ({INSTALL})"),
+            Self::Library(error) => error.advice(),
             Self::NoUsb { .. } => {
                 "Check that this computer has USB and that the user may use it, then start again".into()
             }
@@ -236,12 +180,15 @@ impl Advice for KinectError {
                 "Add your user to the group plugdev, log in again and plug the Kinect in again, so that {rule} applies to it"
             ),
             Self::NoPermission { rule: None } => format!(
-                "Install the udev rule that permits it ({INSTALL}), then plug the Kinect in again"
+                "Install the udev rule that permits it ({}), then plug the Kinect in again",
+                FREENECT.install
             ),
             Self::Busy => "Close the other program that shows the Kinect's picture, then try again".into(),
             Self::InUse => "Use the Kinect where it is open already, or close it there first".into(),
             Self::NotOpened { .. } => "Unplug the Kinect and plug it in again".into(),
-            Self::NoDepthMode => format!("Install another build of libfreenect ({INSTALL})"),
+            Self::NoDepthMode => {
+                format!("Install another build of libfreenect ({})", FREENECT.install)
+            }
             Self::NotStarted { .. } => {
                 "Plug the Kinect into another USB socket, with no other camera on the same hub".into()
             }
@@ -319,20 +266,6 @@ mod tests {
     fn every_trouble_has_a_sentence_and_an_advice_of_its_own() {
         let (library, said) = (String::from("libfreenect.so"), Vec::new());
         let errors = [
-            KinectError::NoLibrary {
-                tried: vec!["libfreenect.so"],
-            },
-            KinectError::LibraryNotAt {
-                path: "/opt".into(),
-            },
-            KinectError::LibraryUnusable {
-                library: library.clone(),
-                reason: "no ELF".into(),
-            },
-            KinectError::MissingSymbol {
-                library: library.clone(),
-                symbol: "freenect_init",
-            },
             KinectError::NoUsb { code: -99 },
             KinectError::NoDevice,
             KinectError::NoSuchSerial {

@@ -1,7 +1,7 @@
 //! libfreenect, loaded at run time, and all unsafe code that calls it.
 //!
-//! The functions are those of `libfreenect.h` 0.5. They are looked up when a library is loaded; a missing one is an error
-//! only when a [`Context`] is made. Those of motor, LED and microphones are not looked up.
+//! The functions are those of `libfreenect.h` 0.5, looked up when the library is loaded. Those of motor, LED and microphones
+//! are not looked up.
 //!
 //! Guarantees to the rest of the crate that C does not give by itself:
 //! - one [`Context`] at a time in the process, since the builds that play recorded sessions have global state;
@@ -17,6 +17,7 @@
 use std::{
     cell::{Cell, RefCell},
     ffi::{CStr, OsStr, OsString, c_char, c_double, c_int, c_void},
+    mem,
     ptr::{self, NonNull},
     sync::{
         Mutex,
@@ -27,12 +28,12 @@ use std::{
 
 use super::{
     claim::DeviceLock,
-    failure::{Failed, NoContext},
+    error::KinectError,
     header::{
         Attributes, DEVICE_CAMERA, FrameMode, INTERRUPTED, LOG_ERROR, OnDepth, OnLog, TimeVal,
     },
 };
-use crate::error::lock;
+use crate::{capture::driver_search::LoadError, error::lock};
 
 /// Maximum number of log lines kept per call.
 const MOST_SAID: usize = 8;
@@ -43,14 +44,13 @@ macro_rules! functions {
         required { $($name:ident: fn($($argument:ty),*) $(-> $result:ty)?;)* }
         optional { $($may:ident: fn($($may_argument:ty),*) $(-> $may_result:ty)?;)* }
     ) => {
-        #[derive(Clone, Copy)]
         struct Functions {
             $($name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
             $($may: Option<unsafe extern "C" fn($($may_argument),*) $(-> $may_result)?>,)*
         }
 
         impl Functions {
-            fn look_up(library: &'static libloading::Library) -> Result<Self, &'static str> {
+            fn look_up(library: &libloading::Library) -> Result<Self, &'static str> {
                 Ok(Self {
                     // SAFETY: the types are those of libfreenect.h 0.5, and the library is never unloaded.
                     $($name: *unsafe { library.get(stringify!($name).as_bytes()) }
@@ -101,14 +101,14 @@ impl Functions {
 
 /// A library, loaded until the process ends.
 pub(super) struct Library {
-    /// The functions, or the name of the first missing one.
-    functions: Result<Functions, &'static str>,
+    functions: Functions,
+    file: String,
     num_turns: AtomicUsize,
 }
 
 impl Library {
-    /// Loads the library of that name or path; the error is the system's message.
-    pub(super) fn load(name: &OsStr) -> Result<&'static Self, String> {
+    /// Loads the library of that name or path.
+    pub(super) fn load(name: &OsStr) -> Result<&'static Self, LoadError> {
         static LOADED: Mutex<Vec<(OsString, &'static Library)>> = Mutex::new(Vec::new());
         let mut loaded = lock(&LOADED);
         if let Some((_, library)) = loaded.iter().find(|(known, _)| known == name) {
@@ -116,21 +116,28 @@ impl Library {
         }
         // SAFETY: loading runs the library's initialisers. libfreenect has none, and libusb's only set up locks; if
         // a setting names another library, that one's run as if the user had started it as a program.
-        let library =
-            unsafe { libloading::Library::new(name) }.map_err(|error| error.to_string())?;
-        let functions = Functions::look_up(Box::leak(Box::new(library)));
+        let library = unsafe { libloading::Library::new(name) };
+        let library = library.map_err(|error| LoadError::System(error.to_string()))?;
+        let functions = Functions::look_up(&library);
+        // It is never unloaded, even if it lacks a function.
+        mem::forget(library);
         let library: &'static Self = Box::leak(Box::new(Self {
-            functions,
+            functions: functions.map_err(LoadError::MissingSymbol)?,
+            file: name.to_string_lossy().into_owned(),
             num_turns: AtomicUsize::new(0),
         }));
         loaded.push((name.to_owned(), library));
         Ok(library)
     }
 
+    /// Name or path by which it was loaded.
+    pub(super) fn file(&self) -> &str {
+        &self.file
+    }
+
     /// True for a build that plays recorded sessions, which cannot list serial numbers.
     pub(super) fn plays_sessions(&self) -> bool {
-        self.functions
-            .is_ok_and(|functions| functions.list().is_none())
+        self.functions.list().is_none()
     }
 
     /// Number of calls that processed events since the library was loaded.
@@ -142,22 +149,22 @@ impl Library {
 /// A running library without an open device.
 pub(super) struct Context {
     library: &'static Library,
-    functions: Functions,
+    functions: &'static Functions,
     handle: NonNull<c_void>,
     _claim: DeviceLock,
 }
 
 impl Context {
     /// Starts the library with cameras only.
-    pub(super) fn new(library: &'static Library) -> Result<Self, NoContext> {
-        let functions = library.functions.map_err(NoContext::MissingSymbol)?;
-        let claim = DeviceLock::take().ok_or(NoContext::InUse)?;
+    pub(super) fn new(library: &'static Library) -> Result<Self, KinectError> {
+        let functions = &library.functions;
+        let claim = DeviceLock::take().ok_or(KinectError::InUse)?;
         let mut context = ptr::null_mut();
         // SAFETY: `context` is a place to write a pointer to; null asks the library for a libusb context of its own.
         let code = unsafe { (functions.freenect_init)(&raw mut context, ptr::null_mut()) };
         let context = NonNull::new(context)
             .filter(|_| code >= 0)
-            .ok_or(NoContext::Failed(code))?;
+            .ok_or(KinectError::NoUsb { code })?;
         // SAFETY: the context is initialised; the callback may be called from here on, and needs nothing else.
         unsafe {
             (functions.freenect_set_log_callback)(context.as_ptr(), on_log);
@@ -261,7 +268,7 @@ struct FrameSlot {
 impl Device {
     /// The camera's modes with one `u16` per pixel.
     pub(super) fn depth_modes(&self) -> Vec<FrameMode> {
-        let functions = &self.context.functions;
+        let functions = self.context.functions;
         // SAFETY: takes nothing, and gives a number.
         let num = unsafe { (functions.freenect_get_depth_mode_count)() };
         (0..num)
@@ -285,7 +292,7 @@ impl Device {
         assert!(mode.is_sixteen_bit(), "a mode of `depth_modes`");
         self.stop();
         self.inbox.depth.resize(mode.num_pixels(), 0);
-        let (functions, device) = (&self.context.functions, self.handle.as_ptr());
+        let (functions, device) = (self.context.functions, self.handle.as_ptr());
         // SAFETY: the device is open and no stream runs; the mode is one that the library gave.
         checked(|| unsafe { (functions.freenect_set_depth_mode)(device, mode) })?;
         // SAFETY: the device is open; the callback is a function of this program, so it outlives it.
@@ -381,6 +388,15 @@ extern "C" fn on_log(_context: *mut c_void, _level: c_int, message: *const c_cha
             said.push(message.trim().to_owned());
         }
     });
+}
+
+/// A call that returned a negative code.
+#[derive(Debug)]
+pub(super) struct Failed {
+    /// The returned code; libusb's, or -1.
+    pub(super) code: i32,
+    /// What the library logged during the call, one line each.
+    pub(super) said: Vec<String>,
 }
 
 /// Calls the library and collects what it logs. A negative code is an error.

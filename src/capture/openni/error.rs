@@ -4,43 +4,18 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::{
-    answer::{Failed, NoContext},
-    search,
+use super::OPENNI;
+use crate::{
+    capture::{CameraLibraryError, Recovery},
+    error::Advice,
 };
-use crate::{capture::Recovery, error::Advice};
 
 /// Why an OpenNI camera or file cannot be used, or delivers no more.
 #[derive(Debug, Error)]
 pub enum OpenNiError {
-    /// libOpenNI2 is not installed.
-    #[error("libOpenNI2 is not installed (looked for {})", tried.join(", "))]
-    NoLibrary {
-        /// The names that were tried.
-        tried: Vec<&'static str>,
-    },
-    /// The place in a setting has no libOpenNI2.
-    #[error("{}: libOpenNI2 was not found there", path.display())]
-    LibraryNotAt {
-        /// The file or folder as given.
-        path: PathBuf,
-    },
-    /// libOpenNI2 was found, but the system cannot load it.
-    #[error("{library} cannot be loaded: {reason}")]
-    LibraryUnusable {
-        /// Name or path of the library.
-        library: String,
-        /// The system's message.
-        reason: String,
-    },
-    /// The library is another version, or not libOpenNI2.
-    #[error("{library} has no function {symbol}: not libOpenNI2 2.2")]
-    MissingSymbol {
-        /// Name or path of the library.
-        library: String,
-        /// The missing function.
-        symbol: &'static str,
-    },
+    /// libOpenNI2 cannot be used.
+    #[error(transparent)]
+    Library(#[from] CameraLibraryError),
     /// The library does not start, usually because it finds no drivers.
     #[error("libOpenNI2 cannot be started{}", words(said))]
     NoDrivers {
@@ -137,10 +112,7 @@ impl OpenNiError {
             | Self::NotStarted { .. }
             | Self::Lost { .. }
             | Self::Silent { .. } => Recovery::Reopen,
-            Self::NoLibrary { .. }
-            | Self::LibraryNotAt { .. }
-            | Self::LibraryUnusable { .. }
-            | Self::MissingSymbol { .. }
+            Self::Library(_)
             | Self::NoDrivers { .. }
             | Self::NoDepthMode { .. }
             | Self::NoFieldOfView { .. }
@@ -148,17 +120,6 @@ impl OpenNiError {
             | Self::Cropped { .. }
             | Self::Changed { .. }
             | Self::FileUnusable { .. } => Recovery::None,
-        }
-    }
-
-    pub(super) fn of_start(error: NoContext, library: &str) -> Self {
-        match error {
-            NoContext::MissingSymbol(symbol) => Self::MissingSymbol {
-                library: library.to_owned(),
-                symbol,
-            },
-            NoContext::InUse => Self::InUse,
-            NoContext::Failed(Failed { said }) => Self::NoDrivers { said },
         }
     }
 }
@@ -177,29 +138,10 @@ pub(super) fn words(said: &[String]) -> String {
         .unwrap_or_default()
 }
 
-const INSTALL: &str = if cfg!(target_os = "macos") {
-    "brew install openni2"
-} else if cfg!(windows) {
-    "put OpenNI2.dll with its folder OpenNI2 beside the program"
-} else {
-    "sudo apt-get install libopenni2-0"
-};
-
 impl Advice for OpenNiError {
     fn advice(&self) -> String {
         match self {
-            Self::NoLibrary { .. } => format!(
-                "Install it ({INSTALL}), or set {} to the folder that holds it",
-                search::VARIABLE
-            ),
-            Self::LibraryNotAt { .. } => format!(
-                "Correct the source's library option or {}, or leave both out to use the system's libOpenNI2",
-                search::VARIABLE
-            ),
-            Self::LibraryUnusable { .. } => {
-                format!("Install the libOpenNI2 of this system with all its dependencies ({INSTALL})")
-            }
-            Self::MissingSymbol { .. } => format!("Install libOpenNI2 2.2 ({INSTALL})"),
+            Self::Library(error) => error.advice(),
             Self::NoDrivers { .. } => {
                 "Put the folder OpenNI2/Drivers with the camera's driver beside the library".into()
             }
@@ -214,7 +156,8 @@ impl Advice for OpenNiError {
                 "See partsight capture --list: the name changes when the camera is plugged in again; openni alone takes the first one".into()
             }
             Self::NotOpened { .. } => format!(
-                "Close other programs that use the camera; if there are none, install the udev rule that permits it ({INSTALL}) and plug the camera in again"
+                "Close other programs that use the camera; if there are none, install the udev rule that permits it ({}) and plug the camera in again",
+                OPENNI.install
             ),
             Self::NoDepthMode { .. } => {
                 "Record it again in millimetres, or update the camera's driver".into()
@@ -249,20 +192,8 @@ mod tests {
 
     #[test]
     fn every_trouble_has_a_sentence_and_an_advice_of_its_own() {
-        let (library, title, said) = (String::new(), String::from("It"), Vec::new());
+        let (title, said) = (String::from("It"), Vec::new());
         let errors = [
-            OpenNiError::NoLibrary { tried: Vec::new() },
-            OpenNiError::LibraryNotAt {
-                path: "/opt".into(),
-            },
-            OpenNiError::LibraryUnusable {
-                library: library.clone(),
-                reason: "no ELF".into(),
-            },
-            OpenNiError::MissingSymbol {
-                library,
-                symbol: "oniInitialize",
-            },
             OpenNiError::NoDrivers { said: said.clone() },
             OpenNiError::InUse,
             OpenNiError::NoDevice,

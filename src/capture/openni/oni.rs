@@ -27,7 +27,7 @@ use std::{
 };
 
 use super::{
-    answer::{Failed, FoundDevice, NoContext, Received},
+    error::OpenNiError,
     header::{
         API_VERSION, DeviceCallbacks, DeviceInfo, Frame, OK, Property, SENSOR_DEPTH,
         STATE_END_OF_FILE, STATE_ERROR, SensorInfo, TIME_OUT, VideoMode,
@@ -65,7 +65,22 @@ driver_functions! {
 
 /// A running library. Dropping it shuts the library down.
 pub(super) struct Context {
-    functions: Functions,
+    functions: &'static Functions,
+}
+
+/// A call that failed, with the library's messages.
+#[derive(Debug)]
+pub(super) struct Failed {
+    /// One sentence each; may be empty.
+    pub(super) said: Vec<String>,
+}
+
+/// A device that is plugged in.
+pub(super) struct FoundDevice {
+    /// URI by which it is opened. It changes when the device is plugged in again.
+    pub(super) uri: String,
+    /// Manufacturer and model.
+    pub(super) name: String,
 }
 
 /// True while a [`Context`] exists.
@@ -73,10 +88,9 @@ static IS_RUNNING: AtomicBool = AtomicBool::new(false);
 
 impl Context {
     /// Starts the library with all its drivers.
-    pub(super) fn new(library: &'static Library) -> Result<Self, NoContext> {
-        let functions = library.functions.map_err(NoContext::MissingSymbol)?;
+    pub(super) fn new(functions: &'static Functions) -> Result<Self, OpenNiError> {
         if IS_RUNNING.swap(true, Ordering::Acquire) {
-            return Err(NoContext::InUse);
+            return Err(OpenNiError::InUse);
         }
         // The library counts failed starts too: dropping the context undoes the count.
         let context = Self { functions };
@@ -84,7 +98,7 @@ impl Context {
         context
             // SAFETY: takes a number; nobody else starts or stops the library in the meantime.
             .checked(|| unsafe { (functions.oniInitialize)(API_VERSION) })
-            .map_err(NoContext::Failed)?;
+            .map_err(|Failed { said }| OpenNiError::NoDrivers { said })?;
         Ok(context)
     }
 
@@ -206,6 +220,16 @@ fn use_own_working_folder() {
     }
 }
 
+/// A complete frame without padding.
+pub(super) struct Received {
+    /// Mode in which it was captured.
+    pub(super) mode: VideoMode,
+    /// True if it is only a part of its mode's picture.
+    pub(super) is_part: bool,
+    /// Depth values, row by row.
+    pub(super) depth: Vec<u16>,
+}
+
 /// An open device with its depth stream. Dropping it stops the stream, closes the device and shuts the library down.
 pub(super) struct Device {
     callbacks: *mut c_void,
@@ -270,7 +294,7 @@ impl Device {
 
     /// Waits for about `wait` at most, and returns the newest frame, if any.
     pub(super) fn receive(&self, wait: Duration) -> Result<Option<Received>, Failed> {
-        let functions = &self.context.functions;
+        let functions = self.context.functions;
         let (mut stream, mut index) = (self.stream, 0);
         let wait_ms = c_int::try_from(wait.as_millis()).unwrap_or(c_int::MAX);
         let mut has_timed_out = false;
@@ -312,7 +336,7 @@ impl Device {
 
 impl Drop for Device {
     fn drop(&mut self) {
-        let functions = &self.context.functions;
+        let functions = self.context.functions;
         // SAFETY: each was created, is no longer used, and is released once; the library accepts that a stream was never
         // started, and that the device is unplugged.
         unsafe {

@@ -4,40 +4,18 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::VARIABLE;
+use super::REALSENSE;
 use crate::{
-    capture::{Recovery, driver_search::NotLoaded},
+    capture::{CameraLibraryError, Recovery},
     error::Advice,
 };
 
 /// Why a RealSense camera or file cannot be used, or delivers no more.
 #[derive(Debug, Error)]
 pub enum RealsenseError {
-    /// librealsense is not installed.
-    #[error("librealsense2, the library for RealSense cameras, is not installed")]
-    NoLibrary,
-    /// The place in a setting has no librealsense.
-    #[error("{}: librealsense2 was not found there", path.display())]
-    LibraryNotAt {
-        /// The file or folder as given.
-        path: PathBuf,
-    },
-    /// librealsense was found, but the system cannot load it.
-    #[error("{library} cannot be loaded: {reason}")]
-    LibraryUnusable {
-        /// Name or path of the library.
-        library: String,
-        /// The system's message.
-        reason: String,
-    },
-    /// The library is older, or not librealsense.
-    #[error("{library} has no function {symbol}: not librealsense 2.30 or a newer 2")]
-    MissingSymbol {
-        /// Name or path of the library.
-        library: String,
-        /// The missing function.
-        symbol: &'static str,
-    },
+    /// librealsense cannot be used.
+    #[error(transparent)]
+    Library(#[from] CameraLibraryError),
     /// The library does not start.
     #[error("librealsense2 cannot be started: {said}")]
     LibraryNotStarted {
@@ -64,7 +42,7 @@ pub enum RealsenseError {
     /// The camera has no 16-bit depth: it is a tracking camera, or waits for its firmware.
     #[error("{title} has no depth")]
     NoDepth {
-        /// The camera or file.
+        /// The camera.
         title: String,
     },
     /// The camera has no preset of that name.
@@ -123,33 +101,20 @@ pub enum RealsenseError {
     },
 }
 
-impl From<NotLoaded> for RealsenseError {
-    fn from(error: NotLoaded) -> Self {
-        match error {
-            NotLoaded::Absent => Self::NoLibrary,
-            NotLoaded::NotAt(path) => Self::LibraryNotAt { path },
-            NotLoaded::Unusable { library, reason } => Self::LibraryUnusable { library, reason },
-        }
-    }
-}
-
 impl RealsenseError {
-    /// How to recover: a camera may be plugged in, released or permitted at any time; a library or a file does not appear
-    /// by itself.
+    /// How to recover: a camera may be plugged in, released, permitted or updated at any time; a library or a file does not
+    /// appear by itself.
     pub(crate) fn recovery(&self) -> Recovery {
         match self {
             Self::NoDevice
             | Self::NoSuchDevice { .. }
             | Self::NotOpened { .. }
+            | Self::NoDepth { .. }
             | Self::NotStarted { .. }
             | Self::Lost { .. }
             | Self::Silent { .. } => Recovery::Reopen,
-            Self::NoLibrary
-            | Self::LibraryNotAt { .. }
-            | Self::LibraryUnusable { .. }
-            | Self::MissingSymbol { .. }
+            Self::Library(_)
             | Self::LibraryNotStarted { .. }
-            | Self::NoDepth { .. }
             | Self::NoSuchPreset { .. }
             | Self::UnknownLens { .. }
             | Self::BadNumbers { .. }
@@ -167,7 +132,9 @@ impl RealsenseError {
                 let said = said.map(|said| format!(": {said}")).unwrap_or_default();
                 format!("librealsense cannot play the rest of it{said}")
             }
-            Self::Silent { .. } => "it has no depth image that can be read".to_owned(),
+            Self::NoDepth { .. } | Self::Silent { .. } => {
+                "it has no depth image that can be read".to_owned()
+            }
             other => return other,
         };
         Self::FileUnusable {
@@ -185,28 +152,12 @@ fn only(offered: &[String]) -> String {
     }
 }
 
-const INSTALL: &str = if cfg!(target_os = "macos") {
-    "brew install librealsense"
-} else if cfg!(windows) {
-    "put realsense2.dll beside the program"
-} else {
-    "librealsense2 from https://github.com/realsenseai/librealsense/blob/master/doc/distribution_linux.md"
-};
-
 impl Advice for RealsenseError {
     fn advice(&self) -> String {
         match self {
-            Self::NoLibrary => format!(
-                "Install it ({INSTALL}), or set {VARIABLE} to the folder that holds it"
-            ),
-            Self::LibraryNotAt { .. } => format!(
-                "Correct the source's library option or {VARIABLE}, or leave both out to use the system's librealsense2"
-            ),
-            Self::LibraryUnusable { .. } => {
-                format!("Install the librealsense2 of this system with all its dependencies ({INSTALL})")
-            }
-            Self::MissingSymbol { .. } | Self::LibraryNotStarted { .. } => {
-                format!("Install a newer librealsense 2 ({INSTALL})")
+            Self::Library(error) => error.advice(),
+            Self::LibraryNotStarted { .. } => {
+                format!("Install a newer librealsense 2 ({})", REALSENSE.install)
             }
             Self::NoDevice => {
                 "Plug the camera in, with a cable for USB 3; if it is plugged in, install the udev rule that lets \
@@ -253,20 +204,9 @@ mod tests {
 
     #[test]
     fn every_trouble_has_a_sentence_and_an_advice_of_its_own() {
-        let (library, title, said) = (String::from("lib"), String::from("It"), String::from("no"));
+        let (title, said) = (String::from("It"), String::from("no"));
         let errors = [
-            RealsenseError::NoLibrary,
-            RealsenseError::LibraryNotAt {
-                path: "/opt".into(),
-            },
-            RealsenseError::LibraryUnusable {
-                library: library.clone(),
-                reason: "no ELF".into(),
-            },
-            RealsenseError::MissingSymbol {
-                library,
-                symbol: "rs2_open",
-            },
+            RealsenseError::LibraryNotStarted { said: said.clone() },
             RealsenseError::NoDevice,
             RealsenseError::NoSuchDevice {
                 serial: "1".into(),
@@ -328,7 +268,15 @@ mod tests {
             assert!(error.to_string().ends_with(": bad header"), "{error}");
             assert_eq!(error.recovery(), Recovery::None);
         }
-        let other = RealsenseError::NoLibrary.of_file(path);
-        assert!(matches!(other, RealsenseError::NoLibrary), "{other}");
+        let title = String::from("It");
+        let error = RealsenseError::NoDepth { title }.of_file(path);
+        assert_eq!(error.recovery(), Recovery::None, "{error}");
+        let other = RealsenseError::LibraryNotStarted { said: said() }.of_file(path);
+        assert!(
+            other
+                .to_string()
+                .starts_with("librealsense2 cannot be started"),
+            "{other}"
+        );
     }
 }

@@ -1,7 +1,6 @@
 //! librealsense 2, loaded at run time, and all unsafe code that calls it.
 //!
-//! The functions, structures and constants are those of its headers `librealsense2/h/*.h`, which have not changed within
-//! version 2.
+//! The functions are those of its headers, looked up when the library is loaded.
 //!
 //! Guarantees to the rest of the crate that C does not give by itself:
 //! - the library is never unloaded: it has threads of its own;
@@ -22,26 +21,12 @@ use std::{
     time::Duration,
 };
 
+use super::header::{
+    API_VERSION, CLOCK_TIMES, DEPTH, Delete, ErrorPlace, Handle, NAME, RawIntrinsics,
+    SERIAL_NUMBER, STOPPED, VISUAL_PRESET, Z16,
+};
 use crate::capture::driver_search::driver_functions;
 
-/// The oldest version 2, encoded as in the header. A library accepts programs made for its own minor version or an older
-/// one.
-const API_VERSION: c_int = 20_000;
-/// `RS2_CAMERA_INFO_NAME`.
-const NAME: c_int = 0;
-/// `RS2_CAMERA_INFO_SERIAL_NUMBER`.
-const SERIAL_NUMBER: c_int = 1;
-/// `RS2_STREAM_DEPTH`.
-const DEPTH: c_int = 1;
-/// `RS2_FORMAT_Z16`: 16 bits per pixel.
-const Z16: c_int = 1;
-/// `RS2_OPTION_VISUAL_PRESET`.
-const VISUAL_PRESET: c_int = 12;
-/// `RS2_PLAYBACK_STATUS_STOPPED`: a file has not started to play, or has ended.
-const STOPPED: c_int = 3;
-/// `RS2_TIMESTAMP_DOMAIN_SYSTEM_TIME` and `RS2_TIMESTAMP_DOMAIN_GLOBAL_TIME`: milliseconds since 1970. In the remaining
-/// domain, times count from the camera's start.
-const CLOCK_TIMES: [c_int; 2] = [1, 2];
 /// Capacity of the frame queue, for a camera and for a file. For a camera only the newest frame counts. For a file none may
 /// be lost: after the queue was emptied to stop the library's threads, it has room for all frames that they may still hold,
 /// about 12. The library allocates at most 32 frames at a time.
@@ -50,35 +35,6 @@ const WAITING: [c_int; 2] = [1, 16];
 const MOST_DRAINED: usize = 64;
 /// Upper limit of preset numbers, from 0; a camera has about ten presets.
 const MOST_PRESETS: i16 = 100;
-
-/// `rs2_context`, `rs2_device`, `rs2_frame` and so on.
-type Handle = *mut c_void;
-/// Where a call stores its error.
-type ErrorPlace = *mut Handle;
-/// Deletes an object.
-type Delete = unsafe extern "C" fn(Handle);
-
-/// `rs2_intrinsics`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct RawIntrinsics {
-    /// Columns.
-    pub(super) width: c_int,
-    /// Rows.
-    pub(super) height: c_int,
-    /// Column of the optical axis; pixel centres are at integers.
-    pub(super) ppx: f32,
-    /// Row of the optical axis.
-    pub(super) ppy: f32,
-    /// Focal length along the rows, pixels.
-    pub(super) fx: f32,
-    /// Focal length along the columns, pixels.
-    pub(super) fy: f32,
-    /// `rs2_distortion`.
-    pub(super) model: c_int,
-    /// Coefficients of the distortion; their meaning depends on the model.
-    pub(super) coeffs: [f32; 5],
-}
 
 driver_functions! {
     rs2_get_error_message: fn(Handle) -> *const c_char;
@@ -199,30 +155,6 @@ impl Drop for Object {
     }
 }
 
-/// Why the library was not started.
-pub(super) enum NoContext {
-    /// The library lacks this function.
-    MissingSymbol(&'static str),
-    /// The library does not start, for this reason.
-    Failed(String),
-}
-
-impl Library {
-    /// Starts the library.
-    pub(super) fn start(&'static self) -> Result<Context, NoContext> {
-        let functions = self.functions.as_ref();
-        let functions = functions.map_err(|&symbol| NoContext::MissingSymbol(symbol))?;
-        let object = functions.made(functions.rs2_delete_context, |error| {
-            // SAFETY: takes a number.
-            unsafe { (functions.rs2_create_context)(API_VERSION, error) }
-        });
-        Ok(Context {
-            functions,
-            object: Rc::new(object.map_err(NoContext::Failed)?),
-        })
-    }
-}
-
 /// A running library.
 #[derive(Clone)]
 pub(super) struct Context {
@@ -231,6 +163,18 @@ pub(super) struct Context {
 }
 
 impl Context {
+    /// Starts the library.
+    pub(super) fn new(functions: &'static Functions) -> Result<Self, String> {
+        let object = functions.made(functions.rs2_delete_context, |error| {
+            // SAFETY: takes a number.
+            unsafe { (functions.rs2_create_context)(API_VERSION, error) }
+        })?;
+        Ok(Self {
+            functions,
+            object: Rc::new(object),
+        })
+    }
+
     /// Lists the devices that are plugged in, whether they can be opened or not.
     pub(super) fn devices(&self) -> Result<DeviceList, String> {
         let functions = self.functions;
@@ -684,11 +628,14 @@ impl Stream {
     pub(super) fn is_stopped(&self) -> bool {
         let device = &self.sensor.device;
         let functions = self.sensor.functions();
-        let status = functions.number(
-            &device.object,
-            functions.rs2_playback_device_get_current_status,
-        );
-        device.is_file && status.is_ok_and(|status| status == STOPPED)
+        // For a camera this would be an error, and thus an exception in the library, at every frame.
+        device.is_file
+            && functions
+                .number(
+                    &device.object,
+                    functions.rs2_playback_device_get_current_status,
+                )
+                .is_ok_and(|status| status == STOPPED)
     }
 
     /// True while the camera is plugged in.
