@@ -18,7 +18,7 @@ use crate::{
         written_pose::{GivenPose, parse_pose},
     },
     report::SCHEMA,
-    stages::pose::{CloudRole, PoseError, PoseEstimate, PoseMethod, align},
+    stages::pose::{CloudRole, PoseError, PoseEstimate, PoseMethod, PoseWarning, align},
     units::Metres,
 };
 
@@ -91,11 +91,12 @@ pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Out
     let time_ms = clock.elapsed().as_micros() as f64 / 1000.0;
     if let Err(error) = &aligned {
         let message = format!("{}: {error}", paths_meant(args, *error));
-        console.error(&advised_error(message, error.advice()));
+        console.error(&advised_error(message, error_advice(error)));
     }
     let doubt = aligned.as_ref().ok().and_then(PoseEstimate::doubt);
     if let Some(doubt) = &doubt {
-        console.warn(doubt, doubt);
+        console.note(&format_args!("warning: {doubt}"));
+        console.note(&format_args!("  to do: {}", doubt_advice(doubt)));
     }
     if args.json {
         let pose = aligned.as_ref().ok();
@@ -128,6 +129,28 @@ pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Out
         (Ok(_), None) => Outcome::Accepted,
         _ => Outcome::NotAccepted,
     })
+}
+
+/// The advice on an error, with the option of this command that gives a start.
+fn error_advice(error: &PoseError) -> String {
+    let advice = error.advice();
+    match error {
+        PoseError::OneSidedPairs { .. } | PoseError::NoOverlap { .. } => {
+            format!("{advice}, or give a start with --initial")
+        }
+        _ => advice,
+    }
+}
+
+/// As [`error_advice`], on a doubtful pose.
+fn doubt_advice(doubt: &PoseWarning) -> String {
+    let advice = doubt.advice();
+    match doubt {
+        PoseWarning::Ambiguous { .. } | PoseWarning::Unsettled { .. } => {
+            format!("{advice}, with --initial")
+        }
+        PoseWarning::LittleOverlap { .. } | PoseWarning::Loose { .. } => advice,
+    }
 }
 
 /// Names the file that an error is about, or both.
@@ -195,4 +218,26 @@ fn show(pose: &PoseEstimate, time_ms: f64, console: &mut Console) {
         ),
     );
     table.show(console);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit::pose_errors;
+
+    #[test]
+    fn only_this_command_advises_a_start_by_its_option() {
+        for error in pose_errors() {
+            assert!(!error.advice().contains("--"), "{}", error.advice());
+        }
+        let far = PoseError::NoOverlap {
+            found: 3,
+            needed: 12,
+            reach: Metres(0.05),
+        };
+        assert!(error_advice(&far).ends_with("give a start with --initial"));
+        let ambiguous = PoseWarning::Ambiguous { ratio: 1.02 };
+        assert!(!ambiguous.advice().contains("--"));
+        assert!(doubt_advice(&ambiguous).ends_with("with --initial"));
+    }
 }

@@ -59,9 +59,12 @@ pub(super) struct ProgramOptions {
     force: bool,
 }
 
-/// The rail that an arm stands on, and what gun and arm have to stay clear of beside the part.
+/// Where an arm stands, and what gun and arm have to stay clear of beside the part.
 #[derive(Debug, Args)]
 pub(super) struct CellChoice {
+    /// Pose of the arm's base in the calibration's frame; default: the two frames are the same
+    #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true, requires = "arm")]
+    pub(super) base: Option<WrittenPose>,
     /// Rail that the arm stands on: its axis in the calibration's frame (x, y, z, -x, -y or -z), its start and end in
     /// mm from where the cell was calibrated and, if the arm moves along it on the path, its maximum speed in mm/s and
     /// acceleration in mm/s², as in y,-2000,2000,1000,2000. Overrides the rail in the arm's file
@@ -89,7 +92,6 @@ impl CellChoice {
     pub(super) fn place(
         &self,
         mut arm: Arm,
-        robot_from_base: RigidTransform,
         flange_from_nozzle: RigidTransform,
     ) -> anyhow::Result<PlacedArm> {
         if let Some(rail) = &self.rail {
@@ -98,9 +100,10 @@ impl CellChoice {
         let read = self.obstacles.as_deref().map(Obstacles::read);
         let mut obstacles = read.transpose().advised()?.unwrap_or_default();
         obstacles.clearance = self.clearance / 1000.0;
+        let base = self.base.as_ref();
         Ok(PlacedArm {
             arm,
-            robot_from_base,
+            robot_from_base: base.map_or_else(RigidTransform::identity, |base| base.pose),
             flange_from_nozzle,
             gun_radius: self.gun_radius / 1000.0,
             obstacles,
@@ -149,11 +152,9 @@ impl ProgramOptions {
         };
         let nozzle = self.nozzle.as_ref().map(|written| written.pose);
         let arm = self.arm.as_deref().map(Arm::named).transpose().advised()?;
-        let standing = RigidTransform::identity();
-        let arm = arm
-            .zip(nozzle)
-            .map(|(arm, flange_from_nozzle)| self.cell.place(arm, standing, flange_from_nozzle))
-            .transpose()?;
+        let arm = arm.zip(nozzle);
+        let arm = arm.map(|(arm, flange_from_nozzle)| self.cell.place(arm, flange_from_nozzle));
+        let arm = arm.transpose()?;
         Ok(ProgramFile {
             file: file.to_owned(),
             format,
@@ -195,9 +196,12 @@ impl ProgramFile {
         if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
             console.note(&format_args!("no program was written: {doubt}"));
             let advice = if subject.scene.is_some() {
-                "Capture again, or move part or arm"
+                "Capture again, or move part or arm".to_owned()
             } else {
-                "Move the arm's base (path check says where to), or change the path"
+                format!(
+                    "Run partsight path check {} with the same options to see why, and whether another --base reaches more, or change the path",
+                    subject.part
+                )
             };
             console.note(&format_args!("  to do: {advice}; --force writes it anyway"));
             return Ok(Outcome::NotAccepted);

@@ -140,7 +140,10 @@ fn a_path_is_checked_against_an_arm() {
     assert!(ran.err.contains("spherical wrist"), "{}", ran.err);
     let far = ["kr6-r900", "--base", "kuka 90000 0 0 0 0 0"];
     let ran = shop.coded(1, &[&check[..], &far].concat());
-    assert!(ran.out.contains("point 1: out of reach"), "{}", ran.out);
+    let wanted = "points 1–3: out of reach (3 points)";
+    assert!(ran.out.contains(wanted), "{}", ran.out);
+    // No place nearby is better.
+    assert!(!ran.out.contains("--base"), "{}", ran.out);
     let ran = shop.coded(1, &[&check[..], &far, &["--json"]].concat());
     let line = ran.json();
     assert_eq!(line["num_points"], 3);
@@ -153,7 +156,13 @@ fn accelerations_are_checked_where_their_limits_are_known() {
     let cell = "kuka 470 0 1350 -90 0 -90";
     shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
     hang(&shop, "front_door");
-    store_path(&shop);
+    // Across, then down.
+    shop.write(
+        "path.csv",
+        "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n\
+         -40,150,1130,0,0,1\n0,150,1130,0,0,1\n0,190,1130,0,0,1\n",
+    );
+    shop.coded(0, &["library", "path", "front_door", "path.csv"]);
     let check = |code: i32, arm: &str, more: &[&str]| {
         let check = ["path", "check", "front_door", "--arm", arm];
         let nozzle = ["--nozzle", "kuka 0 0 250 0 -45 0"];
@@ -182,16 +191,69 @@ fn accelerations_are_checked_where_their_limits_are_known() {
     assert!(!ran.out.contains("not checked"), "{}", ran.out);
     let line = check(0, "arm.toml", &["--json"]).json();
     assert!(line["unchecked_accelerations"].is_null(), "{line}");
-    // Between approach and row the direction of travel changes by a right angle.
+    // At the first and the last point the arm stops: only the corner needs acceleration.
     arm(10);
     let ran = check(1, "arm.toml", &[]);
     assert!(ran.out.contains("degrees/s² and has 10"), "{}", ran.out);
     assert!(ran.out.contains("to do: lower the speed"), "{}", ran.out);
     let line = check(1, "arm.toml", &["--json"]).json();
-    assert_eq!(line["points"][0]["problem_kind"], "joint_acceleration");
+    let kinds = [0, 1, 2].map(|i: usize| &line["points"][i]["problem_kind"]);
+    assert!(kinds[0].is_null() && kinds[2].is_null(), "{line}");
+    assert_eq!(kinds[1], "joint_acceleration");
     let rail = ["--rail", "-y,-1500,2500,1000", "--json"];
     let line = check(1, "arm.toml", &rail).json();
     assert_eq!(line["unchecked_accelerations"], "rail");
+}
+
+#[test]
+fn a_better_place_of_the_arm_is_named_as_check_and_export_take_it() {
+    let shop = Workplace::new();
+    let cell = "kuka 470 0 1350 -90 0 -90";
+    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+    hang(&shop, "front_door");
+    store_path(&shop);
+    let arm = ["--arm", "irb4600", "--nozzle", "kuka 0 0 250 0 -45 0"];
+    let check = |code: i32, more: &[&str]| {
+        let check = ["path", "check", "front_door"];
+        shop.coded(code, &[&check[..], &arm, more].concat())
+    };
+    let export = |code: i32, base: &str| {
+        let export = ["path", "export", "front_door", "--output", "paint.mod"];
+        shop.coded(code, &[&export[..], &arm, &["--base", base]].concat())
+    };
+    // Too far from the door, on a rail that stands still.
+    let far = "kuka -1800 0 0 0 0 0";
+    let rail = ["--rail", "x,0,1500"];
+    let ran = check(1, &[&["--base", far], &rail[..]].concat());
+    for place in ["with its base moved by", "on its rail"] {
+        let line = ran.out.lines().find(|line| line.contains(place));
+        let line = line.unwrap_or_else(|| panic!("{place}: {}", ran.out));
+        assert!(line.contains("it would reach 3 of 3"), "{line}");
+        let base = line.split('"').nth(1).expect("a pose");
+        check(0, &["--base", base]);
+        check(0, &[&["--base", base], &rail[..]].concat());
+        export(0, base);
+        let text = shop.read("paint.mod");
+        assert!(text.contains("frame: that of the calibration"), "{text}");
+    }
+    let ran = export(1, far);
+    assert!(ran.err.contains("path check front_door"), "{}", ran.err);
+    assert!(!shop.path("paint.mod").exists());
+    export(0, "kuka 0 0 0 0 0 0");
+    assert!(shop.read("paint.mod").contains("frame: robot base"));
+    // A placement without an arm is nothing to check.
+    let alone = ["path", "export", "front_door", "-o", "paint.mod"];
+    shop.coded(2, &[&alone[..], &["--base", far]].concat());
+    // The approach points are checked as they will be written.
+    shop.coded(
+        2,
+        &[
+            &["path", "check", "front_door"],
+            &arm[..],
+            &["--approach", "5"],
+        ]
+        .concat(),
+    );
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! `partsight path check`: checks that an arm reaches a part's path in its standard position.
 
+use std::cmp::Ordering;
+
 use clap::Args;
+use nalgebra::Translation3;
 use serde_json::json;
 
 use crate::{
@@ -8,21 +11,22 @@ use crate::{
         LibraryChoice, Outcome,
         calibrate::CalibrationChoice,
         console::{Advised as _, Console, advised_error},
-        input::parse_robot_pose,
+        input::{parse_robot_pose, within},
         program::CellChoice,
     },
     geometry::rigid::RigidTransform,
     library::PartName,
     robot::{
-        WrittenPose,
+        Convention, WrittenPose,
         arm::{
-            Arm, CheckParams, PathCheck, PlaceSuggestion, PlacedArm, PointProblem, suggest_base,
-            suggest_rail,
+            Arm, PathCheck, PlaceSuggestion, PlacedArm, PointCheck, PointProblem, check_path,
+            suggest_base, suggest_rail,
         },
-        program::{ProgramSettings, arm_points, check_reach},
+        program::{ProgramSettings, arm_points},
         spray::carry,
     },
     stages::{reference::ReferenceParams, stand_off::StandOffParams},
+    units::Metres,
 };
 
 /// Check that an arm reaches the stored path of a part in its standard position without collisions
@@ -36,14 +40,14 @@ pub(super) struct CheckArgs {
     /// Pose of the nozzle on the flange, with z the way it points: `kuka X Y Z A B C`, or the 16 numbers of a matrix
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     nozzle: WrittenPose,
-    /// Pose of the arm's base in the calibration's frame; default: the two frames are the same
-    #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
-    base: Option<WrittenPose>,
     #[command(flatten)]
     cell: CellChoice,
     /// Speed of the nozzle where the path sets none, mm/s
     #[arg(long, value_name = "MM/S", default_value_t = 250.0)]
     speed: f64,
+    /// Distance of the approach points from the path's first and last point, 10 to 1000 mm
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = |text: &str| within(text, &(10.0..=1000.0)))]
+    approach: f64,
     /// Write one line of JSON
     #[arg(long)]
     json: bool,
@@ -82,16 +86,16 @@ pub(super) fn run(
     );
     let settings = ProgramSettings {
         speed: args.speed / 1000.0,
+        approach: Metres::from_mm(args.approach),
         ..ProgramSettings::default()
     };
     let points = arm_points(&carried, &frame, settings.speed);
-    let robot_from_base = args.base.as_ref().map_or(standard, |base| base.pose);
     let placed = args
         .cell
-        .place(arm, robot_from_base, args.nozzle.pose)?
+        .place(arm, args.nozzle.pose)?
         .with_part(&reference.cloud.points, &frame.robot_from_part(&standard));
-    let params = CheckParams::default();
-    let found = check_reach(&placed, &carried, &frame, &settings).advised()?;
+    let params = settings.check_params();
+    let found = check_path(&placed, &points, &params).advised()?;
     let (num, all) = (found.num_reached(), points.len());
     let (mut base, mut rail) = (None, None);
     if num < all {
@@ -128,7 +132,12 @@ pub(super) fn run(
         });
         console.line(&line);
     } else {
-        show(&placed, &found, [base, rail], console);
+        show(&placed, &found, console);
+        let written = args.cell.base.map(|base| base.convention);
+        let written = written.unwrap_or(Convention::Kuka);
+        for line in better_places(&placed, all, [base, rail], written) {
+            console.line(&line);
+        }
     }
     Ok(if num == all {
         Outcome::Accepted
@@ -137,13 +146,8 @@ pub(super) fn run(
     })
 }
 
-/// Shows the result in words, and the better positions of base and rail.
-fn show(
-    placed: &PlacedArm,
-    found: &PathCheck,
-    [base, rail]: [Option<PlaceSuggestion>; 2],
-    console: &mut Console,
-) {
+/// Shows the result in words.
+fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
     let (num, all) = (found.num_reached(), found.points.len());
     console.line(&format_args!(
         "{} reaches {num} of {all} points",
@@ -160,10 +164,8 @@ fn show(
             "  not checked: the acceleration of its {what}, whose limits are not known"
         ));
     }
-    for (i, point) in found.points.iter().enumerate() {
-        if let Some(problem) = &point.problem {
-            console.line(&format_args!("  point {}: {}", i + 1, problem.describe()));
-        }
+    for line in problem_lines(&found.points) {
+        console.line(&format_args!("  {line}"));
     }
     let mut problems = found
         .points
@@ -174,17 +176,131 @@ fn show(
             &"  to do: lower the speed where it accelerates too slowly, or round the corners in a larger radius",
         );
     }
-    if let Some(place) = base {
-        let [x, y, z] = place.shift.map(|x| 1000.0 * x);
-        let num = place.num_reached;
-        console.line(&format_args!(
-            "  with its base moved by {x:.0} {y:.0} {z:.0} mm it would reach {num}"
-        ));
+}
+
+/// Lists the points that are not reached: the number for each reason, the most frequent first, unless one line says
+/// everything; then each range of consecutive points with the same reason.
+fn problem_lines(points: &[PointCheck]) -> Vec<String> {
+    let reason = |point: &PointCheck| point.problem.as_ref().map(PointProblem::reason);
+    let mut totals: Vec<(String, usize)> = Vec::new();
+    let mut ranges = Vec::new();
+    let mut first = 1;
+    for range in points.chunk_by(|a, b| reason(a) == reason(b)) {
+        let (num, last) = (range.len(), first + range.len() - 1);
+        let problems = (first..).zip(range);
+        let problems = problems.filter_map(|(i, point)| Some((i, point.problem.as_ref()?)));
+        if let Some((at, worst)) = problems.max_by(|a, b| by_figure(a.1, b.1)) {
+            let reason = worst.reason();
+            ranges.push(if num == 1 {
+                format!("point {first}: {}", worst.describe())
+            } else if worst.figure().is_none() {
+                format!("points {first}–{last}: {reason} ({num} points)")
+            } else {
+                let worst = worst.describe();
+                format!("points {first}–{last}: {reason} ({num} points; worst at {at}: {worst})")
+            });
+            match totals.iter_mut().find(|(known, _)| *known == reason) {
+                Some((_, total)) => *total += num,
+                None => totals.push((reason, num)),
+            }
+        }
+        first += num;
     }
-    if let Some(place) = rail {
-        let (at, num) = (1000.0 * place.shift[0], place.num_reached);
-        console.line(&format_args!(
-            "  at {at:.0} mm on its rail it would reach {num}"
-        ));
+    totals.sort_by_key(|(_, num)| std::cmp::Reverse(*num));
+    if ranges.len() == 1 {
+        totals.clear();
+    }
+    let all = points.len();
+    let totals = totals.into_iter();
+    let totals = totals.map(|(reason, num)| format!("{reason}: {num} of {all} points"));
+    totals.chain(ranges).collect()
+}
+
+fn by_figure(a: &PointProblem, b: &PointProblem) -> Ordering {
+    let figure = |problem: &PointProblem| problem.figure().unwrap_or_default();
+    figure(a).total_cmp(&figure(b))
+}
+
+/// Describes the places of base and rail that reach more, with the `--base` in this convention that checks them: an arm
+/// on a rail that stands still is one whose base was moved along it.
+fn better_places(
+    placed: &PlacedArm,
+    all: usize,
+    [base, rail]: [Option<PlaceSuggestion>; 2],
+    convention: Convention,
+) -> Vec<String> {
+    let option = |shift: Translation3<f64>| {
+        let pose = convention.write(&(shift * placed.robot_from_base));
+        let numbers = pose.values.iter().map(|value| {
+            let text = value.rounded();
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        });
+        let numbers: Vec<String> = numbers.collect();
+        format!("--base \"{} {}\"", convention.name(), numbers.join(" "))
+    };
+    let base = base.map(|place| {
+        let [x, y, z] = place.shift.map(|x| 1000.0 * x);
+        format!(
+            "  with its base moved by {x:.0} {y:.0} {z:.0} mm it would reach {} of {all}: {}",
+            place.num_reached,
+            option(Translation3::from(place.shift))
+        )
+    });
+    let rail = rail.zip(placed.arm.rail).map(|(place, rail)| {
+        let [at, ..] = place.shift;
+        format!(
+            "  at {:.0} mm on its rail it would reach {} of {all}: {}",
+            1000.0 * at,
+            place.num_reached,
+            option(Translation3::from(rail.direction.into_inner() * at))
+        )
+    });
+    base.into_iter().chain(rail).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(problem: Option<PointProblem>) -> PointCheck {
+        PointCheck {
+            joints: None,
+            turn: 0.0,
+            rail: 0.0,
+            problem,
+        }
+    }
+
+    #[test]
+    fn consecutive_points_with_the_same_reason_are_one_line() {
+        let fast = |speed: f64| {
+            let speed = speed.to_radians();
+            Some(PointProblem::TooFast { joint: 5, speed })
+        };
+        let far = || Some(PointProblem::OutOfReach);
+        let problems = [
+            None,
+            far(),
+            far(),
+            far(),
+            fast(200.0),
+            fast(310.0),
+            fast(250.0),
+            None,
+            fast(190.0),
+            None,
+        ];
+        let points = problems.map(point);
+        let wanted = [
+            "joint 5 too fast: 4 of 10 points",
+            "out of reach: 3 of 10 points",
+            "points 2–4: out of reach (3 points)",
+            "points 5–7: joint 5 too fast (3 points; worst at 6: joint 5 would need 310 degrees/s)",
+            "point 9: joint 5 would need 190 degrees/s",
+        ];
+        assert_eq!(problem_lines(&points), wanted);
+        // One range needs no totals.
+        assert_eq!(problem_lines(&points[..4]), [wanted[2]]);
+        assert!(problem_lines(&points[..1]).is_empty());
     }
 }

@@ -5,13 +5,17 @@
 //! that time, however unevenly the points are spaced. Points closer together would only add noise. In a corner the
 //! whole change happens at the point itself. So if the difference would be too large within the window, the joints
 //! exactly one window before and behind the point are computed on the straight moves there, and the larger result
-//! counts. For the rail only the points are used: between them it may accelerate evenly.
+//! counts.
 //!
-//! No window extends past the ends of the path, past a turn on the spot, for which the arm takes its time, or past a
-//! point that cannot be reached from the one before.
+//! For the rail only the points are used: between them it may accelerate evenly. Over a long move that mean says little,
+//! so a move of the rail between two points that begins or ends at a standstill also needs at least the acceleration
+//! that brings it there in time ([`least_acceleration`]), even if it begins a window early and ends a window late.
 //!
-//! Known limits: nothing is checked within a window of the ends. Of a move that takes longer than the window only its
-//! two ends are examined closely.
+//! No window extends past the ends of the path, past a point where the arm stops, past a turn on the spot, for which it
+//! takes its time, or past a point that cannot be reached from the one before.
+//!
+//! Known limits: nothing is checked within a window of those ends. Of a move that takes longer than the window only its
+//! two ends are examined closely for the joints.
 
 use std::f64::consts::PI;
 
@@ -29,6 +33,8 @@ const WINDOW: f64 = 0.05;
 const TURN: f64 = 0.01;
 /// The times of a path are sums, which are not exact.
 const EXACT: f64 = 1e-6;
+/// Shorter moves of the rail count as standing still, metres.
+const STILL: f64 = 1e-6;
 
 /// Marks the points of a checked path around which a joint or the rail cannot accelerate as much as needed. An earlier
 /// problem of a point is kept, unless it is a singularity nearby.
@@ -42,11 +48,20 @@ pub(super) fn check_accelerations(
     if placed.arm.accelerations.is_none() && !is_rail {
         return;
     }
-    let mut found = Vec::with_capacity(checked.len());
-    while found.len() < checked.len() {
-        let begin = found.len();
+    let mut found: Vec<Option<PointProblem>> = vec![None; checked.len()];
+    let mut begin = 0;
+    while begin < checked.len() {
         let run = Run::new(placed, &points[begin..], &checked[begin..]);
-        found.extend((0..run.times.len()).map(|here| run.problem_at(here)));
+        let last = begin + run.times.len() - 1;
+        for (here, problem) in found[begin..=last].iter_mut().enumerate() {
+            *problem = problem.take().or_else(|| run.problem_at(here));
+        }
+        // A stop ends one run and begins the next.
+        begin = if last > begin && points[last].is_stop {
+            last
+        } else {
+            last + 1
+        };
     }
     for (point, problem) in checked.iter_mut().zip(found) {
         let is_open = matches!(point.problem, None | Some(PointProblem::NearSingularity(_)));
@@ -70,8 +85,10 @@ impl<'a> Run<'a> {
     fn new(placed: &'a PlacedArm, points: &'a [ArmPoint], checked: &'a [PointCheck]) -> Self {
         let pairs = points.windows(2).zip(checked.windows(2));
         let steps = pairs.map_while(|(points, checked)| seconds_between(points, checked));
+        let stop = points.iter().skip(1).position(|point| point.is_stop);
+        let num_steps = stop.map_or(points.len(), |before| before + 1);
         let mut now = 0.0;
-        let later = steps.map(|seconds| {
+        let later = steps.take(num_steps).map(|seconds| {
             now += seconds;
             now
         });
@@ -83,16 +100,28 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The problem around a point, if any.
-    fn problem_at(&self, here: usize) -> Option<PointProblem> {
+    /// The nearest points that are at least a window before and behind a point; none beyond the run.
+    fn around(&self, here: usize) -> [Option<usize>; 2] {
         let now = self.times[here];
         let before = self.times.partition_point(|time| *time <= now - WINDOW);
-        let before = before.checked_sub(1)?;
         let behind = self.times.partition_point(|time| *time < now + WINDOW);
-        let times = [now - self.times[before], self.times.get(behind)? - now];
-        let places = [before, here, behind];
-        let of_joint = self.joint_problem(places, times);
-        of_joint.or_else(|| self.rail_problem(places, times))
+        let is_within = behind < self.times.len();
+        [before.checked_sub(1), is_within.then_some(behind)]
+    }
+
+    /// The problem around a point, or of the rail on the way to it, if any.
+    fn problem_at(&self, here: usize) -> Option<PointProblem> {
+        let around = match self.around(here) {
+            [Some(before), Some(behind)] => {
+                let now = self.times[here];
+                let times = [now - self.times[before], self.times[behind] - now];
+                let places = [before, here, behind];
+                let of_joint = self.joint_problem(places, times);
+                of_joint.or_else(|| self.rail_problem(places, times))
+            }
+            _ => None,
+        };
+        around.or_else(|| self.rail_way_problem(here))
     }
 
     fn joint_problem(
@@ -138,6 +167,25 @@ impl<'a> Run<'a> {
         })
     }
 
+    /// The problem of the rail on the way to a point, if it stands still before or behind that way.
+    fn rail_way_problem(&self, here: usize) -> Option<PointProblem> {
+        let (rail, top) = self.placed.arm.moving_rail()?;
+        let limit = rail.acceleration?;
+        let from = here.checked_sub(1)?;
+        let way = |a: usize, b: usize| (self.checked[b].rail - self.checked[a].rail).abs();
+        let [before, _] = self.around(from);
+        let [_, behind] = self.around(here);
+        let is_start = before.is_some_and(|before| way(before, from) < STILL);
+        let is_end = behind.is_some_and(|behind| way(here, behind) < STILL);
+        let num_ramps = f64::from(u8::from(is_start) + u8::from(is_end));
+        let time = self.times[here] - self.times[from] + num_ramps * WINDOW;
+        let acceleration = least_acceleration(way(from, here), time, top, num_ramps)?;
+        (acceleration > limit * (1.0 + EXACT)).then_some(PointProblem::RailAcceleration {
+            acceleration,
+            limit,
+        })
+    }
+
     /// The joints at a time during the move from one point to the next, nearest to those at `near`.
     fn joints_at(&self, from: usize, time: f64, near: usize) -> Option<Joints> {
         let end = |place: usize| WayEnd::of(&self.points[place], &self.checked[place]);
@@ -175,6 +223,18 @@ impl Excess {
         });
         all.max_by(|a, b| a.share.total_cmp(&b.share))
     }
+}
+
+/// The least acceleration, m/s², for a way in a time at a top speed, with one ramp, from or to a standstill, or two;
+/// `None` if it does not move, or not in time at any acceleration.
+fn least_acceleration(way: f64, time: f64, top: f64, num_ramps: f64) -> Option<f64> {
+    if way < STILL {
+        return None;
+    }
+    // Accelerating all the time if the top speed allows it; otherwise time = way / top + ramps / 2 · top / acceleration.
+    let speed = top.min(2.0 * way / time);
+    let left = time - way / speed;
+    (left > 0.0).then(|| num_ramps / 2.0 * speed / left)
 }
 
 /// The mean second derivative of a value before, at and behind a moment; `times` are the seconds between.

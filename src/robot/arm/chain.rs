@@ -59,7 +59,7 @@ pub(super) fn angle_of(turn: usize, num_turns: usize) -> f64 {
 /// Steps between two turns, the shorter way round.
 fn turns_apart(a: usize, b: usize, num_turns: usize) -> usize {
     let apart = a.abs_diff(b);
-    apart.min(num_turns.max(1).saturating_sub(apart))
+    apart.min(num_turns - apart)
 }
 
 pub(super) fn turned(point: &ArmPoint, angle: f64) -> RigidTransform {
@@ -68,11 +68,7 @@ pub(super) fn turned(point: &ArmPoint, angle: f64) -> RigidTransform {
 
 /// The turns to be tried at a point.
 pub(super) fn turns_of(point: &ArmPoint, num_turns: usize) -> std::ops::Range<usize> {
-    0..if point.is_turn_free {
-        num_turns.max(1)
-    } else {
-        1
-    }
+    0..if point.is_turn_free { num_turns } else { 1 }
 }
 
 pub(super) fn candidates_of(

@@ -1,5 +1,7 @@
 //! Checks a path against an arm.
 
+use nalgebra::Translation3;
+
 use super::{
     ArmError, PlacedArm,
     acceleration::check_accelerations,
@@ -22,6 +24,8 @@ pub struct ArmPoint {
     pub is_turn_free: bool,
     /// True if the gun sprays on the way to the next point; a rail moves there only if it must.
     pub is_gun_on: bool,
+    /// True if the arm stops here, so that no joint has to accelerate in passing.
+    pub is_stop: bool,
 }
 
 /// Parameters of [`check_path`].
@@ -31,13 +35,20 @@ pub struct CheckParams {
     pub num_turns: usize,
     /// Position of a rail that does not move along the path, metres; 0 without one.
     pub rail: f64,
+    /// Distance of the approach point behind the first point, and of the end behind the last, metres; none to check the
+    /// path alone.
+    pub approach: Option<f64>,
 }
+
+/// Most turns: steps of 5°.
+const MAX_TURNS: usize = 72;
 
 impl Default for CheckParams {
     fn default() -> Self {
         Self {
             num_turns: 24,
             rail: 0.0,
+            approach: None,
         }
     }
 }
@@ -103,7 +114,8 @@ impl PathCheck {
 }
 
 /// Finds the joints for every point of the path, or the problem there. Points without a problem are reached one after
-/// the other by straight moves at their speed.
+/// the other by straight moves at their speed. With an approach distance, the ways to the path and from it are checked
+/// as well; their problems are reported at the first and the last point.
 pub fn check_path(
     placed: &PlacedArm,
     points: &[ArmPoint],
@@ -119,7 +131,59 @@ pub(super) fn check_unless(
     points: &[ArmPoint],
     params: &CheckParams,
 ) -> Result<PathCheck, ArmError> {
+    // Before the ends are added, so that an error counts the path's own points.
     refuse_bad(placed, points, params)?;
+    let ends = params.approach.and_then(|away| ends_of(points, away));
+    let Some([approach, retreat]) = ends else {
+        let points = check_points(is_cancelled, placed, points, params)?;
+        return Ok(PathCheck { points, ends: None });
+    };
+    let mut all = vec![approach];
+    all.extend(points);
+    // The gun is off behind the last point, whatever the path says.
+    if let Some(last) = all.last_mut() {
+        last.is_gun_on = false;
+    }
+    all.push(retreat);
+    let mut points = check_points(is_cancelled, placed, &all, params)?;
+    let retreat = points.pop();
+    let approach = points.remove(0);
+    if let (Some(last), Some(retreat)) = (points.last_mut(), &retreat) {
+        last.problem = graver(last.problem.take(), retreat.problem.clone());
+    }
+    if let Some(first) = points.first_mut() {
+        first.problem = graver(first.problem.take(), approach.problem.clone());
+    }
+    let ends = retreat.map(|retreat| [approach, retreat]);
+    Ok(PathCheck { points, ends })
+}
+
+/// The approach point and the end of a program, this far behind the first and the last point of its path.
+pub(super) fn ends_of(points: &[ArmPoint], distance: f64) -> Option<[ArmPoint; 2]> {
+    let away = Translation3::new(0.0, 0.0, -distance);
+    let behind = |point: &ArmPoint| ArmPoint {
+        robot_from_nozzle: point.robot_from_nozzle * away,
+        is_gun_on: false,
+        ..*point
+    };
+    Some([behind(points.first()?), behind(points.last()?)])
+}
+
+/// Returns the problem to report: a collision takes precedence.
+fn graver(own: Option<PointProblem>, other: Option<PointProblem>) -> Option<PointProblem> {
+    if matches!(other, Some(PointProblem::Collision { .. })) {
+        other
+    } else {
+        own.or(other)
+    }
+}
+
+fn check_points(
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+    placed: &PlacedArm,
+    points: &[ArmPoint],
+    params: &CheckParams,
+) -> Result<Vec<PointCheck>, ArmError> {
     let go_on = || {
         if is_cancelled() {
             Err(ArmError::Cancelled)
@@ -180,14 +244,11 @@ pub(super) fn check_unless(
         });
     }
     check_accelerations(placed, points, &mut checked);
-    Ok(PathCheck {
-        points: checked,
-        ends: None,
-    })
+    Ok(checked)
 }
 
 /// Refuses what cannot be checked. An error counts the points of `points` from 1.
-pub(in crate::robot) fn refuse_bad(
+pub(super) fn refuse_bad(
     placed: &PlacedArm,
     points: &[ArmPoint],
     params: &CheckParams,
@@ -204,6 +265,18 @@ pub(in crate::robot) fn refuse_bad(
     }
     if !params.rail.is_finite() {
         return not_finite("the position of the rail".into());
+    }
+    if params
+        .approach
+        .is_some_and(|distance| !distance.is_finite())
+    {
+        return not_finite("the distance of the approach point".into());
+    }
+    if !(1..=MAX_TURNS).contains(&params.num_turns) {
+        return Err(ArmError::Value {
+            what: "the number of turns about the nozzle's axis".into(),
+            value: params.num_turns as f64,
+        });
     }
     if let Some(rail) = placed.arm.rail {
         rail.checked()?;

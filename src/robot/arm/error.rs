@@ -112,11 +112,11 @@ impl Advice for ArmError {
                 "Give x, y or z, where it begins and ends in mm and, if it moves along the path, its top speed in mm/s and its acceleration in mm/s²: y,-2000,2000,1000,2000".into()
             }
             Self::Value { .. } => {
-                "Correct it: lengths in millimetres, angles in degrees, speeds and accelerations above 0, a rail's from 1 to 10000 mm/s and from 1 to 100000 mm/s², signs 1 or -1".into()
+                "Correct it: lengths in millimetres, angles in degrees, speeds and accelerations above 0, a rail's from 1 to 10000 mm/s and from 1 to 100000 mm/s², signs 1 or -1, turns about the nozzle from 1 to 72".into()
             }
             Self::Cancelled => "Check it again".into(),
             Self::NoPoints => "Give a path with at least one point".into(),
-            Self::NotFinite { .. } => "Check the numbers of base, tool and path".into(),
+            Self::NotFinite { .. } => "Check the numbers of base, tool, path and approach".into(),
         }
     }
 }

@@ -37,7 +37,6 @@ use nalgebra::{Point3, Vector3};
 
 use crate::{geometry::rigid::RigidTransform, robot::Convention};
 
-pub(in crate::robot) use self::check::refuse_bad;
 pub use self::{
     check::{ArmPoint, CheckParams, PathCheck, PointCheck, check_path},
     error::ArmError,

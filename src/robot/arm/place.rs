@@ -1,11 +1,11 @@
 //! Suggests where an arm would reach more of a path. Obstacles stay in place, and points with a collision are not
-//! reached.
+//! reached. Places are compared by what [`check_path`](super::check_path) finds there with the same parameters.
 
 use nalgebra::Translation3;
 
 use super::{
     ArmError, ArmPoint, CheckParams, PlacedArm,
-    check::{check_unless, is_reached, refuse_bad},
+    check::{check_unless, ends_of, is_reached, refuse_bad},
     kinematics::Solver,
 };
 
@@ -105,11 +105,12 @@ impl Search<'_> {
         at: impl Fn([f64; 3]) -> (PlacedArm, f64),
     ) -> Result<Option<PlaceSuggestion>, ArmError> {
         let total = shifts.len() + NUM_CHECKED;
+        let sample = self.sample();
         let mut ranked = Vec::with_capacity(shifts.len());
         for shift in shifts {
             (self.progress)(ranked.len(), total);
             let (placed, rail) = at(shift);
-            let num = self.num_sampled(&placed, rail)?;
+            let num = self.num_reached_of(&sample, &placed, rail)?;
             let distance: f64 = shift.iter().map(|x| x * x).sum();
             ranked.push((num, distance, shift));
         }
@@ -133,16 +134,29 @@ impl Search<'_> {
         Ok(found)
     }
 
+    /// Points to compare places with: some of the path, and the ends of its program.
+    fn sample(&self) -> Vec<ArmPoint> {
+        let every = self.points.len().div_ceil(NUM_SAMPLES).max(1);
+        let ends = self.params.approach;
+        let ends = ends.and_then(|distance| ends_of(self.points, distance));
+        let path = self.points.iter().step_by(every).copied();
+        path.chain(ends.into_iter().flatten()).collect()
+    }
+
     /// Number of sampled points that are reached.
-    fn num_sampled(&self, placed: &PlacedArm, rail: f64) -> Result<usize, ArmError> {
+    fn num_reached_of(
+        &self,
+        sample: &[ArmPoint],
+        placed: &PlacedArm,
+        rail: f64,
+    ) -> Result<usize, ArmError> {
         refuse_bad(placed, self.points, self.params)?;
         let solvers: Vec<Solver<'_>> = rails(placed, rail)
             .into_iter()
             .map(|rail| Solver::new(placed, rail))
             .collect();
-        let every = self.points.len().div_ceil(NUM_SAMPLES).max(1);
         let mut num = 0;
-        for point in self.points.iter().step_by(every) {
+        for point in sample {
             if (self.is_cancelled)() {
                 return Err(ArmError::Cancelled);
             }

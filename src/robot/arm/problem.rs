@@ -108,6 +108,37 @@ impl PointProblem {
         }
     }
 
+    /// Names the problem in words without its figures, which differ from point to point.
+    pub fn reason(&self) -> String {
+        match self {
+            Self::JointLimit { joint, .. } => format!("joint {joint} beyond its limit"),
+            Self::TooFast { joint, .. } => format!("joint {joint} too fast"),
+            Self::RailTooFast { .. } => "rail too fast".into(),
+            Self::JointAcceleration { joint, .. } => {
+                format!("joint {joint} accelerates too slowly")
+            }
+            Self::RailAcceleration { .. } => "rail accelerates too slowly".into(),
+            Self::OutOfReach
+            | Self::NearSingularity(_)
+            | Self::ConfigurationChange
+            | Self::Collision { .. } => self.describe(),
+        }
+    }
+
+    /// The figure of a problem that has one; of two with the same reason, the greater is the worse.
+    pub fn figure(&self) -> Option<f64> {
+        match self {
+            Self::JointLimit { angle, .. } => Some(angle.abs()),
+            Self::TooFast { speed, .. } | Self::RailTooFast { speed } => Some(*speed),
+            Self::JointAcceleration { acceleration, .. }
+            | Self::RailAcceleration { acceleration, .. } => Some(*acceleration),
+            Self::OutOfReach
+            | Self::NearSingularity(_)
+            | Self::ConfigurationChange
+            | Self::Collision { .. } => None,
+        }
+    }
+
     /// Returns true for an acceleration, which a lower speed or a corner of larger radius would reduce.
     pub fn is_acceleration(&self) -> bool {
         matches!(

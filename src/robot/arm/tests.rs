@@ -44,6 +44,7 @@ fn row(arm: &PlacedArm, num: usize, length: f64) -> Vec<ArmPoint> {
             speed: 0.3,
             is_turn_free: false,
             is_gun_on: true,
+            is_stop: false,
         })
         .collect()
 }
@@ -122,6 +123,7 @@ fn each_reason_is_named() {
         speed: 0.3,
         is_turn_free: false,
         is_gun_on: true,
+        is_stop: false,
     };
     let problem = check(&bare, &[point]).points[0].problem.clone();
     assert_eq!(
@@ -142,6 +144,7 @@ fn a_long_way_through_a_limit_or_a_fold_is_found_between_its_ends() {
         speed: 0.3,
         is_turn_free: false,
         is_gun_on: true,
+        is_stop: false,
     };
     let found = check(&placed, &[across(-0.8), across(0.8)]);
     assert!(found.points.iter().all(|point| point.joints.is_some()));
@@ -164,6 +167,7 @@ fn a_slow_move_neither_turns_a_joint_once_around_nor_folds_the_arm_over() {
         speed: 0.001,
         is_turn_free: false,
         is_gun_on: true,
+        is_stop: false,
     });
     // Shoulder and elbow have one configuration only.
     placed.arm.limits[0] = [-0.5, 0.5];
@@ -260,4 +264,18 @@ fn bad_arms_and_paths_are_refused_with_advice() {
         let error = refused(check_path(&near, &points, &params).expect_err("clearance"));
         assert!(error.contains("clearance"), "{error}");
     }
+    for num_turns in [0, 73] {
+        let params = CheckParams {
+            num_turns,
+            ..params
+        };
+        let error = refused(check_path(&placed, &points, &params).expect_err("turns"));
+        assert!(error.contains("number of turns"), "{error}");
+    }
+    let endless = CheckParams {
+        approach: Some(f64::INFINITY),
+        ..params
+    };
+    let error = refused(check_path(&placed, &points, &endless).expect_err("approach"));
+    assert!(error.contains("approach"), "{error}");
 }

@@ -12,7 +12,8 @@
 //! Every program does the same: gun off; a joint move to the approach point, which is behind the first point along the
 //! nozzle; the path; gun off; a linear move away. A point's gun state and speed apply on the way to the next point. KRL
 //! and RAPID switch the gun while the robot moves. The others stop at a point where the gun changes, because they run
-//! outputs ahead of a blended move. All poses are `robot_from_nozzle` in the robot's base frame.
+//! outputs ahead of a blended move. All poses are `robot_from_nozzle` in the frame of the calibration: the robot's base
+//! frame, unless the arm was checked with its base elsewhere.
 //!
 //! If an arm was checked to reach the path, and the controller is of the arm's maker, the points also name the
 //! configuration that was checked, so that the controller takes no other (`configuration`).
@@ -253,7 +254,16 @@ impl Program<'_> {
             }
             None => format!("tool: {tool}, at the nozzle's mouth, z towards the part"),
         });
-        lines.push("frame: robot base".into());
+        let base = self.reach.map(|(arm, _)| arm.robot_from_base);
+        lines.push(
+            match base.filter(|base| *base != RigidTransform::identity()) {
+                Some(base) => format!(
+                    "frame: that of the calibration, in which the arm's base is at {}",
+                    convention.write(&base).line()
+                ),
+                None => "frame: robot base".into(),
+            },
+        );
         if let Some(axis) = format.rail_axis().filter(|_| self.moves_on_rail()) {
             lines.push(format!(
                 "rail: {axis}, mm, 0 where the cell was calibrated, coupled to the arm; the frame does not move along"

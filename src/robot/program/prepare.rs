@@ -5,14 +5,12 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-use nalgebra::{Translation3, UnitQuaternion};
+use nalgebra::UnitQuaternion;
 
 use super::{ProgramPoint, ProgramSettings};
 use crate::robot::{
     RobotFrame,
-    arm::{
-        ArmError, ArmPoint, CheckParams, PathCheck, PlacedArm, PointProblem, check_path, refuse_bad,
-    },
+    arm::{ArmError, ArmPoint, CheckParams, PathCheck, PlacedArm, check_path},
     spray::CarriedPath,
 };
 
@@ -34,63 +32,41 @@ pub fn is_stale_file(scene: &Path) -> bool {
 /// Returns the nozzle poses of a path in the robot's base frame, for an arm. `speed`, in m/s, applies where the path
 /// sets none.
 pub fn arm_points(carried: &CarriedPath, frame: &RobotFrame, speed: f64) -> Vec<ArmPoint> {
-    let points = carried.points.iter().map(|point| ArmPoint {
-        robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
-        speed: point.speed.unwrap_or(speed),
-        is_turn_free: point.is_round,
-        is_gun_on: point.is_gun_on,
-    });
+    let last = carried.points.len().saturating_sub(1);
+    let points = carried
+        .points
+        .iter()
+        .enumerate()
+        .map(|(i, point)| ArmPoint {
+            robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
+            speed: point.speed.unwrap_or(speed),
+            is_turn_free: point.is_round,
+            is_gun_on: point.is_gun_on,
+            // A program blends neither the first nor the last point.
+            is_stop: i == 0 || i == last,
+        });
     points.collect()
 }
 
-/// Checks whether an arm reaches a carried path without a collision. Also checks the approach point before it and the
-/// retreat after it; their problems are reported at the first and the last point.
+impl ProgramSettings {
+    /// How the arm of a program with these settings is checked: with its approach point and its end.
+    pub fn check_params(&self) -> CheckParams {
+        CheckParams {
+            approach: Some(self.approach.0),
+            ..CheckParams::default()
+        }
+    }
+}
+
+/// Checks whether an arm reaches a carried path without a collision, and the ways to it and from it.
 pub fn check_reach(
     arm: &PlacedArm,
     carried: &CarriedPath,
     frame: &RobotFrame,
     settings: &ProgramSettings,
 ) -> Result<PathCheck, ArmError> {
-    let mut points = arm_points(carried, frame, settings.speed);
-    let params = CheckParams::default();
-    // Checked before the approach point is inserted, so that an error counts the path's own points.
-    refuse_bad(arm, &points, &params)?;
-    let (Some(first), Some(last)) = (points.first().copied(), points.last().copied()) else {
-        return Err(ArmError::NoPoints);
-    };
-    let away = Translation3::new(0.0, 0.0, -settings.approach.0);
-    let behind = |point: ArmPoint| ArmPoint {
-        robot_from_nozzle: point.robot_from_nozzle * away,
-        is_gun_on: false,
-        ..point
-    };
-    let (approach, retreat) = (behind(first), behind(last));
-    // The gun is off behind the last point, whatever the path says.
-    if let Some(last) = points.last_mut() {
-        last.is_gun_on = false;
-    }
-    points.insert(0, approach);
-    points.push(retreat);
-    let mut check = check_path(arm, &points, &params)?;
-    let retreat = check.points.pop();
-    let approach = check.points.remove(0);
-    if let (Some(last), Some(retreat)) = (check.points.last_mut(), &retreat) {
-        last.problem = graver(last.problem.take(), retreat.problem.clone());
-    }
-    if let Some(first) = check.points.first_mut() {
-        first.problem = graver(first.problem.take(), approach.problem.clone());
-    }
-    check.ends = retreat.map(|retreat| [approach, retreat]);
-    Ok(check)
-}
-
-/// Returns the problem to report: a collision takes precedence.
-fn graver(own: Option<PointProblem>, other: Option<PointProblem>) -> Option<PointProblem> {
-    if matches!(other, Some(PointProblem::Collision { .. })) {
-        other
-    } else {
-        own.or(other)
-    }
+    let points = arm_points(carried, frame, settings.speed);
+    check_path(arm, &points, &settings.check_params())
 }
 
 /// Returns the points of a program. With `reach`, the nozzle of a round jet is turned about its axis as in the check.
@@ -116,13 +92,13 @@ pub fn program_points(
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+    use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 
     use super::*;
     use crate::{
         geometry::rigid::RigidTransform,
         robot::{
-            arm::{Arm, Body, GUN_RADIUS, Obstacle, Obstacles},
+            arm::{Arm, Body, GUN_RADIUS, Obstacle, Obstacles, PointProblem},
             spray::{BandStatus, CarriedPoint},
         },
         units::Metres,
@@ -170,6 +146,9 @@ mod tests {
     fn the_way_to_the_path_and_from_it_has_to_be_reached_as_well() {
         let (arm, frame) = cell();
         let mut settings = ProgramSettings::default();
+        let stops = arm_points(&line(1.2), &frame, settings.speed);
+        let stops: Vec<bool> = stops.iter().map(|point| point.is_stop).collect();
+        assert_eq!(stops, [true, false, false, false, true]);
         let near = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
         assert_eq!(near.doubt("arm"), None, "{near:?}");
         let [begin, end] = near.ends.as_ref().expect("ends");

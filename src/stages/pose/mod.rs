@@ -233,11 +233,11 @@ impl crate::error::Advice for PoseWarning {
             Self::LittleOverlap { .. } => {
                 "Check that both clouds show the same thing and share at least half of it".into()
             }
-            Self::Ambiguous { .. } => "Give a start with --initial".into(),
+            Self::Ambiguous { .. } => "Give a start near the right pose".into(),
             Self::Loose { .. } => {
                 "Use clouds that show more of the part: an edge, a bend, a corner".into()
             }
-            Self::Unsettled { .. } => "Run it again from the pose found, with --initial".into(),
+            Self::Unsettled { .. } => "Run it again with the pose found as its start".into(),
         }
     }
 }
@@ -335,13 +335,21 @@ pub enum PoseError {
 impl crate::error::Advice for PoseError {
     fn advice(&self) -> String {
         match self {
-            Self::TooFewPoints { .. } => "Capture the part again from closer, or enrol it again".into(),
-            Self::Degenerate { .. } => "Use a cloud that shows a surface, not a line or a single spot".into(),
-            Self::OneSidedPairs { .. } | Self::NoOverlap { .. } => {
-                "Check that both clouds show the same part in metres, or give a start with --initial".into()
+            Self::TooFewPoints { .. } => {
+                "Capture the part again from closer, or enrol it again".into()
             }
-            Self::SizesDiffer { .. } => "Export both in metres: one of them looks like millimetres".into(),
-            Self::TooFarOut { .. } => "Subtract a common offset from both clouds before exporting them".into(),
+            Self::Degenerate { .. } => {
+                "Use a cloud that shows a surface, not a line or a single spot".into()
+            }
+            Self::OneSidedPairs { .. } | Self::NoOverlap { .. } => {
+                "Check that both clouds show the same part in metres".into()
+            }
+            Self::SizesDiffer { .. } => {
+                "Export both in metres: one of them looks like millimetres".into()
+            }
+            Self::TooFarOut { .. } => {
+                "Subtract a common offset from both clouds before exporting them".into()
+            }
             Self::NoReferenceCloud => "Enrol the part from a capture, a cloud or a mesh".into(),
             Self::Cancelled => "Start it again".into(),
         }

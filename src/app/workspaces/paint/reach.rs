@@ -33,8 +33,8 @@ use crate::{
     robot::{
         RobotFrame,
         arm::{
-            ArmError, Body, CheckParams, Obstacle, Obstacles, PathCheck, PlaceSuggestion,
-            PointProblem, suggest_base, suggest_rail,
+            ArmError, Body, Obstacle, Obstacles, PathCheck, PlaceSuggestion, PointProblem,
+            suggest_base, suggest_rail,
         },
         program::{arm_points, check_reach},
         spray::{CarriedPath, carry},
@@ -243,7 +243,7 @@ fn found(
     let robot_from_part = request.robot.robot_from_part(&RigidTransform::identity());
     let arm = arm.with_part(&path.part_points, &robot_from_part);
     let points = arm_points(&path.carried, &request.robot, settings.speed);
-    let params = CheckParams::default();
+    let params = settings.check_params();
     let failed = |error: ArmError| match error {
         ArmError::Cancelled => TaskError::Cancelled,
         error => TaskError::Failed(UserError::of(&error)),

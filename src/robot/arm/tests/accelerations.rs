@@ -125,6 +125,35 @@ fn a_corner_is_too_hard_for_a_joint_however_far_apart_the_points_are() {
 }
 
 #[test]
+fn a_corner_in_which_the_arm_stops_needs_no_acceleration() {
+    let mut placed = facing("irb2600");
+    let worst = change_in_corner(&placed).into_iter().fold(0.0, f64::max) / WINDOW;
+    placed.arm.accelerations = Some([0.8 * worst; 6]);
+    // Points 7, 83 and 330 ms apart.
+    for step in [0.002, 0.025, 0.1] {
+        let mut points = polygon(&placed, &CORNER, step, 0.3);
+        let corner = points.len() / 2;
+        assert!(
+            !accelerations(&check(&placed, &points)).is_empty(),
+            "{step}"
+        );
+        points[corner].is_stop = true;
+        let none = accelerations(&check(&placed, &points));
+        assert!(none.is_empty(), "{step}: {none:?}");
+        points[corner].is_stop = false;
+        // A stop more than a window before it or behind it changes nothing.
+        let away = (0.02_f64 / step).ceil() as usize;
+        for stop in [corner - away, corner + away] {
+            let mut points = points.clone();
+            points[stop].is_stop = true;
+            let found = check(&placed, &points);
+            assert!(found.points[corner].problem.is_some(), "{step} {stop}");
+            assert_eq!(found.points[stop].problem, None, "{step} {stop}");
+        }
+    }
+}
+
+#[test]
 fn points_that_are_close_together_or_at_one_place_are_no_jerk() {
     let mut placed = facing("gp25");
     // Every joint turns evenly over tenths of a second.
@@ -229,6 +258,27 @@ fn a_rail_that_starts_at_once_needs_more_than_one_that_speeds_up() {
     for step in [0.01, 0.1] {
         assert!(of_rail(0.61, step, ramped).iter().all(Option::is_none));
         assert!(of_rail(0.59, step, ramped).iter().any(Option::is_some));
+    }
+}
+
+#[test]
+fn a_rail_that_moves_between_two_points_only_has_to_start_and_stop_there() {
+    for (way, wanted) in [
+        // It accelerates, then slows down, from a window before the first point to a window behind the second.
+        (0.1, 4.0 * 0.1 / (0.35 * 0.35)),
+        // At its top speed of 1 m/s it takes 0.24 s of the 0.35 s.
+        (0.24, 1.0 / (0.35 - 0.24)),
+    ] {
+        let jump = |time: f64| if time < 0.3 { 0.0 } else { way };
+        let found = of_rail(0.99 * wanted, 0.25, jump);
+        let Some(PointProblem::RailAcceleration { acceleration, .. }) = found[2] else {
+            panic!("{found:?}");
+        };
+        assert!((acceleration - wanted).abs() < 1e-6, "{acceleration}");
+        let others = found.iter().enumerate().filter(|(i, _)| *i != 2);
+        assert!(others.map(|(_, problem)| problem).all(Option::is_none));
+        let slower = of_rail(1.01 * wanted, 0.25, jump);
+        assert!(slower.iter().all(Option::is_none), "{slower:?}");
     }
 }
 

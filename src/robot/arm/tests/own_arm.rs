@@ -26,6 +26,7 @@ fn a_wrist_that_is_folded_into_the_upper_arm_is_named() {
         speed: 0.3,
         is_turn_free: false,
         is_gun_on: true,
+        is_stop: false,
     };
     let found = check(&placed, &[point]);
     assert_eq!(found.points[0].problem, Some(wanted.clone()));

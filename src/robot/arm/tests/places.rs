@@ -78,6 +78,32 @@ fn a_place_is_suggested_where_less_is_run_into() {
 }
 
 #[test]
+fn a_place_is_no_better_if_it_misses_the_approach_point() {
+    let placed = with_gun("irb2600");
+    let points = row(&placed, 30, 0.4);
+    // So far behind the nozzle, the arm would be inside its own base.
+    let params = CheckParams {
+        approach: Some(1.4),
+        ..CheckParams::default()
+    };
+    let reached = |placed: &PlacedArm| {
+        let found = check_path(placed, &points, &params).expect("checked");
+        found.num_reached()
+    };
+    assert_eq!(check(&placed, &points).num_reached(), 30);
+    let num = reached(&placed);
+    assert!(num < 30);
+    if let Some(base) = better_base(&placed, &points, &params, num) {
+        let there = PlacedArm {
+            robot_from_base: Translation3::from(base.shift).into(),
+            ..placed
+        };
+        assert!(base.num_reached > num, "{base:?}");
+        assert_eq!(reached(&there), base.num_reached, "{base:?}");
+    }
+}
+
+#[test]
 fn the_search_counts_its_places_and_ends_when_it_is_cancelled() {
     let mut placed = with_gun("irb2600");
     placed.arm.rail = Some(Rail {
