@@ -171,7 +171,7 @@ impl Display for AdvisedError {
 
 impl std::error::Error for AdvisedError {}
 
-fn advice_of(error: &anyhow::Error) -> Option<&str> {
+pub(super) fn advice_of(error: &anyhow::Error) -> Option<&str> {
     error
         .downcast_ref::<AdvisedError>()
         .map(|e| e.advice.as_str())

@@ -7,15 +7,15 @@ mod spray_path;
 use clap::{Args, Subcommand};
 
 #[cfg(feature = "plant")]
-pub(super) use self::bundle::taken_version;
+pub(super) use self::bundle::{open_store, taken_version};
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
 };
 use crate::{
     library::{
-        EntryError, LibraryError, LibraryFolder, PartMeta, PartName, PartNaming, SharedTitle,
-        StoredPart,
+        EntryError, LibraryError, LibraryFolder, LibraryPlace, PartMeta, PartName, PartNaming,
+        PartNumbers, SharedTitle, StoredPart,
     },
     stages::reference::{Coverage, Reference, ReferenceParams},
     units::Metres,
@@ -132,6 +132,7 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
     }
     let mut table = Table::new(&[
         "NAME",
+        "NUMBER",
         "TITLE",
         "W x H x D mm",
         "POINTS",
@@ -139,6 +140,7 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
         "ENROLLED",
         "FROM",
     ]);
+    let numbers = numbers_of(&place, console);
     for (meta, reference) in load.parts.iter().zip(&load.library.references) {
         let name = match meta.reference_of() {
             Some(part) => format!("{} (reference of {part})", meta.name),
@@ -146,6 +148,7 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
         };
         table.row([
             name,
+            (numbers.of(&meta.name)).map_or_else(|| "-".into(), |number| number.to_string()),
             meta.title.clone(),
             size_of(reference),
             reference.cloud.points.len().to_string(),
@@ -171,6 +174,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
     for warning in &warnings {
         console.warn(warning, warning);
     }
+    let numbers = numbers_of(&place, console);
     let mut table = Table::default();
     let mut row = |what: &str, text: String| {
         if !text.is_empty() {
@@ -184,6 +188,9 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
             .map(PartName::to_string)
             .unwrap_or_default(),
     );
+    if let Some(number) = numbers.of(&meta.name) {
+        row("number", format!("{number}, by which robots know it"));
+    }
     row("title", meta.title);
     row("notes", meta.notes);
     row(
@@ -269,7 +276,11 @@ fn verify(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outco
     for warning in &load.warnings {
         console.warn(warning, warning);
     }
-    let is_sound = load.problems.is_empty() && load.warnings.is_empty();
+    let numbers = place.numbers();
+    if let Err(error) = &numbers {
+        console.warn(error, error);
+    }
+    let is_sound = load.problems.is_empty() && load.warnings.is_empty() && numbers.is_ok();
     Ok(if is_sound {
         Outcome::Accepted
     } else {
@@ -382,6 +393,14 @@ fn restore(
         ));
     }
     Ok(Outcome::Accepted)
+}
+
+/// The numbers by which robots know the parts; none if they cannot be read.
+fn numbers_of(place: &LibraryPlace, console: &Console) -> PartNumbers {
+    place.numbers().unwrap_or_else(|error| {
+        console.warn(&error, &error);
+        PartNumbers::default()
+    })
 }
 
 fn seen_from(coverage: Coverage) -> &'static str {

@@ -81,10 +81,7 @@ impl ChosenBroker {
         }
         let subject = LinkSubject {
             boot,
-            library: LibraryMessage {
-                identity: load.identity(),
-                num_parts: load.parts.len(),
-            },
+            library: LibraryMessage::of(load),
             pose: PoseFormat {
                 kind,
                 convention: self.convention,

@@ -3,11 +3,11 @@
 use clap::{Args, ValueEnum};
 
 use super::{
-    console::{Console, advised_error},
+    console::{Advised as _, Console, advised_error},
     input::parse_convention,
 };
 use crate::{
-    library::{LibraryLoad, LibraryPlace},
+    library::{GivenNumbers, LibraryLoad, LibraryPlace, PartNumbers},
     robot::Convention,
     serve::{NumberedPart, PoseKind},
 };
@@ -22,7 +22,7 @@ pub(super) struct NumbersChoice {
     #[arg(long, value_enum)]
     transform: Option<PoseArg>,
     /// The number by which robots know an enrolled part, from 1 to 9999; may be given several times. Without any, parts
-    /// are numbered in the order of their names
+    /// have the numbers that partsight library list shows; one without a number gets the next, and keeps it
     #[arg(long, value_name = "NAME=N", value_parser = parse_number)]
     number: Vec<PartNumber>,
 }
@@ -67,7 +67,8 @@ impl NumbersChoice {
         }
     }
 
-    /// Returns number and path of each reference, in the order of the library.
+    /// Returns number and path of each reference, in the order of the library. Unless numbers are given, gives one to each
+    /// part of the library that has none.
     pub(super) fn parts(
         &self,
         place: &LibraryPlace,
@@ -92,25 +93,41 @@ impl NumbersChoice {
                 ));
             }
         }
-        let parts = (1..).zip(&load.parts).map(|(position, meta)| {
+        let stored = if given.is_empty() {
+            numbers_of(place, console)?
+        } else {
+            PartNumbers::default()
+        };
+        let parts = load.parts.iter().map(|meta| {
             let name = meta.name.as_str();
             let number = given.iter().find(|given| given.name == name);
+            let number = number.map(|given| given.number);
             let path = place.spray_path(name).unwrap_or_else(|error| {
                 console.warn(&format_args!("{name} has no spray path: {error}"), &error);
                 None
             });
             NumberedPart {
-                number: match number {
-                    Some(given) => given.number,
-                    None if given.is_empty() => position,
-                    None => 0,
-                },
+                number: number.or_else(|| stored.of(&meta.name)).unwrap_or(0),
                 path,
                 is_simulated: meta.simulated,
             }
         });
         Ok(parts.collect())
     }
+}
+
+/// The numbers of the library's parts.
+fn numbers_of(place: &LibraryPlace, console: &Console) -> anyhow::Result<PartNumbers> {
+    let GivenNumbers { numbers, unstored } = place.give_numbers().advised()?;
+    if let Some(error) = unstored {
+        console.warn(
+            &format_args!(
+                "numbers of parts cannot be stored, and change when a part is added or removed: {error}"
+            ),
+            &error,
+        );
+    }
+    Ok(numbers)
 }
 
 #[cfg(test)]

@@ -86,13 +86,11 @@ impl HistoryRecorder {
             );
             return None;
         };
-        let titles = library.parts.iter();
-        let titles = titles.map(|part| (part.name.to_string(), part.shown_title().to_owned()));
         Some(Self {
             keeper,
             writer,
             library: library.identity(),
-            titles: titles.collect(),
+            titles: titles_of(library),
             recipe: recipe.clone(),
             trace: trace.clone(),
             num: 0,
@@ -110,6 +108,13 @@ impl HistoryRecorder {
             self.sender = Some(sender.advised()?);
         }
         Ok(self)
+    }
+
+    /// Inspections are by this library from now on.
+    #[cfg(feature = "plant")]
+    pub(super) fn use_library(&mut self, library: &LibraryLoad) {
+        self.library = library.identity();
+        self.titles = titles_of(library);
     }
 
     /// Creates the entry of an inspection; `line` is what `--json` writes.
@@ -185,6 +190,13 @@ impl HistoryRecorder {
             }
         }
     }
+}
+
+fn titles_of(library: &LibraryLoad) -> BTreeMap<String, String> {
+    let titles = library.parts.iter();
+    titles
+        .map(|part| (part.name.to_string(), part.shown_title().to_owned()))
+        .collect()
 }
 
 fn tell_of(news: HistoryEvent, console: &Console) {

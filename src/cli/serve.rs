@@ -3,8 +3,11 @@
 #[cfg(feature = "plant")]
 mod http;
 mod session;
+#[cfg(feature = "plant")]
+mod take;
 
 use std::{
+    net::{Ipv4Addr, SocketAddr, SocketAddrV4},
     path::PathBuf,
     sync::{
         Arc,
@@ -16,6 +19,8 @@ use std::{
 use clap::Args;
 
 use self::session::ServeSession;
+#[cfg(feature = "plant")]
+use self::take::LibraryTaker;
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
@@ -35,7 +40,7 @@ use crate::{
     library::LibraryLoad,
     pipeline::MirrorTally,
     serve::{
-        Camera, ClientEvent, ListenAddress, Listener, NumberedPart, PartFinder, Server,
+        Camera, ClientEvent, ListenAddress, Listener, NumberedPart, PartFinder, Protocol, Server,
         ServerSettings,
     },
 };
@@ -67,8 +72,8 @@ pub(super) struct ServeArgs {
     /// The camera, recording or watched folder whose frames are inspected (partsight capture --help)
     #[arg(long, value_name = "SOURCE", value_parser = parse_running_source)]
     source: SourceSpec,
-    /// Protocol and port, or IP address and port; may be given several times
-    #[arg(long, value_name = "PROTOCOL=PORT", default_value = "ascii=30100", value_parser = parse_listen)]
+    /// Protocol and port, or IP address and port; may be given several times; default: ascii=30100, unless --http is given
+    #[arg(long, value_name = "PROTOCOL=PORT", value_parser = parse_listen)]
     listen: Vec<ListenAddress>,
     #[command(flatten)]
     numbers: NumbersChoice,
@@ -89,6 +94,9 @@ pub(super) struct ServeArgs {
     http: http::HttpArgs,
     #[command(flatten)]
     library: LibraryChoice,
+    #[cfg(feature = "plant")]
+    #[command(flatten)]
+    take: take::TakeArgs,
     #[command(flatten)]
     recipe: RecipeChoice,
     /// Capture of the empty cell by the same camera: nothing in it is taken for a part
@@ -96,7 +104,7 @@ pub(super) struct ServeArgs {
     empty_cell: Option<PathBuf>,
     #[command(flatten)]
     calibration: CalibrationChoice,
-    /// Write one line of JSON per inspection, and nothing else, to standard output
+    /// Write one line of JSON per trigger, and nothing else, to standard output
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -112,6 +120,27 @@ pub(super) struct ServeArgs {
     #[cfg(feature = "plant")]
     #[command(flatten)]
     mqtt: MqttChoice,
+}
+
+/// Where to listen if no protocol is asked for.
+const USUAL: ListenAddress = ListenAddress {
+    protocol: Protocol::Ascii,
+    address: SocketAddr::V4(SocketAddrV4::new(Ipv4Addr::LOCALHOST, 30100)),
+};
+
+impl ServeArgs {
+    /// The addresses of the line and frame protocols.
+    fn addresses(&self) -> Vec<ListenAddress> {
+        #[cfg(feature = "plant")]
+        if self.http.is_wanted() {
+            return self.listen.clone();
+        }
+        if self.listen.is_empty() {
+            vec![USUAL]
+        } else {
+            self.listen.clone()
+        }
+    }
 }
 
 fn parse_listen(text: &str) -> Result<ListenAddress, String> {
@@ -148,8 +177,8 @@ fn parse_running_source(text: &str) -> Result<SourceSpec, String> {
 const MAX_EVENTS: usize = 64;
 
 pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let listeners = args.listen.iter();
-    let listeners = listeners.map(|at| Listener::new(*at, args.numbers.convention));
+    let listeners = args.addresses().into_iter();
+    let listeners = listeners.map(|at| Listener::new(at, args.numbers.convention));
     let listeners = listeners.collect::<Result<Vec<_>, _>>().advised()?;
     #[cfg(feature = "plant")]
     let http = args.http.settings(args.numbers.convention)?;
@@ -159,6 +188,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     let mqtt = args.mqtt.access(args.numbers.convention)?;
     #[cfg(feature = "plant")]
     let database = args.history_to.chosen(console)?;
+    #[cfg(feature = "plant")]
+    let store = args.take.chosen()?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let Some(robot) = args.calibration.frame(console)? else {
         return Err(advised_error(
@@ -188,6 +219,13 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
     #[cfg(feature = "plant")]
     let mqtt = mqtt
         .map(|mqtt| mqtt.start(server.boot(), args.numbers.kind(), &load, &trace, console))
+        .transpose()?;
+    #[cfg(feature = "plant")]
+    let taker = store
+        .map(|store| {
+            let params = recipe.reference_params();
+            LibraryTaker::start(store, &place, params, &args.numbers, server.handle())
+        })
         .transpose()?;
     #[cfg(feature = "plant")]
     let _http = http::start(http, server.handle(), console)?;
@@ -225,6 +263,8 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         num_inspected: 0,
         #[cfg(feature = "plant")]
         mqtt,
+        #[cfg(feature = "plant")]
+        taker,
     };
     server.run(&mut session);
     session.finish()
@@ -246,6 +286,11 @@ fn announce(
             console.warn(&doubt, &doubt);
         }
     }
+    show_numbers(parts, load, console);
+}
+
+/// Shows the part numbers for robots.
+fn show_numbers(parts: &[NumberedPart], load: &LibraryLoad, console: &Console) {
     for (part, meta) in parts.iter().zip(&load.parts) {
         console.note(&format_args!("  number {}: {}", part.number, meta.name));
     }
@@ -281,7 +326,33 @@ fn start(
 
 #[cfg(test)]
 mod tests {
+    use clap::Parser as _;
+
     use super::*;
+
+    #[derive(clap::Parser)]
+    struct Parsed {
+        #[command(flatten)]
+        serve: ServeArgs,
+    }
+
+    #[test]
+    fn only_what_is_asked_for_is_listened_at() {
+        let addresses = |args: &[&str]| {
+            let all = [&["serve", "--source", "simulated:fender"][..], args].concat();
+            let parsed = Parsed::try_parse_from(all).expect("parsed");
+            let addresses = parsed.serve.addresses().into_iter();
+            addresses.map(|at| at.to_string()).collect::<Vec<_>>()
+        };
+        assert_eq!(addresses(&[]), ["ascii=127.0.0.1:30100"]);
+        assert_eq!(addresses(&["--listen", "eki=5"]), ["eki=127.0.0.1:5"]);
+        #[cfg(feature = "plant")]
+        {
+            assert!(addresses(&["--http", "0"]).is_empty());
+            let both = addresses(&["--http", "0", "--listen", "ascii=7"]);
+            assert_eq!(both, ["ascii=127.0.0.1:7"]);
+        }
+    }
 
     #[test]
     fn a_recording_is_replayed_with_its_pauses() {

@@ -66,6 +66,14 @@ pub enum LibraryError {
         /// The path asked for.
         kept: PathBuf,
     },
+    /// The file with the numbers of the parts cannot be used. New numbers could be those of other parts.
+    #[error("{}: cannot read the numbers of the parts: {reason}", path.display())]
+    BadNumbers {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// The system names no folder for user data.
     #[error("this system has no folder for user data")]
     NoUserFolder,
@@ -102,6 +110,11 @@ impl Advice for LibraryError {
             }
             Self::NotInTrash { .. } => {
                 "Look into the library's .trash folder: it may have been emptied or moved by hand"
+                    .into()
+            }
+            Self::BadNumbers { .. } => {
+                "Correct the file, or restore it from a copy; if you remove it, all parts get new numbers, and robots \
+                 need new programs"
                     .into()
             }
             Self::NoUserFolder => "Name a folder with --library".into(),

@@ -10,6 +10,7 @@
 //!     signature.json  outline and fan signature of the standard view
 //!     thumbnail.png   for people
 //!     spray-CRC.csv   the stored spray path, if any: part space; part.toml has its checksum
+//!   numbers.toml      the numbers by which robots know the parts
 //!   .trash/           removed and replaced parts; restored, or moved back by hand, they are enrolled again
 //! ```
 //!
@@ -22,6 +23,7 @@ mod identity;
 mod install;
 mod load;
 mod name;
+mod numbers;
 mod part;
 mod place;
 mod problem;
@@ -48,6 +50,7 @@ pub use self::{
     error::LibraryError,
     load::{LibraryLoad, StoredPart},
     name::{BadName, PartName},
+    numbers::{GivenNumbers, PartNumbers},
     part::{
         CloudCheck, EnrolMethod, Enrolment, MAX_TITLE, Part, PartMeta, PartNaming, SCHEMA_VERSION,
         SprayCheck, StoredLiteral, StoredSignature,

@@ -11,8 +11,9 @@ use super::{
     entry::{NEW_PREFIX, THUMBNAIL},
     error::LibraryError,
     load::{LibraryLoad, StoredPart, load_shipped, read_shipped},
+    numbers::{GivenNumbers, PartNumbers},
     problem::EntryProblem,
-    shipped::{shipped_entries, write_shipped},
+    shipped::{shipped_entries, shipped_numbers, write_shipped},
     spray_path::{SprayPath, SprayPathError},
     store::LibraryFolder,
 };
@@ -100,6 +101,34 @@ impl LibraryPlace {
     pub fn spray_path(&self, name: &str) -> Result<Option<SprayPath>, SprayPathError> {
         self.folder()
             .map_or(Ok(None), |folder| folder.spray_path(name))
+    }
+
+    /// Returns the stored numbers of the parts.
+    pub fn numbers(&self) -> Result<PartNumbers, LibraryError> {
+        self.folder()
+            .map_or_else(|| Ok(shipped_numbers()), LibraryFolder::numbers)
+    }
+
+    /// Gives a number to every part that has none; see [`LibraryFolder::give_numbers`]. In a library that cannot be
+    /// written, those parts are numbered in the order of their names.
+    pub fn give_numbers(&self) -> Result<GivenNumbers, LibraryError> {
+        let Some(folder) = self.folder() else {
+            return Ok(GivenNumbers {
+                numbers: shipped_numbers(),
+                unstored: None,
+            });
+        };
+        match folder.give_numbers() {
+            Ok(numbers) => Ok(GivenNumbers {
+                numbers,
+                unstored: None,
+            }),
+            Err(error @ LibraryError::Unwritable { .. }) => Ok(GivenNumbers {
+                numbers: folder.numbers_to_give()?,
+                unstored: Some(error),
+            }),
+            Err(error) => Err(error),
+        }
     }
 
     /// Returns in words why this library was chosen.

@@ -7,6 +7,7 @@ use std::{
 
 use super::{
     entry::{CLOUD, Entry, META, SIGNATURE, ShippedFiles, THUMBNAIL},
+    numbers::PartNumbers,
     part::CloudCheck,
 };
 use crate::{
@@ -45,6 +46,12 @@ const SHIPPED: &[ShippedPart] = shipped![
     "radiator_support",
     "trunk_lid",
 ];
+
+/// Numbers of the parts inside the program. A user's own library gives its parts their numbers itself, once they are needed.
+pub(super) fn shipped_numbers() -> PartNumbers {
+    PartNumbers::parse(include_str!("../../reference_parts/numbers.toml"))
+        .expect("a test reads the file")
+}
 
 /// Writes all shipped parts into an empty folder.
 pub(super) fn write_shipped(folder: &Path) -> io::Result<()> {
@@ -97,4 +104,19 @@ pub(super) fn shipped_entries() -> Vec<Entry> {
         shipped: Some(&part.files),
     };
     SHIPPED.iter().map(entry).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_shipped_part_has_a_number() {
+        let numbers = shipped_numbers();
+        for part in SHIPPED {
+            let name = part.name.parse().expect("a name");
+            assert!(numbers.of(&name).is_some(), "{}", part.name);
+        }
+        assert_eq!(numbers.all().count(), SHIPPED.len());
+    }
 }

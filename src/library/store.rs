@@ -253,6 +253,8 @@ impl LibraryFolder {
                 copy_files(&folder, building.path())?;
                 write_file(&building.path().join(META), meta_text(&meta)?.as_bytes())?;
                 sync_folder(building.path())?;
+                // First: if this is interrupted, the part gets a new number, and none the number of another part.
+                self.carry_number(name, &words.name)?;
                 let aside =
                     self.install_entry(building.path(), words.name.as_str(), name.as_str())?;
                 // Renamed away, so there is nothing to clean up.

@@ -7,7 +7,7 @@ use crate::{
     capture::Captured,
     geometry::rigid::row_major,
     history::Traceability,
-    pipeline::{Inspection, NamedRecipe, RecipeBlock, Refusal, RefusalKind, Timings, Verdict},
+    pipeline::{Inspection, NamedRecipe, RecipeBlock, Timings, Verdict},
     robot::RobotFrame,
     stages::pose::{PoseEstimate, Uncertainty},
 };
@@ -32,7 +32,7 @@ pub struct InspectionLine<'a> {
     margin: Option<f64>,
     reason: Option<String>,
     /// The reason in a form for programs.
-    reason_kind: Option<RefusalKind>,
+    reason_kind: Option<String>,
     /// True if the surface taken for the part reaches the picture's edge: some of the part may be missing.
     touches_edge: bool,
     pose: Option<PoseLine<'a>>,
@@ -200,6 +200,15 @@ impl<'a> InspectionLine<'a> {
         }
     }
 
+    /// Creates the line for a trigger after which nothing was inspected. `kind` is the reason in a form for programs.
+    pub fn failed(source: &'a str, kind: &str, reason: &str) -> Self {
+        Self {
+            status: "error",
+            reason_kind: Some(kind.to_owned()),
+            ..Self::unreadable(source, &reason)
+        }
+    }
+
     /// Adds serial number, order and operator.
     #[must_use]
     pub fn traced(self, trace: &'a Traceability) -> Self {
@@ -296,7 +305,7 @@ impl<'a> InspectionLine<'a> {
             score: verdict.score().map(|[score, _]| score),
             margin: verdict.score().map(|[_, margin]| margin),
             reason: verdict.complaint().map(|[why, _]| why),
-            reason_kind: verdict.refusal().as_ref().map(Refusal::kind),
+            reason_kind: verdict.refusal().map(|why| why.kind().to_string()),
             touches_edge: inspection.touches_edge(),
             pose,
             ranking: ranking.collect(),
@@ -307,7 +316,7 @@ impl<'a> InspectionLine<'a> {
 }
 
 impl InspectionLine<'_> {
-    /// Returns `ok`, `unknown`, `no_part` or `unreadable`.
+    /// Returns `ok`, `unknown`, `no_part`, `unreadable` or `error`.
     pub fn status(&self) -> &'static str {
         self.status
     }

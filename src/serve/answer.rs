@@ -157,6 +157,15 @@ impl Trouble {
     }
 }
 
+/// The library of a service that takes new versions of it while it runs.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct LibraryStatus {
+    /// The version in use; null if it was not taken from a store.
+    pub version: Option<u32>,
+    /// Why a newer version could not be taken or used; null if there is none.
+    pub trouble: Option<Trouble>,
+}
+
 /// Joins what happened and what to do about it in one line.
 pub(super) fn in_words(what: &str, advice: &str) -> String {
     format!("{what} (to do: {advice})")

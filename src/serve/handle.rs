@@ -8,7 +8,7 @@ use std::{
 use serde_json::{Map, Value};
 
 use super::{
-    answer::{Answer, PathStep, Request, Trouble, VerdictCode},
+    answer::{Answer, LibraryStatus, PathStep, Request, Trouble, VerdictCode},
     server::{ClientNews, ClientSlot, Job, ServerSettings, Shared, answer_to},
     tally::Tally,
 };
@@ -92,6 +92,16 @@ impl ServerHandle {
     /// Counts since the start.
     pub fn tally(&self) -> Tally {
         lock(&self.shared.tally).clone()
+    }
+
+    /// The library, if the service takes new versions of it while it runs.
+    pub fn library(&self) -> Option<LibraryStatus> {
+        lock(&self.shared.library).clone()
+    }
+
+    /// Replaces the library's status.
+    pub fn set_library(&self, status: LibraryStatus) {
+        *lock(&self.shared.library) = Some(status);
     }
 
     /// Reports a client's event to the operator.

@@ -33,8 +33,8 @@ mod tally;
 pub(crate) use self::server::bound;
 pub use self::{
     answer::{
-        Answer, CameraState, CameraStatus, Found, MAX_COUNT, PathStep, Request, Trouble,
-        VerdictCode,
+        Answer, CameraState, CameraStatus, Found, LibraryStatus, MAX_COUNT, PathStep, Request,
+        Trouble, VerdictCode,
     },
     camera::{Camera, NewFrame, NoFrame},
     finder::{FrameOrigin, NumberedPart, PartFinder, PoseKind},

@@ -3,6 +3,7 @@
 use std::{
     collections::VecDeque,
     fmt,
+    hash::{BuildHasher as _, RandomState},
     io::{self, Write as _},
     net::{Shutdown, SocketAddr, TcpListener, TcpStream},
     ops::ControlFlow,
@@ -20,8 +21,8 @@ use thiserror::Error;
 
 use super::{
     answer::{
-        Answer, CameraStatus, Found, Inspected, MAX_COUNT, Request, Situation, Trouble,
-        VerdictCode, judged,
+        Answer, CameraStatus, Found, Inspected, LibraryStatus, MAX_COUNT, Request, Situation,
+        Trouble, VerdictCode, judged,
     },
     camera::NoFrame,
     client::Client,
@@ -190,6 +191,7 @@ pub(super) struct Shared {
     num_clients: AtomicUsize,
     last: Mutex<Arc<Inspected>>,
     pub(super) tally: Mutex<Tally>,
+    pub(super) library: Mutex<Option<LibraryStatus>>,
     camera: Box<dyn Fn() -> CameraStatus + Send + Sync>,
     on_event: Box<dyn Fn(ClientEvent) + Send + Sync>,
 }
@@ -283,6 +285,7 @@ impl Server {
                 num_clients: AtomicUsize::new(0),
                 last: Mutex::default(),
                 tally: Mutex::default(),
+                library: Mutex::default(),
                 camera: Box::new(camera),
                 on_event: Box::new(on_event),
             }),
@@ -397,10 +400,11 @@ pub(crate) fn bound(
     })
 }
 
-/// The boot number of a start: changes every second and repeats after half a year.
+/// The boot number of a start. Time alone would give cells that start together the same number, so it is hashed with keys that
+/// the system draws at random: two starts have the same number once in 16 million.
 pub(super) fn boot_number(now: Timestamp) -> u32 {
-    let seconds = now.as_second().rem_euclid(i64::from(MAX_COUNT));
-    u32::try_from(seconds).unwrap_or(0) + 1
+    let hash = RandomState::new().hash_one(now.as_nanosecond());
+    u32::try_from(hash % u64::from(MAX_COUNT)).unwrap_or(0) + 1
 }
 
 /// Accepts connections until the server stops, then joins their threads.
@@ -488,22 +492,22 @@ fn triggered(jobs: &SyncSender<Job>) -> Result<Arc<Inspected>, NoFrame> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
     use crate::serve::protocol::Protocol;
 
     #[test]
-    fn each_start_has_another_number_that_is_never_zero() {
-        let at = |second| boot_number(Timestamp::from_second(second).expect("a time"));
-        assert_ne!(at(1_800_000_000), at(1_800_000_001));
-        for second in [
-            -1,
-            0,
-            i64::from(MAX_COUNT) - 1,
-            i64::from(MAX_COUNT),
-            1 << 35,
-        ] {
-            assert!((1..=MAX_COUNT).contains(&at(second)), "{second}");
-        }
+    fn starts_at_the_same_moment_have_different_numbers_that_are_never_zero() {
+        let now = Timestamp::from_second(1_800_000_000).expect("a time");
+        let numbers: BTreeSet<u32> = (0..1000).map(|_| boot_number(now)).collect();
+        // Of a thousand out of 16 million, hardly ever are two the same.
+        assert!(numbers.len() > 990, "{}", numbers.len());
+        assert!(
+            numbers
+                .iter()
+                .all(|number| (1..=MAX_COUNT).contains(number))
+        );
     }
 
     #[test]

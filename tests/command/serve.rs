@@ -4,6 +4,7 @@
 #![cfg(unix)]
 
 use std::{
+    fs,
     io::{BufRead as _, BufReader, Read as _, Write as _},
     net::TcpStream,
     process::{Child, Command, Stdio},
@@ -239,6 +240,80 @@ fn an_empty_cell_has_no_part_and_no_numbers() {
     );
     let (code, _, messages) = service.interrupt();
     assert_eq!(code, Some(0), "{messages}");
+}
+
+#[test]
+fn a_trigger_without_a_frame_is_a_line_of_json_as_well() {
+    let place = Workplace::new();
+    fs::create_dir(place.path("scans")).expect("made");
+    let source = ["--source", "watch:scans", "--frame-timeout", "0.1"];
+    let rest = ["--listen", "ascii=0", "--as", "kuka", "--no-history"];
+    let mut service = Service::start(&place, &[&source[..], &rest[..]].concat());
+    let answer = asked(&mut service.connect("ascii"), "TRIGGER\n");
+    let fields: Vec<&str> = answer.split(';').collect();
+    assert_eq!(fields[1], "error", "{answer}");
+    let (code, out, messages) = service.interrupt();
+    assert_eq!(code, Some(0), "{messages}");
+    let line: Value = serde_json::from_str(&out).expect("one line of JSON");
+    assert_eq!(line["status"], "error", "{line}");
+    assert!(
+        line["scene"]
+            .as_str()
+            .is_some_and(|scene| scene.contains("scans")),
+        "{line}"
+    );
+    assert_eq!(line["accepted"], false, "{line}");
+    assert_eq!(line["reason_kind"], fields[18], "{line} {answer}");
+    assert!(
+        line["reason"]
+            .as_str()
+            .is_some_and(|why| why.contains("to do")),
+        "{line}"
+    );
+}
+
+/// The number in the answer to a trigger of a service with this library.
+fn number_of_fender(place: &Workplace) -> String {
+    let source = ["--source", "simulated,fps=5:fender", "--as", "kuka"];
+    let rest = ["--listen", "ascii=0", "--no-history", "--library", "parts"];
+    let mut service = Service::start(place, &[&source[..], &rest[..]].concat());
+    let answer = asked(&mut service.connect("ascii"), "TRIGGER\n");
+    let fields: Vec<&str> = answer.split(';').collect();
+    assert_eq!(fields[6], "fender", "{answer}");
+    fields[7].to_owned()
+}
+
+#[test]
+fn a_part_keeps_its_number_when_others_are_enrolled_and_removed() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    place.with_part("grille");
+    let library = |args: &[&str]| {
+        let all = [&["library", "--library", "parts"], args].concat();
+        place.accepted(&all).out
+    };
+    assert!(
+        library(&["list"]).contains(" -  "),
+        "{}",
+        library(&["list"])
+    );
+    assert_eq!(number_of_fender(&place), "1");
+    library(&["rename", "grille", "--to", "a_grille"]);
+    place.with_part("front_door");
+    assert_eq!(number_of_fender(&place), "1");
+    library(&["remove", "a_grille"]);
+    assert_eq!(number_of_fender(&place), "1");
+    let shown = |part| library(&["show", part]);
+    assert!(shown("fender").contains("1, by which robots know it"));
+    assert!(shown("front_door").contains("3, by which robots know it"));
+
+    fs::write(place.path("parts/numbers.toml"), "[parts").expect("written");
+    let serve = ["serve", "--source", "simulated:fender", "--as", "kuka"];
+    let rest = ["--calibration", "cell.toml", "--library", "parts"];
+    let ran = place.coded(2, &[&serve[..], &rest[..]].concat());
+    assert!(ran.err.contains("cannot read the numbers"), "{}", ran.err);
+    assert!(ran.err.contains("restore it from a copy"), "{}", ran.err);
+    place.coded(1, &["library", "--library", "parts", "verify"]);
 }
 
 #[test]

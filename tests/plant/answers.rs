@@ -74,6 +74,10 @@ fn every_path_answers_about_the_last_inspection() {
         [1.0, 250.0, 1500.0, 0.0, 0.0, 0.0],
     );
     assert_eq!(triggered["pose"]["convention"], "fanuc");
+    let matrix = json!([
+        1.0, 0.0, 0.0, 0.001, 0.0, 1.0, 0.0, 0.25, 0.0, 0.0, 1.0, 1.5, 0.0, 0.0, 0.0, 1.0
+    ]);
+    assert_eq!(triggered["pose"]["transform"], matrix);
     assert_eq!(triggered["part"], "fender");
     assert_eq!(
         (&triggered["number"], &triggered["points"]),
@@ -353,6 +357,7 @@ fn an_answer_that_is_changed_does_not_fit_the_description() {
         ("/simulated", json!(1)),
         ("/pose/values/0/value", json!("1.0")),
         ("/pose/values/0/unit", json!("inch")),
+        ("/pose/transform", json!([1.0])),
         ("/path/1/numbers", json!({})),
         ("/path/1", json!({ "numbers": [] })),
     ] {

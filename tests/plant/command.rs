@@ -2,11 +2,13 @@
 
 use std::{
     io::{BufRead as _, BufReader},
+    net::SocketAddr,
     path::Path,
     process::{Child, Command, Stdio},
+    time::{Duration, Instant},
 };
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::client::Client;
 
@@ -59,11 +61,18 @@ impl Drop for Ended {
     }
 }
 
-#[test]
-fn a_trigger_over_http_inspects_the_simulated_part() {
-    let folder = cell();
-    let args = [&SERVE[..], &["--as", "fanuc", "--http", "0"]].concat();
-    let child = partsight(folder.path(), &args)
+/// A running program that listens for HTTP.
+struct Started {
+    child: Ended,
+    /// Its messages up to the one with the address.
+    said: Vec<String>,
+    address: SocketAddr,
+    /// Its further messages.
+    rest: Box<dyn Iterator<Item = String> + Send>,
+}
+
+fn started(folder: &Path, args: &[&str]) -> Started {
+    let child = partsight(folder, args)
         .stderr(Stdio::piped())
         .stdout(Stdio::null())
         .spawn();
@@ -80,9 +89,37 @@ fn a_trigger_over_http_inspects_the_simulated_part() {
         address
     });
     let address = address.unwrap_or_else(|| panic!("{said:?}"));
+    Started {
+        child,
+        said,
+        address: address.parse().expect("an address"),
+        rest: Box::new(lines),
+    }
+}
+
+#[test]
+fn http_alone_opens_no_other_port() {
+    let folder = cell();
+    let args = [&SERVE[..5], &["--as", "fanuc", "--http", "0"]].concat();
+    let service = started(folder.path(), &args);
+    let said = service.said.iter();
+    let listening: Vec<_> = said.filter(|line| line.starts_with("Listening")).collect();
+    assert_eq!(listening.len(), 1, "{listening:?}");
+}
+
+#[test]
+fn a_trigger_over_http_inspects_the_simulated_part() {
+    let folder = cell();
+    let args = [&SERVE[..], &["--as", "fanuc", "--http", "0"]].concat();
+    let Started {
+        child,
+        address,
+        rest,
+        ..
+    } = started(folder.path(), &args);
     // The program keeps writing, so its output must be read.
-    let reader = std::thread::spawn(move || lines.for_each(drop));
-    let mut client = Client::connect(address.parse().expect("an address"));
+    let reader = std::thread::spawn(move || rest.for_each(drop));
+    let mut client = Client::connect(address);
     let answer = client.trigger().json();
     assert_eq!(
         (&answer["verdict"], &answer["part"]),
@@ -107,6 +144,81 @@ fn a_trigger_over_http_inspects_the_simulated_part() {
         .as_f64()
         .expect("a number");
     assert!((x - 1000.0 * metres).abs() < 1e-6, "{answer} {line}");
+    drop(child);
+    reader.join().expect("read");
+}
+
+#[test]
+fn new_versions_of_the_library_are_taken_between_inspections() {
+    let folder = cell();
+    let ran = |args: &[&str]| {
+        let ran = partsight(folder.path(), args).output().expect("ran");
+        assert!(ran.status.success(), "{args:?} {ran:?}");
+    };
+    std::fs::create_dir(folder.path().join("store")).expect("made");
+    ran(&["library", "keys", "keys"]);
+    let publish = [
+        "library",
+        "publish",
+        "--to",
+        "store",
+        "--key",
+        "keys/library.key",
+    ];
+    ran(&publish);
+    let trust = ["--trust", "keys/library.pub", "--library", "parts"];
+    ran(&[&["library", "take", "--from", "store"][..], &trust].concat());
+    let http = ["--as", "fanuc", "--http", "0"];
+    let take = ["--take", "store", "--take-every", "1"];
+    let args = [&SERVE[..5], &http, &take, &trust].concat();
+    let Started {
+        child,
+        address,
+        rest,
+        ..
+    } = started(folder.path(), &args);
+    let reader = std::thread::spawn(move || rest.for_each(drop));
+    let mut client = Client::connect(address);
+    let told = |client: &mut Client| {
+        let answer = client.trigger().json();
+        assert_eq!(answer["verdict"], "accepted", "{answer}");
+        (answer["part"].clone(), answer["number"].clone())
+    };
+    assert_eq!(told(&mut client), (json!("fender"), json!(3)));
+
+    let library_until = |is_so: &dyn Fn(&Value) -> bool| {
+        let until = Instant::now() + super::PATIENCE;
+        loop {
+            // A connection that is silent for long is closed.
+            let library = Client::connect(address).get("/v1/status").json()["library"].clone();
+            if is_so(&library) {
+                return;
+            }
+            assert!(Instant::now() < until, "{library}");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    };
+    library_until(&|library| library == &json!({ "version": 1, "trouble": null }));
+    ran(&["library", "rename", "fender", "--to", "wing"]);
+    ran(&publish);
+    library_until(&|library| library["version"] == 2);
+    let mut client = Client::connect(address);
+    assert_eq!(told(&mut client), (json!("wing"), json!(3)));
+
+    let third = folder.path().join("store/manifests/0000000003.txt");
+    std::fs::write(third, "not signed").expect("written");
+    library_until(&|library| library["trouble"]["reason"] == "library_not_taken");
+    let mut client = Client::connect(address);
+    assert_eq!(told(&mut client), (json!("wing"), json!(3)));
+    let metrics = client.get("/v1/metrics").text;
+    assert!(
+        metrics.contains("\npartsight_library_version 2\n"),
+        "{metrics}"
+    );
+    assert!(
+        metrics.contains("\npartsight_library_take_failed 1\n"),
+        "{metrics}"
+    );
     drop(child);
     reader.join().expect("read");
 }

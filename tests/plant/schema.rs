@@ -35,6 +35,8 @@ pub(crate) fn check(value: &Value, schema: &Value, document: &Value) -> Result<(
             }
             "minimum" => compared(value, wanted, f64::ge),
             "maximum" => compared(value, wanted, f64::le),
+            "minItems" => compared(&length(value), wanted, f64::ge),
+            "maxItems" => compared(&length(value), wanted, f64::le),
             "items" => {
                 let mut items = value.as_array().into_iter().flatten();
                 items.try_for_each(|item| check(item, wanted, document))
@@ -123,6 +125,13 @@ fn compared(
         Some(number) if !holds(&number, &limit) => Err(format!("{number} is beyond {limit}")),
         _ => Ok(()),
     }
+}
+
+/// The number of items; null for what is not a list.
+fn length(value: &Value) -> Value {
+    value
+        .as_array()
+        .map_or(Value::Null, |items| items.len().into())
 }
 
 fn any(schemas: &Value, fits: impl Fn(&Value) -> Result<(), String>) -> Result<(), String> {

@@ -21,6 +21,7 @@ use partsight::{
             action::{Action, DialogRequest},
             robot::{AnswerSetup, RobotAction, RobotDialog, RobotPage},
             roles::RoleAction,
+            state::State,
         },
         workspaces::history::HistoryWorkspace,
     },
@@ -292,7 +293,7 @@ fn another_library_is_the_one_that_robots_are_answered_by() {
 }
 
 #[test]
-fn a_port_in_use_is_said_with_what_to_do_and_tried_again_once_turned_on_again() {
+fn a_port_in_use_is_said_with_what_to_do_and_tried_again_until_it_is_free() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_with(USUAL, options(folder.path()));
     let taken = TcpListener::bind("127.0.0.1:0").expect("bound");
@@ -307,12 +308,53 @@ fn a_port_in_use_is_said_with_what_to_do_and_tried_again_once_turned_on_again() 
     assert!(says(&harness, "or choose another port"));
     assert!(says(&harness, "Robots are not answered"));
     drop(taken);
-    turn_off(&mut harness);
-    assert!(harness.state().robot().answering().trouble().is_none());
-    answer(&mut harness, setup);
     assert_eq!(listening(&mut harness).port(), port);
+    assert!(harness.state().robot().answering().trouble().is_none());
     harness.run_steps(4);
     assert!(says(&harness, &format!("ascii=127.0.0.1:{port}")));
+}
+
+/// Waits until the server reports a problem, or none.
+fn wait_for_trouble(harness: &mut WindowHarness, is_expected: bool) {
+    wait_for(harness, |window| {
+        let status = window.robot().answering().status();
+        status.is_some_and(|status| status.trouble.is_some() == is_expected)
+    });
+}
+
+#[test]
+fn parts_are_numbered_once_robots_are_answered_and_keep_their_numbers() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let parts = folder.path().join("other parts");
+    copy_library(&parts);
+    let mut harness = open_with(USUAL, options(folder.path()));
+    let choose = Action::Chosen(DialogRequest::Library, parts.clone());
+    cause(&mut harness, choose);
+    let at = turn_on(&mut harness);
+    let number_of = |state: &State, part: &str| {
+        let library = state.session.library.as_ref()?;
+        let place = library.place_of(part)?;
+        library.numbers.of(&library.parts[place].name)
+    };
+    // Without a trigger.
+    wait_until(&mut harness, |state| number_of(state, "fender") == Some(3));
+    fs::remove_dir_all(parts.join("back_door")).expect("removed");
+    wait_until(&mut harness, |state| {
+        let library = state.session.library.as_ref();
+        library.is_some_and(|library| library.place_of("fender") == Some(1))
+    });
+    wait_until(&mut harness, |state| state.session.live.status.is_some());
+    let told = Robot::connect(at).ask("TRIGGER");
+    assert_eq!([&*told[6], &*told[7]], ["fender", "3"], "{told:?}");
+
+    let numbers = parts.join("numbers.toml");
+    let sound = fs::read(&numbers).expect("there");
+    fs::write(&numbers, "[parts").expect("written");
+    wait_for_trouble(&mut harness, true);
+    let told = Robot::connect(at).ask("TRIGGER");
+    assert_eq!([&*told[6], &*told[7]], ["fender", "0"], "{told:?}");
+    fs::write(&numbers, sound).expect("written");
+    wait_for_trouble(&mut harness, false);
 }
 
 /// Opens the dialog at the page on answering.

@@ -68,6 +68,7 @@ enrol-origin-points = { $points } Punkte
 enrol-origin-simulated = simuliert, nicht von einer Kamera
 enrol-origin-seen = von einer Kamera aufgenommen
 enrol-origin-path = Lackierbahn mit { $count } Punkten
+enrol-origin-number = Nummer für Roboter: { $number }
 enrol-method-segmented = Teil in einer aufgenommenen Szene
 enrol-method-whole = ganze Punktwolke
 enrol-method-mesh = Netz

@@ -68,6 +68,7 @@ enrol-origin-points = { $points } points
 enrol-origin-simulated = simulated, not from a camera
 enrol-origin-seen = seen by a camera
 enrol-origin-path = spray path of { $count } points
+enrol-origin-number = number for robots: { $number }
 enrol-method-segmented = the part found in a captured scene
 enrol-method-whole = a whole cloud
 enrol-method-mesh = a mesh

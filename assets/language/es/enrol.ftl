@@ -68,6 +68,7 @@ enrol-origin-points = { $points } puntos
 enrol-origin-simulated = simulada, no procede de una cámara
 enrol-origin-seen = vista por una cámara
 enrol-origin-path = trayectoria de pintura de { $count } puntos
+enrol-origin-number = número para robots: { $number }
 enrol-method-segmented = pieza hallada en una escena capturada
 enrol-method-whole = nube de puntos entera
 enrol-method-mesh = malla

@@ -68,6 +68,7 @@ enrol-origin-points = { $points } 个点
 enrol-origin-simulated = 仿真数据，并非来自相机
 enrol-origin-seen = 由相机采集
 enrol-origin-path = 喷涂轨迹含 { $count } 个点
+enrol-origin-number = 机器人使用的编号：{ $number }
 enrol-method-segmented = 在采集的场景中找到的零件
 enrol-method-whole = 整个点云
 enrol-method-mesh = 网格

@@ -18,8 +18,8 @@ use crate::{
     error::lock,
     history::HistoryBuffer,
     library::{
-        Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, SprayPath,
-        open_library,
+        Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, PartNumbers,
+        SprayPath, open_library,
     },
     stages::reference::ReferenceParams,
 };
@@ -80,6 +80,8 @@ pub struct LibraryView {
     pub thumbnails: Vec<Option<RgbaImage>>,
     /// Spray paths of the parts, in the same order, where one is stored.
     pub spray_paths: Vec<Option<SprayPath>>,
+    /// The stored numbers by which robots know the parts.
+    pub numbers: PartNumbers,
     /// Parts that could not be loaded.
     pub damaged: Vec<Damaged>,
     /// Why it could not be loaded, if so; then it has no parts and cannot be changed.
@@ -103,7 +105,7 @@ pub struct Damaged {
 }
 
 impl LibraryView {
-    /// True if it is in the same folder and has the same parts, with the same titles, notes and spray paths.
+    /// True if it is in the same folder and has the same parts, with the same titles, notes, numbers and spray paths.
     fn is_same(&self, other: &Self) -> bool {
         #[cfg(feature = "plant")]
         if self.version != other.version {
@@ -112,6 +114,7 @@ impl LibraryView {
         self.path == other.path
             && self.identity == other.identity
             && self.parts == other.parts
+            && self.numbers == other.numbers
             && self.damaged == other.damaged
             && self.unloaded == other.unloaded
     }
@@ -289,6 +292,10 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
             }
         });
     }
+    let numbers = place.numbers().unwrap_or_else(|error| {
+        troubles.push(UserError::of(&error));
+        PartNumbers::default()
+    });
     let thumbnails = parts.iter().map(|part| place.thumbnail(part.name.as_str()));
     let damaged = problems.iter().map(|problem| Damaged {
         entry: problem.entry.clone(),
@@ -314,6 +321,7 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
         thumbnails: thumbnails.collect(),
         damaged: damaged.collect(),
         spray_paths,
+        numbers,
         unloaded: None,
         is_fixed,
         parts,

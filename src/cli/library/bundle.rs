@@ -8,7 +8,7 @@ use super::{Console, LibraryChoice, Outcome};
 use crate::{
     cli::console::Advised as _,
     files::file_name,
-    library::{LibraryFolder, LibraryPlace},
+    library::{LibraryFolder, LibraryPlace, PartName, PartNumbers},
     plant::bundle::{
         self, BundleError, BundleStore, Installed, KeyFiles, LocalPart, LocalParts, Manifest,
         SigningKey, StoreAddress, Take, TakenBundle, TrustedKey, make_keys,
@@ -61,7 +61,7 @@ Examples:
 
 Signature, digest and every part are checked before anything is changed. Parts that the version replaces are moved to the
 library's .trash. Inspections do not need the store: they use the installed library. A running program keeps the library
-that it read at its start; only the window notices the change by itself.")]
+that it read at its start; only the window, and serve --take, notice the change by themselves.")]
 pub(super) struct TakeArgs {
     /// The store, as for publish (partsight library publish --help)
     #[arg(long, value_name = "STORE")]
@@ -151,9 +151,35 @@ pub(super) fn take(
             for kept in trashed {
                 console.entry("in .trash", &file_name(&kept));
             }
+            note_other_numbers(&library, &manifest.numbers, console)?;
         }
     }
     Ok(Outcome::Accepted)
+}
+
+/// Reports the parts that robots of this cell know by another number than the published one.
+fn note_other_numbers(
+    library: &LibraryFolder,
+    published: &PartNumbers,
+    console: &mut Console,
+) -> anyhow::Result<()> {
+    let numbers = library.numbers().advised()?;
+    let names = library.names().advised()?;
+    let is_here = |part: &PartName| names.iter().any(|name| name == part.as_str());
+    for (part, theirs) in published.all().filter(|(part, _)| is_here(part)) {
+        match numbers.of(part) {
+            Some(here) if here != theirs => console.entry(
+                "number",
+                &format_args!("{part} keeps {here}, the version has {theirs}"),
+            ),
+            Some(_) => {}
+            None => console.entry(
+                "number",
+                &format_args!("{part} gets a new one: another part has {theirs} here"),
+            ),
+        }
+    }
+    Ok(())
 }
 
 pub(super) fn version(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -211,7 +237,7 @@ pub(in crate::cli) fn taken_version(place: &LibraryPlace, console: &Console) -> 
 const MINUTE: &str = "%Y-%m-%d %H:%M UTC";
 
 /// Not parsed by clap, whose message would show a password in the address.
-fn open_store(address: &str) -> anyhow::Result<BundleStore> {
+pub(in crate::cli) fn open_store(address: &str) -> anyhow::Result<BundleStore> {
     let address: StoreAddress = address.parse().advised()?;
     BundleStore::open(address).advised()
 }

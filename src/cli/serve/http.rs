@@ -13,7 +13,8 @@ use crate::{
 
 #[derive(Debug, Args)]
 pub(super) struct HttpArgs {
-    /// Also answer HTTP requests, with JSON: a port, or IP address and port; poses in the convention of --as
+    /// Answer HTTP requests, with JSON: a port, or IP address and port; poses in the convention of --as. Other protocols are
+    /// answered only with --listen
     #[arg(long, value_name = "[IP:]PORT", value_parser = parse_http)]
     http: Option<SocketAddr>,
     /// File with tokens, one per line, one of which an HTTP client must send; needed with an IP address that other
@@ -33,6 +34,11 @@ fn parse_http(text: &str) -> Result<SocketAddr, String> {
 }
 
 impl HttpArgs {
+    /// True if HTTP is requested.
+    pub(super) fn is_wanted(&self) -> bool {
+        self.http.is_some()
+    }
+
     /// Returns the HTTP settings, if HTTP is requested; reads the files.
     pub(super) fn settings(
         &self,

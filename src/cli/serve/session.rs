@@ -6,6 +6,11 @@ use std::{
     time::Duration,
 };
 
+#[cfg(feature = "plant")]
+use super::{
+    show_numbers,
+    take::{LibraryTaker, TakenLibrary},
+};
 use crate::{
     capture::{CaptureWarning, Captured, FeedState},
     cli::{
@@ -22,7 +27,8 @@ use crate::{
     pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
     report::{CaptureLine, InspectionLine},
     serve::{
-        Asked, Camera, ClientEvent, ClientNews, Found, FrameOrigin, Inspector, PartFinder, Trouble,
+        Asked, Camera, ClientEvent, ClientNews, Found, FrameOrigin, InspectionRecord, Inspector,
+        PartFinder, Trouble, VerdictCode,
     },
     stages::{
         field_of_view::FieldOfView,
@@ -32,8 +38,7 @@ use crate::{
 #[cfg(feature = "plant")]
 use crate::{
     cli::mqtt::{end_link, show_news},
-    plant::mqtt::MqttLink,
-    serve::InspectionRecord,
+    plant::mqtt::{LibraryMessage, MqttLink},
 };
 
 /// The inspections of a service, on the thread that runs its server.
@@ -67,6 +72,8 @@ pub(super) struct ServeSession<'a> {
     pub(super) num_inspected: u64,
     #[cfg(feature = "plant")]
     pub(super) mqtt: Option<MqttLink>,
+    #[cfg(feature = "plant")]
+    pub(super) taker: Option<LibraryTaker<'a>>,
 }
 
 /// An inspection to show and record.
@@ -125,8 +132,14 @@ impl Inspector for ServeSession<'_> {
         found
     }
 
-    #[cfg(feature = "plant")]
     fn recorded(&mut self, record: InspectionRecord) {
+        let answer = record.answer();
+        if answer.verdict == VerdictCode::Error && matches!(self.format, OutputFormat::Json) {
+            let Trouble { reason, message } = &answer.trouble;
+            let line = InspectionLine::failed(&self.source, reason, message).traced(&self.trace);
+            self.console.line(&line.to_json());
+        }
+        #[cfg(feature = "plant")]
         if let Some(mqtt) = &self.mqtt {
             mqtt.inspected(record);
         }
@@ -155,6 +168,8 @@ impl Inspector for ServeSession<'_> {
             mqtt.set_camera(self.camera.status());
             show_news(mqtt, self.console);
         }
+        #[cfg(feature = "plant")]
+        self.use_taken_library();
         if self.interrupt.came() || self.failure.is_some() {
             ControlFlow::Break(())
         } else {
@@ -203,6 +218,25 @@ impl ServeSession<'_> {
             let entry = recording.entry(taken, scene, inspection, line, HungId::new());
             recording.add(entry, self.console);
         }
+    }
+
+    /// Uses a version of the library that was taken meanwhile.
+    #[cfg(feature = "plant")]
+    fn use_taken_library(&mut self) {
+        let taker = self.taker.as_mut();
+        let Some(taken) = taker.and_then(|taker| taker.taken(self.console)) else {
+            return;
+        };
+        let TakenLibrary { load, parts } = taken;
+        show_numbers(&parts, &load, self.console);
+        if let Some(recording) = &mut self.recording {
+            recording.use_library(&load);
+        }
+        if let Some(mqtt) = &self.mqtt {
+            mqtt.set_library(LibraryMessage::of(&load));
+        }
+        self.finder.parts = parts;
+        self.library = load.library;
     }
 
     /// Reports each cause of a missing camera once, and when the camera is back. A camera that fails before it ever ran

@@ -11,13 +11,14 @@ use super::{
     error::BundleError,
     keys::{SigningKey, TrustedKey},
 };
+use crate::library::PartNumbers;
 
 /// The version of the format that is written, and the newest one that is read.
 const SCHEMA: u32 = 1;
 /// Stands before what is signed, so that no signature of anything else is one of a manifest.
 const SIGNED_AS: &str = "partsight library manifest\n";
-/// The largest manifest, in bytes.
-pub(super) const MAX_BYTES: u64 = 1 << 16;
+/// The largest manifest, in bytes: a thousand parts, and as many removed ones, with the longest names.
+pub(super) const MAX_BYTES: u64 = 1 << 18;
 /// The longest note, in characters.
 pub(super) const MAX_NOTE: usize = 2000;
 
@@ -36,6 +37,9 @@ pub struct Manifest {
     /// What the publisher has to say about it; may be empty.
     #[serde(default)]
     pub note: String,
+    /// The numbers by which robots know the parts.
+    #[serde(default, skip_serializing_if = "PartNumbers::is_empty")]
+    pub numbers: PartNumbers,
 }
 
 /// By what a bundle is known.
@@ -54,6 +58,7 @@ impl Manifest {
         num_parts: usize,
         bundle: BundleCheck,
         note: &str,
+        numbers: PartNumbers,
     ) -> Self {
         Self {
             schema: SCHEMA,
@@ -62,6 +67,7 @@ impl Manifest {
             num_parts,
             bundle,
             note: note.to_owned(),
+            numbers,
         }
     }
 
@@ -158,6 +164,7 @@ mod tests {
             8,
             bundle,
             "both doors\nof \"car 2\"",
+            PartNumbers::default(),
         )
     }
 

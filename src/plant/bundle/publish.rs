@@ -17,7 +17,8 @@ use crate::{
 };
 
 /// Publishes all parts of a library as the version after the newest one in the store. Only what can be taken is
-/// published: every part is loaded from the packed bundle first. The note is for people, at most 2000 characters.
+/// published: every part is loaded from the packed bundle first. The note is for people, at most 2000 characters. The
+/// numbers of the parts are published with them; a part without one gets it now.
 ///
 /// Nothing was published where it fails, whatever of the bundle is left in the store: a version counts from its manifest on.
 pub fn publish(
@@ -31,6 +32,7 @@ pub fn publish(
         let limit = MAX_NOTE;
         return Err(BundleError::LongNote { found, limit });
     }
+    let numbers = library.give_numbers()?;
     let load = library.verify(&ReferenceParams::default())?;
     let identity = load.identity();
     let parts = names_of(load)?;
@@ -62,7 +64,8 @@ pub fn publish(
     let version = newest.unwrap_or(0).saturating_add(1);
     store.check_conditional_put()?;
     store.put_bundle(&check.sha256, bundle)?;
-    let manifest = Manifest::new(version, Timestamp::now(), parts.len(), check, note);
+    let now = Timestamp::now();
+    let manifest = Manifest::new(version, now, parts.len(), check, note, numbers);
     if store.put_manifest(version, manifest.signed(key))? {
         Ok(manifest)
     } else {

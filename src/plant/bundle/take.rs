@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     files::{FileError, file_name, read_bytes, read_limited, write_file},
-    library::{LibraryFolder, PartName, shipped_files},
+    library::{LibraryFolder, PartName, PartNumbers, shipped_files},
     stages::reference::ReferenceParams,
 };
 
@@ -79,6 +79,7 @@ pub enum Installed {
 
 /// Puts a version in the place of all parts of a library. Before that, its signature, its digest and the names in it are
 /// checked, and every part is loaded. Where anything is wrong, the library stays as it is; replaced parts go to its trash.
+/// Parts that have a number here keep it; the others get the published one.
 pub fn take(
     library: &LibraryFolder,
     store: &BundleStore,
@@ -124,6 +125,13 @@ pub fn take(
         };
         let text = serde_json::to_vec_pretty(&record).map_err(io::Error::other)?;
         write_file(&building.join(RECORD), &text)?;
+        let numbers = match numbers_with(library, trusted, &manifest) {
+            Ok(numbers) => numbers,
+            Err(error) => return Ok(Err(error)),
+        };
+        if !numbers.is_empty() {
+            numbers.write(building)?;
+        }
         Ok(Ok(()))
     })?;
     let trashed = replaced?;
@@ -186,6 +194,19 @@ fn verified_bundle(store: &BundleStore, manifest: &Manifest) -> Result<Vec<u8>, 
         return Err(bad(format!("its SHA-256 is {digest}")));
     }
     Ok(found)
+}
+
+/// The library's numbers of parts, with those of a version.
+fn numbers_with(
+    library: &LibraryFolder,
+    trusted: TrustedKey,
+    manifest: &Manifest,
+) -> Result<PartNumbers, BundleError> {
+    let before = TakenBundle::of(library)?.filter(|before| before.key == trusted.to_base64());
+    let before = before.map_or_else(PartNumbers::default, |before| before.manifest.numbers);
+    let mut numbers = library.numbers()?;
+    numbers.add_published(&manifest.numbers, &before);
+    Ok(numbers)
 }
 
 /// What the library will say of itself, if all new parts can be loaded and none is lost that is in no version.

@@ -5,8 +5,9 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use crate::{
+    geometry::rigid::row_major,
     robot::{Convention, RobotPose},
-    serve::{Answer, CameraState, PathStep, Trouble, VerdictCode},
+    serve::{Answer, CameraState, LibraryStatus, PathStep, Trouble, VerdictCode},
 };
 
 /// An answer about the last inspection, or why there is none.
@@ -33,9 +34,18 @@ pub(super) struct AnswerBody {
     /// How many points the part's spray path has; 0 without a pose.
     points: u32,
     /// The pose in the robot's base frame; null unless the part was accepted and the frame is fresh.
-    pose: Option<RobotPose>,
+    pose: Option<PoseBody>,
     /// Why there is no pose; of the status why the camera gives nothing; null if there is nothing to say.
     trouble: Option<Trouble>,
+}
+
+/// A pose in the robot's base frame.
+#[derive(Debug, JsonSchema, Serialize)]
+struct PoseBody {
+    #[serde(flatten)]
+    in_convention: RobotPose,
+    /// The same pose, whatever the convention: a 4×4 matrix, row by row, lengths in metres.
+    transform: [f64; 16],
 }
 
 impl AnswerBody {
@@ -52,7 +62,10 @@ impl AnswerBody {
             approximate: has(Answer::APPROXIMATE),
             simulated: has(Answer::SIMULATED),
             points: answer.points,
-            pose: answer.pose.map(|pose| convention.write(&pose)),
+            pose: answer.pose.map(|pose| PoseBody {
+                in_convention: convention.write(&pose),
+                transform: row_major(&pose),
+            }),
             trouble: (answer.trouble != Trouble::default()).then(|| answer.trouble.clone()),
         }
     }
@@ -70,6 +83,15 @@ impl AnswerBody {
             ..Self::of(&answer, Convention::default())
         }
     }
+}
+
+/// How the service is.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(super) struct StatusBody {
+    #[serde(flatten)]
+    pub(super) answer: AnswerBody,
+    /// The library; null unless the service takes new versions of it while it runs.
+    pub(super) library: Option<LibraryStatus>,
 }
 
 /// The last inspection with its spray path.

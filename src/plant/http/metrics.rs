@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use crate::serve::{Answer, CameraState, Tally};
+use crate::serve::{Answer, CameraState, LibraryStatus, Tally};
 
 /// Media type of the text format.
 pub(super) const MEDIA_TYPE: &str = "text/plain; version=0.0.4; charset=utf-8";
@@ -16,8 +16,13 @@ const CAMERA_STATES: [CameraState; 4] = [
     CameraState::Over,
 ];
 
-/// Writes all metrics. `status` is the answer to a status request.
-pub(super) fn text(tally: &Tally, status: &Answer, num_clients: usize) -> String {
+/// Writes all metrics. `status` is the answer to a status request; `library` is known if new versions of it are taken.
+pub(super) fn text(
+    tally: &Tally,
+    status: &Answer,
+    num_clients: usize,
+    library: Option<&LibraryStatus>,
+) -> String {
     let mut text = Text::default();
     text.head(
         "inspections_total",
@@ -76,6 +81,23 @@ pub(super) fn text(tally: &Tally, status: &Answer, num_clients: usize) -> String
         "The number of this start of the server",
     );
     text.value("boot_number", None, f64::from(status.boot));
+    if let Some(library) = library {
+        text.head(
+            "library_version",
+            "gauge",
+            "The version of the library in use",
+        );
+        if let Some(version) = library.version {
+            text.value("library_version", None, f64::from(version));
+        }
+        text.head(
+            "library_take_failed",
+            "gauge",
+            "1 if a newer version of the library could not be taken or used",
+        );
+        let has_failed = f64::from(u8::from(library.trouble.is_some()));
+        text.value("library_take_failed", None, has_failed);
+    }
     text.0
 }
 

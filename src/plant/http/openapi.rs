@@ -5,7 +5,7 @@ use schemars::{JsonSchema, generate::SchemaSettings};
 use serde_json::{Map, Value, json};
 
 use super::{
-    body::{AnswerBody, HealthBody, PathBody, ReportBody},
+    body::{AnswerBody, HealthBody, PathBody, ReportBody, StatusBody},
     metrics,
 };
 
@@ -17,6 +17,7 @@ pub(super) fn document(has_tokens: bool) -> Value {
     settings.definitions_path = "/components/schemas".into();
     let mut generator = settings.into_generator();
     let answer = schema_of::<AnswerBody>(&mut generator);
+    let status = schema_of::<StatusBody>(&mut generator);
     let path = schema_of::<PathBody>(&mut generator);
     let report = schema_of::<ReportBody>(&mut generator);
     let health = schema_of::<HealthBody>(&mut generator);
@@ -67,7 +68,7 @@ pub(super) fn document(has_tokens: bool) -> Value {
         "security": security,
         "paths": {
             "/v1/trigger": { "post": trigger },
-            "/v1/status": get("How the camera is, and the last verdict without its numbers", JSON, &answer),
+            "/v1/status": get("How camera and library are, and the last verdict without its numbers", JSON, &status),
             "/v1/last": get("The last inspection again", JSON, &answer),
             "/v1/path": get("The last inspection with every point of the part's spray path", JSON, &path),
             "/v1/report": get("The last inspection with its line of JSON", JSON, &report),

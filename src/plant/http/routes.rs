@@ -17,7 +17,7 @@ use tokio::task::spawn_blocking;
 
 use super::{
     access::Tokens,
-    body::{AnswerBody, HealthBody, PathBody, ReportBody},
+    body::{AnswerBody, HealthBody, PathBody, ReportBody, StatusBody},
     metrics, openapi,
     refusal::Refusal,
 };
@@ -118,7 +118,14 @@ async fn trigger(State(api): State<Arc<Api>>) -> Response {
 }
 
 async fn status(State(api): State<Arc<Api>>) -> Response {
-    api.answered(|api| api.ok(&api.server.answer(Request::Status)))
+    api.answered(|api| {
+        let answer = api.server.answer(Request::Status);
+        let body = StatusBody {
+            answer: AnswerBody::of(&answer, api.convention),
+            library: api.server.library(),
+        };
+        json(StatusCode::OK, &body)
+    })
 }
 
 async fn last(State(api): State<Arc<Api>>) -> Response {
@@ -158,7 +165,13 @@ async fn health(State(api): State<Arc<Api>>) -> Response {
 async fn metrics(State(api): State<Arc<Api>>) -> Response {
     api.answered(|api| {
         let status = api.server.answer(Request::Status);
-        let text = metrics::text(&api.server.tally(), &status, api.server.num_clients());
+        let server = &api.server;
+        let text = metrics::text(
+            &server.tally(),
+            &status,
+            server.num_clients(),
+            server.library().as_ref(),
+        );
         written(StatusCode::OK, metrics::MEDIA_TYPE, text)
     })
 }

@@ -201,6 +201,14 @@ impl MqttLink {
         }
     }
 
+    /// Publishes that the cell has another library from now on.
+    pub fn set_library(&self, library: LibraryMessage) {
+        let mut outbox = lock(&self.shared.outbox);
+        outbox.state.library = library;
+        outbox.is_state_due = true;
+        self.shared.send_next(&mut outbox);
+    }
+
     /// Takes the oldest event that was not taken yet.
     pub fn news(&self) -> Option<LinkNews> {
         lock(&self.shared.outbox).news.pop_front()

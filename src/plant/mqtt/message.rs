@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::{
     history::Traceability,
+    library::LibraryLoad,
     robot::RobotPose,
     serve::{CameraStatus, PoseKind, Trouble, VerdictCode},
 };
@@ -42,6 +43,16 @@ pub struct LibraryMessage {
     pub identity: String,
     /// Number of enrolled parts.
     pub num_parts: usize,
+}
+
+impl LibraryMessage {
+    /// Describes a loaded library.
+    pub fn of(load: &LibraryLoad) -> Self {
+        Self {
+            identity: load.identity(),
+            num_parts: load.parts.len(),
+        }
+    }
 }
 
 /// An inspection: a message of `PREFIX/inspection`.

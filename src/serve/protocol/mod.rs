@@ -101,7 +101,11 @@ impl Protocol {
 /// Maximum length of a message in an answer, characters.
 const MAX_MESSAGE: usize = 200;
 
-/// Makes a text safe for every controller: printable ASCII without field separators, truncated.
+/// End of a text that was too long.
+const ELLIPSIS: &str = "...";
+
+/// Makes a text safe for every controller: printable ASCII without field separators. If it is too long, it ends at a word,
+/// with an ellipsis.
 fn plain(text: &str, max_letters: usize) -> String {
     let letters = text.chars().map(|c| match c {
         ';' => ',',
@@ -109,7 +113,15 @@ fn plain(text: &str, max_letters: usize) -> String {
         '°' => ' ',
         _ => '?',
     });
-    letters.take(max_letters).collect()
+    let mut shown: String = letters.take(max_letters + 1).collect();
+    if shown.len() > max_letters {
+        let room = max_letters.saturating_sub(ELLIPSIS.len());
+        // All letters are ASCII by now. A word that takes up half of the room is cut.
+        let words = shown[..=room].rfind(' ').filter(|end| *end > room / 2);
+        shown.truncate(words.unwrap_or(room));
+        shown.push_str(ELLIPSIS);
+    }
+    shown
 }
 
 #[cfg(test)]
@@ -156,6 +168,20 @@ mod tests {
         let shown = plain(&refused().trouble.message, MAX_MESSAGE);
         assert_eq!(shown.len(), MAX_MESSAGE);
         assert!(shown.starts_with("it scores, <0.5> & \"less\"??than 90 % at 3 , ????"));
+    }
+
+    #[test]
+    fn a_text_that_is_too_long_ends_at_a_word() {
+        for (max_letters, expected) in [
+            (24, "Clear the table and look"),
+            (23, "Clear the table and..."),
+            (22, "Clear the table and..."),
+            (21, "Clear the table..."),
+        ] {
+            let shown = plain("Clear the table and look", max_letters);
+            assert_eq!(shown, expected);
+        }
+        assert_eq!(plain(&"x".repeat(300), 9), "xxxxxx...");
     }
 
     proptest! {

@@ -275,8 +275,11 @@ fn numbers(ui: &mut Ui, session: &Session, theme: &Theme) {
         return;
     };
     heading(ui, theme, &text!("robot-part-numbers"));
-    let parts = (1..).zip(&library.parts);
-    let parts = parts.map(|(number, part): (u32, _)| format!("{number} {}", part.name));
+    let parts = library.parts.iter().map(|part| {
+        let number = library.numbers.of(&part.name);
+        let number = number.map_or_else(|| "–".into(), |number| number.to_string());
+        format!("{number} {}", part.name)
+    });
     let parts: Vec<String> = parts.collect();
     let small = RichText::new(parts.join(" · ")).font(font::small());
     ui.add(Label::new(small.color(theme.text)).wrap());

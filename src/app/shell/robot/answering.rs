@@ -4,9 +4,12 @@
 mod rows;
 mod work;
 
-use std::sync::{
-    Arc, Mutex,
-    atomic::{AtomicBool, Ordering},
+use std::{
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::{Duration, Instant},
 };
 
 use serde::{Deserialize, Serialize};
@@ -28,6 +31,8 @@ use crate::{
 
 /// The default port, as in `partsight serve`.
 const PORT: u16 = 30100;
+/// Time after which a server that failed is started again.
+const RETRY: Duration = Duration::from_secs(3);
 
 /// Whether and where robots are answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -61,8 +66,16 @@ pub struct Answering {
     run: Option<AnsweringRun>,
     /// The latest status, once the server listens.
     status: Option<AnsweringStatus>,
-    /// Where and why the server failed. It is not restarted with the same listener.
-    failed: Option<(Listener, UserError)>,
+    /// The last failure, until a server listens again.
+    failed: Option<Failure>,
+}
+
+/// A server that could not listen, or stopped doing so.
+#[derive(Debug)]
+struct Failure {
+    listener: Listener,
+    trouble: UserError,
+    at: Instant,
 }
 
 /// A running server.
@@ -96,7 +109,7 @@ impl Answering {
 
     /// Why no server listens, if it failed.
     pub fn trouble(&self) -> Option<&UserError> {
-        self.failed.as_ref().map(|(_, trouble)| trouble)
+        self.failed.as_ref().map(|failed| &failed.trouble)
     }
 
     /// True unless a server is being started or stopped.
@@ -118,7 +131,9 @@ impl Answering {
                 (Mark::Good, text!("robot-answers-at", at = at))
             }
             Some(_) => (Mark::Look, text!("robot-answers-without-frames")),
-            None if self.run.is_some() => (Mark::Open, text!("robot-answers-soon")),
+            None if self.run.is_some() && self.failed.is_none() => {
+                (Mark::Open, text!("robot-answers-soon"))
+            }
             None => (Mark::Bad, text!("robot-answers-nobody")),
         })
     }
@@ -127,14 +142,12 @@ impl Answering {
     pub(super) fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.task.poll() {
             match event {
-                TaskEvent::Partial(status) => self.status = Some(status),
-                TaskEvent::Done(_) => self.ended(),
-                TaskEvent::Failed(trouble) => {
-                    let listener = self.run.as_ref().map(|run| run.listener);
-                    self.failed = listener.map(|listener| (listener, trouble.clone()));
-                    cx.notify(trouble);
-                    self.ended();
+                TaskEvent::Partial(status) => {
+                    self.failed = None;
+                    self.status = Some(status);
                 }
+                TaskEvent::Done(_) => self.ended(),
+                TaskEvent::Failed(trouble) => self.note_failure(trouble, cx),
             }
         }
         let Some((listener, robot)) = wanted(cx.session) else {
@@ -142,7 +155,7 @@ impl Answering {
             self.end();
             return;
         };
-        let is_elsewhere = |(failed, _): &(Listener, UserError)| *failed != listener;
+        let is_elsewhere = |failed: &Failure| failed.listener != listener;
         if self.failed.as_ref().is_some_and(is_elsewhere) {
             self.failed = None;
         }
@@ -152,9 +165,29 @@ impl Answering {
             }
             // The server first finishes the pending answers; a new one starts once it has ended.
             Some(_) => self.end(),
-            None if self.failed.is_none() => self.start(listener, robot, cx),
-            None => {}
+            None => {
+                let failed = self.failed.as_ref();
+                let wait = failed.map(|failed| RETRY.saturating_sub(failed.at.elapsed()));
+                match wait.filter(|wait| !wait.is_zero()) {
+                    Some(wait) => cx.egui.request_repaint_after(wait),
+                    None => self.start(listener, robot, cx),
+                }
+            }
         }
+    }
+
+    /// Reports a failure, unless it is the same as at the last attempt.
+    fn note_failure(&mut self, trouble: UserError, cx: &mut ShellContext<'_>) {
+        let is_known = self.trouble() == Some(&trouble);
+        self.failed = self.run.as_ref().map(|run| Failure {
+            listener: run.listener,
+            trouble: trouble.clone(),
+            at: Instant::now(),
+        });
+        if !is_known {
+            cx.notify(trouble);
+        }
+        self.ended();
     }
 
     fn start(&mut self, listener: Listener, robot: Arc<RobotFrame>, cx: &ShellContext<'_>) {

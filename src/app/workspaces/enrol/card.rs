@@ -54,7 +54,8 @@ pub(super) fn ui(
                 let painter = ui.painter();
                 painter.image(texture.id(), at, whole, egui::Color32::WHITE);
             }
-            origin(ui, part, theme);
+            let number = library.and_then(|library| library.numbers.of(&part.name));
+            origin(ui, part, number, theme);
             ui.add_space(space::SMALL);
             ui.add_enabled_ui(can_change, |ui| {
                 if let Some(field) = fields::ui(ui, &open.form, theme) {
@@ -100,8 +101,8 @@ pub(super) fn ui(
     });
 }
 
-/// Draws where the part came from.
-fn origin(ui: &mut Ui, part: &PartMeta, theme: &Theme) {
+/// Draws where the part came from, and the number by which robots know it.
+fn origin(ui: &mut Ui, part: &PartMeta, number: Option<u32>, theme: &Theme) {
     let at = part.enrolled.at.to_zoned(jiff::tz::TimeZone::system());
     let seen = if part.simulated {
         text!("enrol-origin-simulated")
@@ -121,6 +122,9 @@ fn origin(ui: &mut Ui, part: &PartMeta, theme: &Theme) {
     let mut facts = vec![enrolled, points, seen];
     if let Some(spray) = &part.spray {
         facts.push(text!("enrol-origin-path", count = spray.num_points));
+    }
+    if let Some(number) = number {
+        facts.push(text!("enrol-origin-number", number = number));
     }
     ui.label(
         RichText::new(facts.join(" · "))

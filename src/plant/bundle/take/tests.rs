@@ -3,6 +3,7 @@ use std::{fs, thread::ScopedJoinHandle};
 use super::*;
 use crate::{
     error::Advice as _,
+    library::LibraryError,
     plant::bundle::{
         BundleCheck, KeyFiles, SigningKey, StoreAddress, archive::pack, make_keys, publish,
     },
@@ -141,6 +142,50 @@ fn a_taken_library_is_the_published_one_to_the_byte() {
 }
 
 #[test]
+fn cells_get_the_published_numbers_and_keep_those_that_they_have() {
+    let plant = Plant::with_two_versions();
+    let of = |library: &LibraryFolder, name: &str| {
+        let numbers = library.numbers().expect("read");
+        numbers.of(&part(name))
+    };
+    plant.take_newest().expect("taken");
+    let names = ["fender", "grille", "radiator_support"];
+    // The fender is in the first version only; its number stays with it.
+    assert_eq!(
+        names.map(|name| of(&plant.cell(), name)),
+        [Some(1), Some(2), Some(3)]
+    );
+    let differences = TakenBundle::of(&plant.cell())
+        .expect("read")
+        .expect("taken");
+    let differences = differences.differences(&plant.cell()).expect("compared");
+    assert!(differences.is_empty(), "{differences:?}");
+
+    // Another cell knows the grille by another number, and another part by the grille's.
+    fs::write(
+        plant.path("cell/numbers.toml"),
+        "[parts]\ngrille = 1\ntrunk_lid = 2\n",
+    )
+    .expect("written");
+    plant.take(Some(2), LocalParts::Keep).expect("taken");
+    assert_eq!(
+        names.map(|name| of(&plant.cell(), name)),
+        [None, Some(1), Some(3)]
+    );
+    let before = contents(&plant.cell());
+    fs::write(plant.path("cell/numbers.toml"), "[parts").expect("written");
+    let refused = plant.take(Some(1), LocalParts::Keep).expect_err("damaged");
+    assert!(
+        matches!(
+            refused,
+            BundleError::Library(LibraryError::BadNumbers { .. })
+        ),
+        "{refused}"
+    );
+    assert_eq!(contents(&plant.cell()), before);
+}
+
+#[test]
 fn the_same_library_gives_the_same_bundle() {
     let plant = Plant::with_two_versions();
     let third = plant.publish("third");
@@ -242,7 +287,7 @@ fn what_is_changed_in_the_store_is_refused_and_the_library_stays() {
         );
         assert_eq!(state(&plant.cell()), before);
     }
-    fs::write(&manifest, vec![b' '; 1 << 17]).expect("written");
+    fs::write(&manifest, vec![b' '; 1 << 19]).expect("written");
     let refused = plant.take_newest().expect_err("too large");
     assert!(matches!(refused, BundleError::TooLarge { .. }), "{refused}");
     fs::write(&manifest, signed).expect("written");
@@ -271,7 +316,14 @@ fn publish_as_it_is(plant: &Plant, version: u32, bundle: Vec<u8>, num_parts: usi
     };
     let store = plant.store();
     store.put_bundle(&check.sha256, bundle).expect("written");
-    let manifest = Manifest::new(version, Timestamp::UNIX_EPOCH, num_parts, check, "");
+    let manifest = Manifest::new(
+        version,
+        Timestamp::UNIX_EPOCH,
+        num_parts,
+        check,
+        "",
+        PartNumbers::default(),
+    );
     let text = manifest.signed(&plant.key());
     assert!(store.put_manifest(version, text).expect("written"));
 }
@@ -326,7 +378,14 @@ fn what_claims_to_be_too_large_is_refused_before_it_is_read() {
         sha256: "0f".repeat(32),
         bytes: MAX_BUNDLE_BYTES + 1,
     };
-    let manifest = Manifest::new(1, Timestamp::UNIX_EPOCH, 1, check, "");
+    let manifest = Manifest::new(
+        1,
+        Timestamp::UNIX_EPOCH,
+        1,
+        check,
+        "",
+        PartNumbers::default(),
+    );
     let text = manifest.signed(&plant.key());
     assert!(plant.store().put_manifest(1, text).expect("written"));
     let refused = plant.take_newest().expect_err("too large");

@@ -26,8 +26,9 @@ use crate::{
         user_error::UserError,
     },
     capture::{CaptureError, Feed, SourceSpec},
-    error::{guarded, lock},
+    error::{Advice as _, guarded, lock},
     history::{HungId, InspectionContext, NewEntry, Traceability, Writer},
+    library::{GivenNumbers, LibraryPlace, PartNumbers},
     pipeline::{self, Inspection, NamedRecipe, ProgressObserver as _, Unwatched},
     report::{CaptureLine, InspectionLine, segmentation_picture},
     robot::RobotFrame,
@@ -55,7 +56,7 @@ pub struct AnsweringStatus {
     pub client: Option<ClientEvent>,
     /// The answer to the last trigger.
     pub last: Option<LastAnswer>,
-    /// The last error while keeping an inspection; the answer itself is not affected.
+    /// Why the last inspection was not kept, which does not affect its answer, or why the parts have no stored numbers.
     pub trouble: Option<UserError>,
 }
 
@@ -159,6 +160,8 @@ pub(super) fn answer(
             kind: now.pose,
         },
         library: None,
+        unkept: None,
+        unnumbered: None,
         camera,
         events,
         handle: server.handle(),
@@ -218,6 +221,10 @@ struct AnsweringSession<'a> {
     finder: PartFinder,
     /// The library whose parts `finder` has.
     library: Option<Arc<LoadedLibrary>>,
+    /// Why the last inspection was not kept.
+    unkept: Option<UserError>,
+    /// Why the parts have no stored numbers.
+    unnumbered: Option<UserError>,
     events: Receiver<ClientEvent>,
     handle: ServerHandle,
     rows: TriggerRows,
@@ -312,18 +319,24 @@ impl Inspector for AnsweringSession<'_> {
     }
 
     fn answered(&mut self) {
-        if let Some(last) = self.last.take()
-            && let Err(fault) = guarded(|| self.keep(last))
-        {
-            self.status.trouble = Some(UserError::of(&fault));
+        if let Some(last) = self.last.take() {
+            self.unkept = None;
+            if let Err(fault) = guarded(|| self.keep(last)) {
+                self.unkept = Some(UserError::of(&fault));
+            }
         }
         self.publish();
     }
 
     fn turn(&mut self) -> ControlFlow<()> {
         self.status.client = self.events.try_iter().last().or(self.status.client.take());
-        let is_followed = self.follow().followed.is_some();
-        self.rows.update(is_followed);
+        let inputs = self.follow();
+        self.rows.update(inputs.followed.is_some());
+        let loaded = self.library_cache.get();
+        if loaded.shown.unloaded.is_none() {
+            // Before the first trigger, so that the numbers can be looked up for the robots' programs.
+            self.know(&loaded, &inputs);
+        }
         self.tell_dropped();
         self.publish();
         if self.is_ending() {
@@ -358,15 +371,34 @@ impl AnsweringSession<'_> {
         let is_it = |known: &Arc<LoadedLibrary>| Arc::ptr_eq(known, loaded);
         if !self.library.as_ref().is_some_and(is_it) {
             self.library = Some(Arc::clone(loaded));
+            let numbers = self.numbers_of(loaded);
             let shown = &loaded.shown;
-            let parts = (1..).zip(shown.parts.iter().zip(&shown.spray_paths));
-            let parts = parts.map(|(number, (part, path))| NumberedPart {
-                number,
+            let parts = shown.parts.iter().zip(&shown.spray_paths);
+            let parts = parts.map(|(part, path)| NumberedPart {
+                number: numbers.of(&part.name).unwrap_or(0),
                 path: path.clone(),
                 is_simulated: part.simulated,
             });
             self.finder.parts = parts.collect();
         }
+    }
+
+    /// The numbers of the parts; none if they cannot be read.
+    fn numbers_of(&mut self, loaded: &LoadedLibrary) -> PartNumbers {
+        let given = loaded.place.as_ref().map(LibraryPlace::give_numbers);
+        let (numbers, trouble) = match given.transpose() {
+            Ok(None) => (PartNumbers::default(), None),
+            Ok(Some(GivenNumbers { numbers, unstored })) => {
+                let trouble = unstored.map(|error| UserError {
+                    what: text!("robot-numbers-not-stored", reason = error.to_string()),
+                    advice: error.advice(),
+                });
+                (numbers, trouble)
+            }
+            Err(error) => (PartNumbers::default(), Some(UserError::of(&error))),
+        };
+        self.unnumbered = trouble;
+        numbers
     }
 
     /// Hands an inspection to the history, as one of the part that hangs there.
@@ -404,7 +436,7 @@ impl AnsweringSession<'_> {
 
     fn tell_dropped(&mut self) {
         if self.rows.take_dropped() != [0; 2] {
-            self.status.trouble = Some(UserError {
+            self.unkept = Some(UserError {
                 what: text!("history-crowded"),
                 advice: text!("history-crowded-advice"),
             });
@@ -414,6 +446,8 @@ impl AnsweringSession<'_> {
     /// Publishes the status if it has changed.
     fn publish(&mut self) {
         self.status.num_clients = self.handle.num_clients();
+        let trouble = self.unkept.as_ref().or(self.unnumbered.as_ref());
+        self.status.trouble = trouble.cloned();
         if self.told.as_ref() != Some(&self.status) {
             self.told = Some(self.status.clone());
             self.context.latest(self.status.clone());
