@@ -1,7 +1,7 @@
-//! The camera in use, shared by the threads: at most one is open.
+//! The camera in use, shared between threads; at most one is open.
 //!
-//! A continuous source is closed as soon as nobody uses its frames. A recording or a watched folder stays open in between, so
-//! that the next request gets its next frame.
+//! A continuous source is closed as soon as nobody uses its frames. A recording or a watched folder stays open between
+//! requests, so that each request gets the next frame.
 
 use std::{
     collections::BTreeMap,
@@ -24,7 +24,7 @@ use crate::{
 pub struct Camera {
     opened: Arc<Mutex<Option<OpenedCamera>>>,
     open: Arc<Open>,
-    /// What the frames of each source showed of its field of view.
+    /// The field of view of each source, as far as its frames have shown it.
     views: Arc<Mutex<BTreeMap<String, Arc<FieldOfView>>>>,
 }
 
@@ -84,8 +84,7 @@ impl Camera {
         }
     }
 
-    /// Returns the feed of a source: the open one if it is the same source, else a new one after closing the other. Wait for
-    /// frames with [`Feed::wait`].
+    /// Returns the feed of a source. If another source is open, closes it first. Wait for frames with [`Feed::wait`].
     pub fn feed(&self, spec: &SourceSpec) -> Result<Arc<Feed>, CameraError> {
         let mut opened = self.lock();
         if let Some(OpenedCamera { spec: known, feed }) = &*opened
@@ -111,7 +110,7 @@ impl Camera {
         Ok(feed)
     }
 
-    /// Waits for the next frame of a source, unless cancelled.
+    /// Waits for the next frame of a source, until cancelled.
     pub fn next(
         &self,
         spec: &SourceSpec,
@@ -124,14 +123,14 @@ impl Camera {
         found
     }
 
-    /// Waits for the next `num` frames of a source, or fewer if it ends. Stops when `is_cancelled`. Reports the number of
-    /// frames so far to `came`.
+    /// Waits for the next `num` frames of a source, or fewer if it ends, until cancelled. Calls `on_frame` with the number of
+    /// frames so far.
     pub fn frames(
         &self,
         spec: &SourceSpec,
         num: usize,
         is_cancelled: &dyn Fn() -> bool,
-        came: &dyn Fn(usize),
+        on_frame: &dyn Fn(usize),
     ) -> Result<Vec<Captured>, CameraError> {
         let feed = self.feed(spec)?;
         let mut frames = Vec::with_capacity(num);
@@ -140,7 +139,7 @@ impl Camera {
             match wait(&feed, spec, is_cancelled) {
                 Ok(frame) => {
                     frames.push(frame);
-                    came(frames.len());
+                    on_frame(frames.len());
                 }
                 Err(CameraError::AtItsEnd { .. }) if !frames.is_empty() => break,
                 Err(error) => failed = Some(error),
@@ -151,7 +150,8 @@ impl Camera {
         failed.map_or(Ok(frames), Err)
     }
 
-    /// Returns a feed that gets the frames of this source besides its follower; it has failed if nobody follows the source.
+    /// Returns a second feed of a source that is being followed; neither takes frames from the other. If nobody follows the
+    /// source, the returned feed has failed.
     pub fn tap(&self, spec: &SourceSpec) -> Feed {
         match &*self.lock() {
             Some(opened) if opened.spec == *spec => opened.feed.tap(),
@@ -159,7 +159,7 @@ impl Camera {
         }
     }
 
-    /// Tells a scene what earlier ones of this source showed of the field of view, and remembers what this one shows.
+    /// Gives a scene the field of view known from earlier frames of its source, and remembers what this scene adds to it.
     pub fn share_view(&self, spec: &SourceSpec, scene: &mut Arc<SceneCloud>) {
         let mut views = lock(&self.views);
         let known = views.remove(&spec.to_string());
@@ -171,19 +171,19 @@ impl Camera {
         }
     }
 
-    /// Closes a continuous source unless somebody else uses it.
+    /// Closes a continuous source unless something still uses its frames.
     pub fn rest(&self) {
         let mut opened = self.lock();
         let is_idle =
             |held: &mut OpenedCamera| held.spec.is_live() && Arc::strong_count(&held.feed) == 1;
         let idle = opened.take_if(is_idle);
         drop(opened);
-        // Waits for the camera's thread, so the lock is released first.
+        // Dropping the feed waits for the camera's thread, so release the lock first.
         drop(idle);
     }
 
     fn lock(&self) -> MutexGuard<'_, Option<OpenedCamera>> {
-        // Sound after a panic: the content is only ever replaced as a whole.
+        // Valid after a panic, because the content is only replaced as a whole.
         lock(&self.opened)
     }
 }
@@ -249,15 +249,16 @@ mod tests {
     }
 
     #[test]
-    fn several_frames_come_one_after_the_other_and_fewer_where_a_recording_ends() {
+    fn several_frames_come_in_order_and_fewer_if_a_recording_ends() {
         let camera = Camera::default();
         let spec: SourceSpec = "simulated,fps=1000:empty".parse().expect("a source");
-        let came = std::cell::RefCell::new(Vec::new());
-        let told = |num| came.borrow_mut().push(num);
-        let frames = camera.frames(&spec, 3, &|| false, &told).expect("frames");
+        let counts = std::cell::RefCell::new(Vec::new());
+        let count = |num| counts.borrow_mut().push(num);
+        let frames = camera.frames(&spec, 3, &|| false, &count);
+        let frames = frames.expect("frames");
         let numbers: Vec<u64> = frames.iter().map(|frame| frame.number).collect();
         assert!(numbers.is_sorted_by(|a, b| a < b), "{numbers:?}");
-        assert_eq!(*came.borrow(), [1, 2, 3]);
+        assert_eq!(*counts.borrow(), [1, 2, 3]);
         assert!(!is_open(&camera));
 
         let folder = tempfile::tempdir().expect("a folder");
@@ -268,14 +269,14 @@ mod tests {
         let text = format!("recording,pace=step:{}", folder.path().display());
         let spec: SourceSpec = text.parse().expect("a source");
         let frames = camera.frames(&spec, 3, &|| false, &|_| ());
-        assert_eq!(frames.expect("those there").len(), 2);
+        assert_eq!(frames.expect("all there are").len(), 2);
         // The next request starts the recording again.
         let frames = camera.frames(&spec, 1, &|| false, &|_| ());
         assert_eq!(frames.expect("the first").len(), 1);
     }
 
     #[test]
-    fn what_a_camera_showed_of_its_field_of_view_is_known_of_its_next_frame() {
+    fn a_field_of_view_is_remembered_for_the_next_frame_of_the_same_source() {
         let within = |margins: [usize; 2]| {
             let camera = Intrinsics::KINECT;
             let Intrinsics { width, height, .. } = camera;
@@ -306,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn who_gives_up_waiting_gets_nothing() {
+    fn a_cancelled_wait_gives_no_frame() {
         let folder = tempfile::tempdir().expect("a folder");
         let text = format!("watch:{}", folder.path().display());
         let spec: SourceSpec = text.parse().expect("a source");

@@ -6,15 +6,15 @@ use crate::{
     pipeline::{Refusal, RefusalKind},
 };
 
-/// Beginning of the title of a mirror image.
+/// Prefix of the title of a mirror image, before the name of the part.
 const MIRRORED: &str = "Mirror image of ";
-/// Beginning of the title of a frame of the simulated cell, followed by its number.
+/// Prefix of the title of a frame of the simulated cell, before its number.
 const FRAME: &str = "Simulated frame ";
-/// End of the title of a simulated scene.
+/// Suffix of the title of a simulated scene.
 const SIMULATED: &str = ", simulated";
-/// End of the title of a scan, preceded by the number of its shots.
+/// Suffix of the title of a scan, after the number of its shots.
 const SHOTS: &str = " shots";
-/// Stored source of the frames of the simulated cell.
+/// Source of the frames of the simulated cell.
 const CELL: &str = "simulated cell";
 
 /// Translates the title of an inspection.
@@ -32,7 +32,7 @@ pub(in crate::app) fn stored_title(past: &Summary) -> String {
     }
 }
 
-/// Returns the title of the best match at that time.
+/// Returns the title that the best match had at the time of the inspection.
 fn stored_part(past: &Summary) -> Option<&str> {
     let title = past.title.as_str();
     match past.verdict {
@@ -45,7 +45,7 @@ fn stored_part(past: &Summary) -> Option<&str> {
     }
 }
 
-/// Translates the stored title of a scene or its source. Keeps the names of files and cameras.
+/// Translates the stored title of a scene or its source, except the names of files and cameras.
 pub(in crate::app) fn stored_scene(title: &str, is_simulated: bool) -> String {
     if !is_simulated {
         return stored_scan(title);
@@ -75,7 +75,7 @@ fn stored_scan(title: &str) -> String {
     title.to_owned()
 }
 
-/// Returns pairs of a text as [`stored_scene`] shows it and as it is stored, in lower case.
+/// Returns what [`stored_scene`] shows beside what the history stores for it, in lower case, so that a search finds both.
 pub(in crate::app) fn shown_for_stored() -> Vec<[String; 2]> {
     let both = [
         (text!("shell-simulated-frame", number = ""), FRAME),
@@ -87,7 +87,7 @@ pub(in crate::app) fn shown_for_stored() -> Vec<[String; 2]> {
         .into()
 }
 
-/// Returns why an inspection was not accepted, and what to do; in English if only the text is stored.
+/// Returns the reason of a refusal, and what to do; in English if only the text is stored.
 pub(in crate::app) fn stored_refusal(
     past: &Record,
     title_of: impl Fn(&str) -> String,
@@ -97,7 +97,7 @@ pub(in crate::app) fn stored_refusal(
     let Some(why) = refusal.why.clone() else {
         return Some([refusal.reason.clone(), refusal.advice.clone()]);
     };
-    // The best match keeps the title that the list shows, whatever it is called today.
+    // Call the best match by the title that the list shows: the part may have been renamed since.
     let why = why.renamed(|name| match stored_part(summary) {
         Some(title) if detail.nearest.as_deref() == Some(name) => title.to_owned(),
         _ => title_of(name),
@@ -154,7 +154,7 @@ mod tests {
         pipeline::Rejection,
     };
 
-    /// A refused front door that was then called "Door, left".
+    /// A refused front door whose title was "Door, left" at that time.
     fn past(refusal: StoredRefusal) -> Record {
         let mut past = history_entry(1, StoredVerdict::NotAccepted, "front_door").record;
         past.summary.title = "Not recognised · nearest Door, left".into();
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn titles_of_the_history_are_read_as_they_are_written() {
+    fn titles_are_recognised_as_the_history_writes_them() {
         let written = include_str!("../../history/entry.rs");
         for title in [
             "Not recognised · nearest {name}",
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn titles_of_scenes_are_read_as_they_are_written() {
+    fn titles_of_scenes_are_recognised_as_they_are_written() {
         let source = include_str!("../inspection/source.rs");
         let fuse = include_str!("../inspection/fuse.rs");
         for (written, title) in [
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stored_scene_speaks_the_language_of_the_window_and_files_keep_their_names() {
+    fn a_stored_scene_is_shown_in_the_language_of_the_window_and_files_keep_their_names() {
         let titles = [
             ("Simulated frame 7", true, "Simuliertes Bild 7"),
             ("simulated cell", true, "Simulierte Zelle"),
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stored_refusal_speaks_the_language_of_the_window_and_names_parts_as_the_list_does() {
+    fn a_stored_refusal_is_shown_in_the_language_of_the_window_and_names_parts_as_the_list_does() {
         let why = Rejection::SmallMargin {
             part: "front_door".into(),
             other: "back_door".into(),
@@ -239,13 +239,13 @@ mod tests {
             advice: "in English".into(),
             why: Some(Refusal::Rejected(why)),
         });
-        let told = || stored_refusal(&past, title_of).expect("refused");
+        let shown = || stored_refusal(&past, title_of).expect("refused");
         assert_eq!(
-            told()[0],
+            shown()[0],
             "Door, left and the back_door of today fit almost equally well (margin 0.12, needed 0.60)"
         );
         Language::German.make_current();
-        let [reason, advice] = told();
+        let [reason, advice] = shown();
         Language::English.make_current();
         assert!(reason.starts_with("Door, left "), "{reason}");
         for part in [" the back_door of today ", "Vorsprung 0.12"] {
@@ -255,14 +255,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_kept_in_english_alone_is_shown_as_it_is() {
+    fn a_refusal_stored_only_as_english_text_is_shown_unchanged() {
         let past = past(StoredRefusal {
             reason: "too low".into(),
             advice: "look again".into(),
             why: None,
         });
-        let told = stored_refusal(&past, title_of);
-        assert_eq!(told, Some(["too low".to_owned(), "look again".to_owned()]));
+        let shown = stored_refusal(&past, title_of);
+        assert_eq!(shown, Some(["too low".to_owned(), "look again".to_owned()]));
     }
 
     #[test]

@@ -2,51 +2,35 @@
 //! over a direct inspection.
 //!
 //! Server and clients run on this computer, so no network is measured. The compared sides take turns, so that both see
-//! the computer in the same state. No camera is involved: a trigger inspects the frame at hand instead of waiting for
-//! the next.
+//! the computer in the same state. No camera is involved: a trigger inspects the current frame instead of waiting for
+//! the next one.
 
 mod client;
+mod service;
 
 use std::{
-    net::SocketAddr,
-    ops::ControlFlow,
-    sync::{
-        Arc, Mutex,
-        atomic::{AtomicBool, AtomicU64, Ordering},
-    },
-    thread::{self, JoinHandle},
+    sync::Arc,
     time::{Duration, Instant},
 };
 
 use anyhow::Context as _;
 use serde::Serialize;
 
-use self::client::{Client, Framing, busy_rate};
+use self::{
+    client::{Client, busy_rate},
+    service::{Inspections, ServedProtocol, Service},
+};
 use super::{BenchArgs, write_json};
-#[cfg(feature = "plant")]
-use crate::plant::http::{HttpServer, HttpSettings, Tokens};
 use crate::{
     bench::{
         quantile,
-        suites::{MEASURING_SEED, Suite, enrol_standard_parts},
+        suites::{MEASURING_SEED, Suite},
     },
     cli::{
         Outcome,
-        console::{Advised as _, Console, Table, advised_error},
+        console::{Console, Table, advised_error},
     },
-    error::lock,
-    geometry::{depth_frame::DepthFrame, rigid::RigidTransform},
-    library::{EnrolParams, Library},
-    pipeline::{self, NamedRecipe, Unwatched},
-    report::InspectionLine,
-    robot::{Convention, RobotFrame},
-    serve::{
-        ANSWER_BYTES, Asked, ByteOrder, CameraStatus, Found, FrameOrigin, Inspector, ListenAddress,
-        Listener, NumberedPart, PartFinder, PoseKind, Protocol, Request, Server, ServerSettings,
-        binary_request, parse_address,
-    },
-    simulate::{CellSetup, PartKind, Side, frame, frame_of_mesh},
-    stages::scene::scene_from_frame,
+    simulate::frame_of_mesh,
 };
 
 /// Default number of poses per part; each frame is triggered once in every protocol.
@@ -61,8 +45,6 @@ const WARM_UP: usize = 5;
 const NUM_CONNECTIONS: usize = 4;
 /// Number of triggers over each of them.
 const NUM_BUSY_TRIGGERS: usize = 5;
-/// Longer than any connection waits for its turn.
-const PATIENCE: Duration = Duration::from_mins(10);
 
 /// The file that `--json` writes.
 #[derive(Debug, Serialize)]
@@ -178,7 +160,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     let direct = Times::of(&direct, num_busy as f64 / busy.as_secs_f64());
     let mut triggers = Vec::new();
     for (protocol, _, times) in &clients {
-        let busy = protocol.busy_rate(&protocol.trigger, NUM_BUSY_TRIGGERS)?;
+        let busy = protocol.busy_rate(NUM_CONNECTIONS, &protocol.trigger, NUM_BUSY_TRIGGERS)?;
         let times = Times::of(times, busy);
         triggers.push(TriggerTimes {
             protocol: protocol.name,
@@ -207,7 +189,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
 
 /// Checks the number of inspections: a trigger answered without one would count as a very fast one.
 fn check_triggers(service: &Service, num_triggers: usize) -> anyhow::Result<()> {
-    let num_inspected = service.num_inspected.load(Ordering::SeqCst);
+    let num_inspected = service.num_inspected();
     if num_inspected == num_triggers as u64 {
         return Ok(());
     }
@@ -254,7 +236,8 @@ fn status_times(protocol: &ServedProtocol) -> anyhow::Result<StatusTimes> {
             }
         }
     }
-    let times = Times::of(&times, protocol.busy_rate(request, NUM_STATUS)?);
+    let busy = protocol.busy_rate(NUM_CONNECTIONS, request, NUM_STATUS)?;
+    let times = Times::of(&times, busy);
     let busy_bare = busy_rate(connect_bare, NUM_CONNECTIONS, request, NUM_STATUS)?;
     let bare = Times::of(&bare, busy_bare);
     Ok(StatusTimes {
@@ -265,225 +248,6 @@ fn status_times(protocol: &ServedProtocol) -> anyhow::Result<StatusTimes> {
         bare,
         ratios: times.over(&bare),
     })
-}
-
-/// Inspects the frame at hand as the server does, without camera, display and history.
-struct Inspections {
-    library: Library,
-    recipe: NamedRecipe,
-    finder: PartFinder,
-    frame: Mutex<Arc<DepthFrame>>,
-}
-
-impl Inspections {
-    fn new() -> anyhow::Result<Self> {
-        let library = enrol_standard_parts(&EnrolParams::default()).advised()?;
-        let first = frame(&CellSetup::with_part(PartKind::Fender, Side::Left, 0, 1));
-        let parts = (1..).zip(&library.references);
-        let parts = parts.map(|(number, _)| NumberedPart {
-            number,
-            path: None,
-            is_simulated: true,
-        });
-        let finder = PartFinder {
-            parts: parts.collect(),
-            robot: RobotFrame {
-                robot_from_camera: RigidTransform::identity(),
-                name: String::new(),
-            },
-            kind: PoseKind::RobotFromPart,
-        };
-        Ok(Self {
-            library,
-            recipe: NamedRecipe::default(),
-            finder,
-            frame: Mutex::new(Arc::new(first.frame)),
-        })
-    }
-
-    fn show(&self, frame: DepthFrame) {
-        *lock(&self.frame) = Arc::new(frame);
-    }
-
-    fn inspect(&self) -> Found {
-        let frame = Arc::clone(&lock(&self.frame));
-        let origin = FrameOrigin {
-            captured: Instant::now(),
-            is_simulated: true,
-        };
-        let scene = scene_from_frame(&frame);
-        let recipe = &self.recipe;
-        let inspection =
-            pipeline::run(&scene, &self.library, recipe, &Unwatched).expect("nobody cancels");
-        let mut found = self.finder.found(&inspection, recipe, origin);
-        found.report = InspectionLine::of("simulated frame", &inspection)
-            .by(recipe)
-            .in_robot(Some(&self.finder.robot), &inspection)
-            .to_json();
-        found
-    }
-}
-
-/// The same inspections, run on the server's thread.
-struct ServedInspections {
-    inspections: Arc<Inspections>,
-    num_inspected: Arc<AtomicU64>,
-    is_ending: Arc<AtomicBool>,
-}
-
-impl Inspector for ServedInspections {
-    fn inspect(&mut self, _asked: &Asked) -> Found {
-        self.num_inspected.fetch_add(1, Ordering::SeqCst);
-        self.inspections.inspect()
-    }
-
-    fn answered(&mut self) {}
-
-    fn turn(&mut self) -> ControlFlow<()> {
-        if self.is_ending.load(Ordering::SeqCst) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    }
-}
-
-/// Address and requests of a protocol.
-struct ServedProtocol {
-    name: &'static str,
-    address: SocketAddr,
-    framing: Framing,
-    status: Vec<u8>,
-    trigger: Vec<u8>,
-}
-
-impl ServedProtocol {
-    fn of(at: ListenAddress) -> Self {
-        let lines = || [b"STATUS\n".to_vec(), b"TRIGGER\n".to_vec()];
-        let element =
-            |word: &str| format!("<Robot><Request>{word}</Request><Point>0</Point></Robot>");
-        let (framing, [status, trigger]) = match at.protocol {
-            Protocol::Ascii | Protocol::UrScript => (Framing::Line, lines()),
-            Protocol::Binary(order) => {
-                let frames = [Request::Status, Request::Trigger];
-                let frames = frames.map(|request| binary_request(request, order));
-                (Framing::Bytes(ANSWER_BYTES), frames)
-            }
-            Protocol::Eki => {
-                let elements = ["STATUS", "TRIGGER"].map(|word| element(word).into_bytes());
-                (Framing::Line, elements)
-            }
-        };
-        Self {
-            name: at.protocol.name(),
-            address: at.address,
-            framing,
-            status,
-            trigger,
-        }
-    }
-
-    #[cfg(feature = "plant")]
-    fn http(address: SocketAddr) -> Self {
-        let head = |first: &str| format!("{first} HTTP/1.1\r\nHost: {address}\r\n");
-        Self {
-            name: "http",
-            address,
-            framing: Framing::Http,
-            status: format!("{}\r\n", head("GET /v1/status")).into_bytes(),
-            trigger: format!("{}Content-Length: 0\r\n\r\n", head("POST /v1/trigger")).into_bytes(),
-        }
-    }
-
-    fn connect(&self) -> anyhow::Result<Client> {
-        Client::connect(self.address, self.framing)
-            .with_context(|| format!("cannot connect to {}", self.name))
-    }
-
-    fn busy_rate(&self, request: &[u8], num_each: usize) -> anyhow::Result<f64> {
-        let connect = || Client::connect(self.address, self.framing);
-        busy_rate(connect, NUM_CONNECTIONS, request, num_each)
-            .with_context(|| format!("{} gave no answer", self.name))
-    }
-}
-
-/// A running server; dropping it stops it.
-struct Service {
-    protocols: Vec<ServedProtocol>,
-    num_inspected: Arc<AtomicU64>,
-    is_ending: Arc<AtomicBool>,
-    #[cfg(feature = "plant")]
-    _http: HttpServer,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl Service {
-    fn start(inspections: &Arc<Inspections>) -> anyhow::Result<Self> {
-        let protocols = [
-            Protocol::Ascii,
-            Protocol::Binary(ByteOrder::Little),
-            Protocol::Eki,
-            Protocol::UrScript,
-        ];
-        let any_port = parse_address("0").advised()?;
-        let listeners = protocols.map(|protocol| {
-            let address = any_port;
-            Listener::new(ListenAddress { protocol, address }, Some(Convention::Kuka))
-        });
-        let listeners = listeners.into_iter().collect::<Result<Vec<_>, _>>();
-        let settings = ServerSettings {
-            // HTTP closes a connection that is silent for this long, such as one that waits for its turn here.
-            request_timeout: PATIENCE,
-            ..ServerSettings::default()
-        };
-        let server = Server::start(
-            &listeners.advised()?,
-            settings,
-            CameraStatus::default,
-            |_| (),
-        );
-        let mut server = server.advised()?;
-        #[cfg(feature = "plant")]
-        let http = HttpSettings {
-            address: any_port,
-            convention: Convention::Kuka,
-            tokens: Tokens::default(),
-            tls: None,
-        };
-        #[cfg(feature = "plant")]
-        let http = HttpServer::start(http, server.handle()).advised()?;
-        let protocols = server.addresses().iter().map(|at| ServedProtocol::of(*at));
-        #[cfg(feature = "plant")]
-        let protocols = protocols.chain([ServedProtocol::http(http.address())]);
-        let protocols = protocols.collect();
-        let is_ending = Arc::new(AtomicBool::new(false));
-        let num_inspected = Arc::new(AtomicU64::new(0));
-        let mut served = ServedInspections {
-            inspections: Arc::clone(inspections),
-            num_inspected: Arc::clone(&num_inspected),
-            is_ending: Arc::clone(&is_ending),
-        };
-        let thread = thread::Builder::new().name("server".into());
-        let thread = thread.spawn(move || server.run(&mut served))?;
-        Ok(Self {
-            protocols,
-            num_inspected,
-            is_ending,
-            #[cfg(feature = "plant")]
-            _http: http,
-            thread: Some(thread),
-        })
-    }
-}
-
-impl Drop for Service {
-    fn drop(&mut self) {
-        self.is_ending.store(true, Ordering::SeqCst);
-        if let Some(thread) = self.thread.take() {
-            // A failed server has already shown up as missing answers.
-            let _ = thread.join();
-        }
-    }
 }
 
 fn show_status(status: &[StatusTimes], console: &mut Console) {

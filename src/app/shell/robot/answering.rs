@@ -134,7 +134,7 @@ impl Answering {
             None if self.run.is_some() && self.failed.is_none() => {
                 (Mark::Open, text!("robot-answers-soon"))
             }
-            None => (Mark::Bad, text!("robot-answers-nobody")),
+            None => (Mark::Bad, text!("robot-not-answered")),
         })
     }
 
