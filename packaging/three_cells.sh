@@ -26,6 +26,14 @@ fail() {
     exit 2
 }
 
+case "${1:-}" in
+-h | --help)
+    # The comment at the top of this file.
+    sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"
+    exit
+    ;;
+-*) fail "there is no option $1" "Give a folder or nothing; --help explains the rest" ;;
+esac
 [ "${#ports[@]}" = 3 ] || fail "CELL_PORTS names ${#ports[@]} ports" "Name three, such as \"30101 30102 30103\""
 command -v mosquitto >/dev/null || fail "there is no mosquitto" "Install it: sudo apt install mosquitto"
 command -v "$partsight" >/dev/null || fail "there is no program $partsight" "Name it: PARTSIGHT=target/release/partsight"

@@ -170,6 +170,27 @@ fn said_by(output: &Output) -> String {
 }
 
 #[test]
+fn the_help_of_the_three_cells_starts_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output_with = |option| {
+        let mut script = Command::new(at("packaging/three_cells.sh"));
+        script
+            .arg(option)
+            .current_dir(&folder)
+            .output()
+            .expect("runs")
+    };
+    let said = said_by(&output_with("--help"));
+    assert!(said.contains("packaging/three_cells.sh [FOLDER]"), "{said}");
+    assert!(!said.contains("set -"), "{said}");
+    let wrong = output_with("--halp");
+    let said = String::from_utf8_lossy(&wrong.stderr);
+    assert!(said.contains("no option --halp"), "{said}");
+    let mut left = fs::read_dir(&folder).expect("a folder");
+    assert!(left.next().is_none(), "it made a folder");
+}
+
+#[test]
 fn systemd_accepts_the_unit() {
     let unit = read("packaging/partsight-serve.service");
     // The unit's program must exist.

@@ -180,6 +180,9 @@ struct ShowArgs {
     library: LibraryChoice,
     #[command(flatten)]
     recipe: super::recipe::RecipeChoice,
+    #[cfg(feature = "plant")]
+    #[command(flatten)]
+    from: plant::FromChoice,
 }
 
 #[derive(Debug, Args)]

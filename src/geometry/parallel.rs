@@ -35,7 +35,7 @@ pub fn map_in_order<S, T: Send>(
     // Small enough that no worker waits long for the last block, large enough that taking a block costs nothing.
     let block = (num_pieces / (num_workers * BLOCKS_EACH)).max(1);
     let next = AtomicUsize::new(0);
-    let select_part = || {
+    let take_blocks = || {
         let mut state = prepare();
         let mut done: Vec<(usize, Vec<T>)> = Vec::new();
         loop {
@@ -48,8 +48,8 @@ pub fn map_in_order<S, T: Send>(
         }
     };
     let mut blocks = thread::scope(|scope| {
-        let others: Vec<_> = (1..num_workers).map(|_| scope.spawn(select_part)).collect();
-        let mut blocks = select_part();
+        let others: Vec<_> = (1..num_workers).map(|_| scope.spawn(take_blocks)).collect();
+        let mut blocks = take_blocks();
         for other in others {
             match other.join() {
                 Ok(done) => blocks.extend(done),

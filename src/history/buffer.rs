@@ -3,6 +3,8 @@
 //! An inspection never waits for any of this: [`Writer`](super::Writer) does it on its own thread. Readers use the same
 //! [`HistoryBuffer`], and see the waiting inspections above the written ones.
 
+mod read;
+
 use std::{
     collections::VecDeque,
     path::{Path, PathBuf},
@@ -16,17 +18,14 @@ use std::{
 use jiff::Timestamp;
 
 use super::{
-    drift::{MAX_POSES, PoseRecord},
-    entry::{NewEntry, Record, Summary, png_of},
+    entry::{NewEntry, Summary},
     error::HistoryError,
-    filter::Filter,
     hung::HungId,
     news::HistoryEvent,
     open::OpenedHistory,
-    outcomes::PartOutcome,
     retention::{PruneResult, Retention, Usage},
-    store::{History, Page},
-    waiting::{wait, waiting_rows},
+    store::History,
+    waiting::wait,
 };
 use crate::{
     error::{Advice as _, lock},
@@ -257,130 +256,6 @@ impl HistoryBuffer {
         history.map(|history| history.frames_folder().to_owned())
     }
 
-    /// Returns rows of the list, waiting ones above written ones.
-    pub fn page(&self, filter: &Filter, offset: usize, most: usize) -> Result<Page, HistoryError> {
-        let mut inner = self.lock();
-        self.look(&mut inner);
-        let mut matching = waiting_rows(&inner.waiting, inner.history.as_ref())?;
-        let num_waiting = matching.iter().filter(|row| row.parent.is_none()).count();
-        matching.retain(|row| filter.passes(row));
-        let num_above = matching.len();
-        let above = matching.into_iter().rev().skip(offset).take(most);
-        let mut rows: Vec<Summary> = above.collect();
-        let below = match &inner.history {
-            Some(history) => {
-                let offset = offset.saturating_sub(num_above);
-                history.page(filter, offset, most - rows.len())?
-            }
-            None => Page::default(),
-        };
-        rows.extend(below.rows);
-        Ok(Page {
-            rows,
-            num_matching: num_above + below.num_matching,
-            num_all: num_waiting + below.num_all,
-        })
-    }
-
-    /// Returns an inspection in full.
-    pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
-        let mut inner = self.lock();
-        self.look(&mut inner);
-        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?
-            .into_iter()
-            .zip(&inner.waiting);
-        if let Some((summary, entry)) = rows.into_iter().find(|(row, _)| row.number == number) {
-            let mut detail = entry.record.detail.clone();
-            detail.thumbnail = entry.picture.as_ref().map_or_else(Vec::new, png_of);
-            return Ok(Some(Record { summary, detail }));
-        }
-        match &inner.history {
-            Some(history) => history.row(number),
-            None => Ok(None),
-        }
-    }
-
-    /// Returns the row that stands for a part; `None` if the part has no row.
-    pub fn part(&self, hung: &HungId) -> Result<Option<Summary>, HistoryError> {
-        let mut inner = self.lock();
-        self.look(&mut inner);
-        inner.part(hung)
-    }
-
-    /// Returns the re-inspections below this inspection, the oldest first.
-    pub fn below(&self, number: i64) -> Result<Vec<Record>, HistoryError> {
-        let mut inner = self.lock();
-        self.look(&mut inner);
-        let mut below = match &inner.history {
-            Some(history) => history.below(number)?,
-            None => Vec::new(),
-        };
-        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
-        for (summary, entry) in rows.into_iter().zip(&inner.waiting) {
-            if summary.parent == Some(number) {
-                below.push(Record {
-                    summary,
-                    detail: entry.record.detail.clone(),
-                });
-            }
-        }
-        Ok(below)
-    }
-
-    /// Calls `each` with all matching rows, the oldest first: the written ones, then the waiting ones.
-    pub fn each<E: From<HistoryError>>(
-        &self,
-        filter: &Filter,
-        mut each: impl FnMut(Record) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let inner = self.lock();
-        if let Some(history) = &inner.history {
-            history.each::<E>(filter, &mut each)?;
-        }
-        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
-        for (summary, entry) in rows.into_iter().zip(&inner.waiting) {
-            if filter.passes(&summary) {
-                let detail = entry.record.detail.clone();
-                each(Record { summary, detail })?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Returns the outcomes of all matching parts, the oldest first.
-    pub fn outcomes(&self, filter: &Filter) -> Result<Vec<PartOutcome>, HistoryError> {
-        let of_record = |record: &Record| Some(PartOutcome::from(record));
-        self.with_waiting(filter, |history| history.outcomes(filter), of_record)
-    }
-
-    /// As [`History::poses`], including inspections that are not written yet.
-    pub fn poses(&self, filter: &Filter) -> Result<Vec<PoseRecord>, HistoryError> {
-        let written = |history: &History| history.poses(filter);
-        let mut poses = self.with_waiting(filter, written, PoseRecord::of_record)?;
-        poses.drain(..poses.len().saturating_sub(MAX_POSES));
-        Ok(poses)
-    }
-
-    /// Returns the written items, then those of the waiting inspections that match the filter.
-    fn with_waiting<T>(
-        &self,
-        filter: &Filter,
-        written: impl FnOnce(&History) -> Result<Vec<T>, HistoryError>,
-        of_record: impl Fn(&Record) -> Option<T>,
-    ) -> Result<Vec<T>, HistoryError> {
-        let mut inner = self.lock();
-        self.look(&mut inner);
-        let mut found = match &inner.history {
-            Some(history) => written(history)?,
-            None => Vec::new(),
-        };
-        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
-        let waiting = rows.iter().zip(&inner.waiting);
-        let waiting = waiting.filter(|(row, _)| filter.passes(row));
-        found.extend(waiting.filter_map(|(_, entry)| of_record(&entry.record)));
-        Ok(found)
-    }
-
     /// Opens the history for reading, unless it is open already or a retry is pending.
     fn look(&self, inner: &mut Inner) {
         if inner.next_try.is_none()
@@ -439,9 +314,13 @@ impl HistoryBuffer {
         }
         while let Some(entry) = inner.waiting.pop_front() {
             match self.write(inner, &entry) {
-                Ok(number) => {
+                Ok(Some(number)) => {
                     numbers.push((entry.record.summary.number, number));
                     inner.last = number;
+                }
+                Ok(None) => {
+                    inner.waiting.push_front(entry);
+                    break;
                 }
                 Err(error) => {
                     inner.waiting.push_front(entry);
@@ -460,26 +339,30 @@ impl HistoryBuffer {
         numbers
     }
 
-    fn write(&self, inner: &mut Inner, entry: &NewEntry) -> Result<i64, HistoryError> {
-        for is_last in [false, true] {
+    /// Writes an inspection and returns its number; `None` in memory only.
+    fn write(&self, inner: &mut Inner, entry: &NewEntry) -> Result<Option<i64>, HistoryError> {
+        let mut is_reopened = false;
+        loop {
             self.ensure(inner)?;
             let retention = inner.retention;
             let Some(history) = &mut inner.history else {
-                break;
+                return Ok(None);
             };
             match history.add(entry, &retention) {
                 // Reopening checks the file, and sets it aside if the check finds damage too.
-                Err(HistoryError::Damaged { .. }) if !is_last => inner.history = None,
+                Err(HistoryError::Damaged { .. }) if !is_reopened => {
+                    inner.history = None;
+                    is_reopened = true;
+                }
                 written => {
                     inner.num_unswept += 1;
                     if inner.num_unswept >= SWEEP_EVERY {
                         self.sweep(inner);
                     }
-                    return written;
+                    return written.map(Some);
                 }
             }
         }
-        Err(HistoryError::NoUserFolder)
     }
 
     /// Schedules a retry, and reports the failure if it is the first since writing last worked.
@@ -495,16 +378,6 @@ impl HistoryBuffer {
 }
 
 impl Inner {
-    fn part(&self, hung: &HungId) -> Result<Option<Summary>, HistoryError> {
-        let history = self.history.as_ref();
-        let mut waiting = waiting_rows(&self.waiting, history)?.into_iter();
-        let waits = waiting.find(|row| row.hung == *hung && row.parent.is_none());
-        match (waits, history) {
-            (None, Some(history)) => history.head_of(hung),
-            (waits, _) => Ok(waits),
-        }
-    }
-
     fn waiting_mut(&mut self, number: i64) -> Option<&mut NewEntry> {
         let mut waiting = self.waiting.iter_mut();
         waiting.find(|entry| entry.record.summary.number == number)

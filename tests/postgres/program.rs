@@ -82,6 +82,26 @@ fn an_overview_over_cells_is_listed_and_exported() {
     let [table, _] = with(&["history", "list", "--cell", "cell7", "--limit", "2"]);
     assert_eq!(table.lines().count(), 1 + 2, "{table}");
 
+    // Both cells have a number 4; in the second it is no grille.
+    let [cards, _] = with(&["history", "show", "4"]);
+    let is_cell = |line: &&str| line.starts_with("cell ");
+    assert_eq!(cards.lines().filter(is_cell).count(), 2, "{cards}");
+    let [line, _] = with(&["history", "show", "4", "--json", "--cell", "cell7"]);
+    let line: Value = serde_json::from_str(&line).expect("one line of JSON");
+    assert_eq!(
+        (&line["cell"], &line["part"], &line["frame_kept"]),
+        (&json!("cell7"), &json!("grille"), &json!(true))
+    );
+    for (more, what) in [
+        ("--again", "stays at its cell"),
+        ("--json", "no inspection 99"),
+    ] {
+        let number = if more == "--again" { "4" } else { "99" };
+        let show = ["history", "show", number, more];
+        let [_, said] = run(folder.path(), &[&show[..], &from].concat(), 2);
+        assert!(said.contains(what), "{said}");
+    }
+
     with(&["history", "export", "--csv", "all.csv"]);
     let text = fs::read_to_string(folder.path().join("all.csv")).expect("written");
     let mut text = text.lines();

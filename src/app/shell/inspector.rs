@@ -143,9 +143,11 @@ impl State {
     /// stops following the source.
     fn inspect(&mut self, title: String, job: InspectJob) {
         let trace = self.session.trace.clone();
+        // Each capture of a watched folder shows another part.
+        let is_watched = matches!(self.session.source.followed(), Some(SourceSpec::Watched(_)));
         let part = if self.inspector.is_start {
             PartAtHand::MaybeSeen
-        } else if self.session.is_live() {
+        } else if self.session.is_live() && !is_watched {
             PartAtHand::Followed(Arc::clone(&self.session.live.parts), trace)
         } else {
             PartAtHand::New(trace)

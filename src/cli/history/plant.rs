@@ -1,15 +1,19 @@
-//! `partsight history send`, and `list` and `export` over the cells of a plant.
+//! `partsight history send`, and `list`, `show` and `export` over the cells of a plant.
 
 use clap::Args;
 
-use super::{CellRow, ExportArgs, HistoryCommand, ListArgs, here, note_counts, show_rows};
+use super::{
+    CellRow, ExportArgs, HistoryCommand, ListArgs, ShowArgs, here, note_counts,
+    show::{ReadFrom, card, record_line},
+    show_rows,
+};
 use crate::{
     cli::{
         Outcome,
         console::{Advised as _, Console, advised_error},
         database::{DatabaseFiles, parse_cell},
     },
-    history::{History, write_cells_table},
+    history::{History, HistoryError, Record, write_cells_table},
     plant::database::{BATCH, CellHistory, CellName, Database, TransferError},
 };
 
@@ -85,7 +89,7 @@ pub(super) fn send(
     Ok(Outcome::Accepted)
 }
 
-/// Runs `list` or `export` on a database; returns `None` if they are to use the local history.
+/// Runs `list`, `show` or `export` on a database; returns `None` if they are to use the local history.
 pub(super) fn overview(
     command: &HistoryCommand,
     console: &mut Console,
@@ -93,6 +97,10 @@ pub(super) fn overview(
     match command {
         HistoryCommand::List(asked) => match asked.from.database(console)? {
             Some(database) => list(&database, asked, console).map(Some),
+            None => Ok(None),
+        },
+        HistoryCommand::Show(asked) => match asked.from.database(console)? {
+            Some(database) => show(&database, asked, console).map(Some),
             None => Ok(None),
         },
         HistoryCommand::Export(asked) => match asked.from.database(console)? {
@@ -123,6 +131,40 @@ fn list(database: &Database, asked: &ListArgs, console: &mut Console) -> anyhow:
             count.num_accepted,
             here(count.sent)
         ));
+    }
+    Ok(Outcome::Accepted)
+}
+
+/// Shows the inspections with this number: those of several cells may have the same.
+fn show(database: &Database, asked: &ShowArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let number = asked.number;
+    if asked.again {
+        return Err(advised_error(
+            "--again needs the frame, which stays at its cell",
+            "Run it there, without --from",
+        ));
+    }
+    let cell = asked.from.cell.as_ref();
+    let found = database.numbered(number, cell).advised()?;
+    if found.is_empty() {
+        return Err(HistoryError::NoSuchInspection { number }).advised();
+    }
+    for (place, of_cell) in found.iter().enumerate() {
+        let below = database.below(of_cell).advised()?.into_iter();
+        let below: Vec<Record> = below.map(|other| other.record).collect();
+        let record = &of_cell.record;
+        let from = ReadFrom {
+            cell: Some(&of_cell.cell),
+            frames: None,
+        };
+        if asked.json {
+            console.line(&record_line(from, record, &below, None));
+        } else {
+            if place > 0 {
+                console.line(&"");
+            }
+            card(from, record, &below, console);
+        }
     }
     Ok(Outcome::Accepted)
 }

@@ -1,5 +1,7 @@
 //! `partsight history show`: shows everything about one inspection.
 
+use std::path::Path;
+
 use serde::Serialize;
 use serde_json::Value;
 
@@ -10,7 +12,7 @@ use crate::{
         console::{Advised as _, Console, Table, in_columns, marked_simulated},
     },
     history::{
-        Differences, History, InspectionDetail, InspectionSummary, Record, ShotRecord,
+        Differences, FrameRecord, History, InspectionDetail, InspectionSummary, Record,
         StoredRefusal, Summary, Traceability,
     },
     library::Truth,
@@ -137,6 +139,22 @@ fn differences(record: &Record, other: &Record) -> Differences {
     )
 }
 
+/// Where an inspection was read.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ReadFrom<'a> {
+    /// Name of the cell, in the plant's database.
+    pub(super) cell: Option<&'a str>,
+    /// Folder of the kept frames; `None` in the plant's database, as they stay at their cell.
+    pub(super) frames: Option<&'a Path>,
+}
+
+impl ReadFrom<'_> {
+    fn path(self, frame: &FrameRecord) -> Option<String> {
+        let path = self.frames?.join(&frame.file);
+        Some(path.display().to_string())
+    }
+}
+
 pub(super) fn run(
     history: &History,
     asked: &ShowArgs,
@@ -148,56 +166,62 @@ pub(super) fn run(
         .then(|| again::run(history, &record, asked, console))
         .transpose()?;
     let below = history.below(asked.number).advised()?;
+    let from = ReadFrom {
+        cell: None,
+        frames: Some(history.frames_folder()),
+    };
     if asked.json {
-        let below = below.iter().map(|other| BelowLine {
-            row: RowLine::of(&other.summary),
-            recipe: &other.detail.recipe_identity,
-            recipe_name: recipe_name(&other.detail),
-            recipe_changed: recipe_changed(&other.detail),
-            library: &other.detail.library_identity,
-            program: &other.detail.program,
-            differs: again::AgainLine::of(&differences(&record, other)),
-        });
-        let detail = &record.detail;
-        let refusal = detail.refusal.as_ref();
-        let line = RecordLine {
-            row: RowLine::of(&record.summary),
-            nearest: detail.nearest.as_deref(),
-            reason: refusal.map(|refusal| refusal.reason.as_str()),
-            reason_kind: refusal.and_then(StoredRefusal::kind),
-            advice: refusal.map(|refusal| refusal.advice.as_str()),
-            camera_from_part: record.matrix(),
-            recipe: &detail.recipe_identity,
-            recipe_name: recipe_name(detail),
-            recipe_changed: recipe_changed(detail),
-            library: &detail.library_identity,
-            program: &detail.program,
-            frame: frame_path(history, &record),
-            shots: shot_paths(history, &record),
-            below: below.collect(),
-            line: serde_json::from_str(&detail.line).ok(),
-            again: again.as_ref().map(again::AgainLine::of),
-        };
-        console.line(&json(&line));
+        console.line(&record_line(from, &record, &below, again.as_ref()));
         return Ok(Outcome::Accepted);
     }
-    card(history, &record, console);
-    let number = |record: &Record| format!("NUMBER {}", record.summary.number);
-    for other in &below {
-        console.line(&"");
-        console.line(&format_args!(
-            "The same part was inspected again at {}.",
-            here(other.summary.at)
-        ));
-        let names = [number(&record), number(other)];
-        let names = [&*names[0], &*names[1]];
-        again::show(&differences(&record, other), names, console);
-    }
+    card(from, &record, &below, console);
     if let Some(differences) = &again {
         console.line(&"");
         again::show(differences, ["THEN", "TODAY"], console);
     }
     Ok(Outcome::Accepted)
+}
+
+/// Returns an inspection with the re-inspections below it as one line of JSON.
+pub(super) fn record_line(
+    from: ReadFrom<'_>,
+    record: &Record,
+    below: &[Record],
+    again: Option<&Differences>,
+) -> String {
+    let below = below.iter().map(|other| BelowLine {
+        row: RowLine::of(&other.summary),
+        recipe: &other.detail.recipe_identity,
+        recipe_name: recipe_name(&other.detail),
+        recipe_changed: recipe_changed(&other.detail),
+        library: &other.detail.library_identity,
+        program: &other.detail.program,
+        differs: again::AgainLine::of(&differences(record, other)),
+    });
+    let detail = &record.detail;
+    let refusal = detail.refusal.as_ref();
+    let frame = detail.frame.as_ref();
+    json(&RecordLine {
+        row: RowLine {
+            cell: from.cell,
+            ..RowLine::of(&record.summary)
+        },
+        nearest: detail.nearest.as_deref(),
+        reason: refusal.map(|refusal| refusal.reason.as_str()),
+        reason_kind: refusal.and_then(StoredRefusal::kind),
+        advice: refusal.map(|refusal| refusal.advice.as_str()),
+        camera_from_part: record.matrix(),
+        recipe: &detail.recipe_identity,
+        recipe_name: recipe_name(detail),
+        recipe_changed: recipe_changed(detail),
+        library: &detail.library_identity,
+        program: &detail.program,
+        frame: frame.and_then(|frame| from.path(frame)),
+        shots: shot_paths(from, record),
+        below: below.collect(),
+        line: serde_json::from_str(&detail.line).ok(),
+        again: again.map(again::AgainLine::of),
+    })
 }
 
 fn recipe_name(detail: &InspectionDetail) -> Option<&str> {
@@ -214,21 +238,30 @@ fn recipe_changed(detail: &InspectionDetail) -> bool {
         .is_some_and(|label| label.is_changed)
 }
 
-fn frame_path(history: &History, record: &Record) -> Option<String> {
-    let frame = record.detail.frame.as_ref()?;
-    let path = history.frames_folder().join(&frame.file);
-    Some(path.display().to_string())
-}
-
-fn shot_paths(history: &History, record: &Record) -> Vec<String> {
+fn shot_paths(from: ReadFrom<'_>, record: &Record) -> Vec<String> {
     let frame = record.detail.frame.as_ref();
     let shots = frame.map_or(&[][..], |frame| &frame.shots);
-    let path = |shot: &ShotRecord| history.frames_folder().join(&shot.frame.file);
-    let paths = shots.iter().map(path);
-    paths.map(|path| path.display().to_string()).collect()
+    let paths = shots.iter().filter_map(|shot| from.path(&shot.frame));
+    paths.collect()
 }
 
-fn card(history: &History, record: &Record, console: &mut Console) {
+/// Shows an inspection, and how the re-inspections below it differ.
+pub(super) fn card(from: ReadFrom<'_>, record: &Record, below: &[Record], console: &mut Console) {
+    record_table(from, record).show(console);
+    let number = |record: &Record| format!("NUMBER {}", record.summary.number);
+    for other in below {
+        console.line(&"");
+        console.line(&format_args!(
+            "The same part was inspected again at {}.",
+            here(other.summary.at)
+        ));
+        let names = [number(record), number(other)];
+        let names = [&*names[0], &*names[1]];
+        again::show(&differences(record, other), names, console);
+    }
+}
+
+fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     let Record { summary, detail } = record;
     let mut table = Table::default();
     let mut row = |what: &str, text: String| {
@@ -237,6 +270,7 @@ fn card(history: &History, record: &Record, console: &mut Console) {
         }
     };
     row("inspection", summary.number.to_string());
+    row("cell", from.cell.unwrap_or_default().to_owned());
     row(
         "time",
         format!("{} local time, {} UTC", here(summary.at), summary.at),
@@ -283,13 +317,17 @@ fn card(history: &History, record: &Record, console: &mut Console) {
         summary.label.as_ref().map_or("", Truth::name).to_owned(),
     );
     row("remark", summary.remark.clone());
-    let frame = frame_path(history, record);
-    row("frame", frame.unwrap_or_else(|| "not kept".into()));
-    for shot in shot_paths(history, record) {
+    let frame = detail.frame.as_ref().map(|frame| from.path(frame));
+    let frame = frame.map_or_else(
+        || "not kept".into(),
+        |path| path.unwrap_or_else(|| "kept at the cell".into()),
+    );
+    row("frame", frame);
+    for shot in shot_paths(from, record) {
         row("shot", shot);
     }
     if let Some(parent) = summary.parent {
         row("of a part", format!("inspection {parent} stands for it"));
     }
-    table.show(console);
+    table
 }

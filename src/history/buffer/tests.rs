@@ -4,7 +4,7 @@ use std::fs;
 
 use super::*;
 use crate::{
-    history::{StoredVerdict, open::FILE, schema::APPLICATION, waiting::MAX_WAITING},
+    history::{Filter, StoredVerdict, open::FILE, schema::APPLICATION, waiting::MAX_WAITING},
     kit::{history_entry, moment, open_history, small_scene},
 };
 

@@ -31,7 +31,7 @@ pub use self::{
     cell::{BadCellName, CellHistory, CellName},
     client::Database,
     error::{DatabaseError, TransferError},
-    overview::{CellCount, CellPage},
+    overview::{CellCount, CellPage, CellRecord},
     send::BATCH,
     sender::{HistorySender, SendNews, SendTrouble, SenderError, Unsent},
 };

@@ -49,6 +49,19 @@ pub struct CellCount {
     pub num_accepted: usize,
 }
 
+/// An inspection of a cell.
+#[derive(Clone, Debug)]
+pub struct CellRecord {
+    /// Name of the cell.
+    pub cell: String,
+    /// Identity of the history that the inspection comes from.
+    pub history: String,
+    /// The inspection, without its thumbnail.
+    pub record: Record,
+    /// Its time as the database has it: the record has another one if this is out of range.
+    at: i64,
+}
+
 /// An SQL condition and the values of its parameters.
 struct Condition {
     sql: String,
@@ -77,10 +90,15 @@ impl Condition {
             values: given.into_iter().map(boxed).collect(),
         };
         if let Some(cell) = cell {
-            let place = condition.take(cell.to_string());
-            write!(condition.sql, " AND there.cell = {place}").expect("a string takes everything");
+            condition.and("cell", cell.to_string());
         }
         condition
+    }
+
+    /// Also demands this value of a column of the inspection.
+    fn and(&mut self, column: &str, value: impl ToSql + Sync + 'static) {
+        let place = self.take(value);
+        write!(self.sql, " AND there.{column} = {place}").expect("a string takes everything");
     }
 
     /// Adds a value, and returns its placeholder.
@@ -151,6 +169,60 @@ impl Database {
         mut each: impl FnMut(&str, Record) -> Result<(), E>,
     ) -> Result<(), E> {
         self.counts(filter, cell)?;
+        let mut last = (i64::MIN, String::new(), String::new(), 0);
+        loop {
+            let mut condition = Condition::of(filter, cell);
+            let (at, of, history, number) = last.clone();
+            let from = [
+                condition.take(at),
+                condition.take(of),
+                condition.take(history),
+                condition.take(number),
+            ];
+            write!(
+                condition.sql,
+                " AND (there.at, there.cell, there.history, there.number) > ({})",
+                from.join(", ")
+            )
+            .expect("a string takes everything");
+            let rows = self.records(&condition, READ_AT_ONCE)?;
+            let is_last = (rows.len() as i64) < READ_AT_ONCE;
+            for row in rows {
+                let number = row.record.summary.number;
+                each(&row.cell, row.record)?;
+                last = (row.at, row.cell, row.history, number);
+            }
+            if is_last {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Returns the inspections with this number, of one cell or of all, oldest first. There may be several: a number is
+    /// unique only within a history, and a cell may have had several histories.
+    pub fn numbered(
+        &self,
+        number: i64,
+        cell: Option<&CellName>,
+    ) -> Result<Vec<CellRecord>, DatabaseError> {
+        let all = with_below();
+        self.counts(&all, cell)?;
+        let mut condition = Condition::of(&all, cell);
+        condition.and("number", number);
+        self.records(&condition, i64::MAX)
+    }
+
+    /// Returns the re-inspections below an inspection, oldest first.
+    pub fn below(&self, of: &CellRecord) -> Result<Vec<CellRecord>, DatabaseError> {
+        let mut condition = Condition::of(&with_below(), None);
+        condition.and("cell", of.cell.clone());
+        condition.and("history", of.history.clone());
+        condition.and("parent", of.record.summary.number);
+        self.records(&condition, i64::MAX)
+    }
+
+    /// Reads the inspections that meet a condition, oldest first, at most `most`.
+    fn records(&self, condition: &Condition, most: i64) -> Result<Vec<CellRecord>, DatabaseError> {
         let columns = [
             &INSPECTION_COLUMNS[..],
             &DETAIL_COLUMNS[1..],
@@ -164,46 +236,27 @@ impl Database {
             "thumbnail" => "NULL::bytea".to_owned(),
             name => name.to_owned(),
         });
-        let names = names.collect::<Vec<_>>().join(", ");
-        let mut last = (i64::MIN, String::new(), String::new(), 0);
-        loop {
-            let mut condition = Condition::of(filter, cell);
-            let (at, of, history, number) = last.clone();
-            let from = [
-                condition.take(at),
-                condition.take(of),
-                condition.take(history),
-                condition.take(number),
-            ];
-            let asked = format!(
-                "SELECT {names}, {NUM_BELOW}, there.cell, there.history FROM partsight.inspection AS there
-                    LEFT JOIN partsight.detail AS rest USING (cell, history, number)
-                    LEFT JOIN partsight.recipe AS known ON known.cell = there.cell AND known.history = there.history
-                        AND known.identity = rest.recipe
-                    WHERE {} AND (there.at, there.cell, there.history, there.number) > ({})
-                    ORDER BY there.at, there.cell, there.history, there.number LIMIT {READ_AT_ONCE}",
-                condition.sql,
-                from.join(", ")
-            );
-            let rows = self.query(&asked, &condition.values)?;
-            for row in &rows {
-                let (values, place) = self.values(row, &columns)?;
-                let record = reader.record(values);
-                let record = record.map_err(|error| self.unreadable(&error))?;
-                let of: String = self.read(row, place)?;
-                let history = self.read(row, place + 1)?;
-                last = (
-                    self.read(row, AT)?,
-                    of.clone(),
-                    history,
-                    record.summary.number,
-                );
-                each(&of, record)?;
-            }
-            if (rows.len() as i64) < READ_AT_ONCE {
-                return Ok(());
-            }
-        }
+        let asked = format!(
+            "SELECT {}, {NUM_BELOW}, there.cell, there.history FROM partsight.inspection AS there
+                LEFT JOIN partsight.detail AS rest USING (cell, history, number)
+                LEFT JOIN partsight.recipe AS known ON known.cell = there.cell AND known.history = there.history
+                    AND known.identity = rest.recipe
+                WHERE {} ORDER BY there.at, there.cell, there.history, there.number LIMIT {most}",
+            names.collect::<Vec<_>>().join(", "),
+            condition.sql
+        );
+        let rows = self.query(&asked, &condition.values)?;
+        let read = |row: &Row| {
+            let (values, place) = self.values(row, &columns)?;
+            let record = reader.record(values);
+            Ok(CellRecord {
+                cell: self.read(row, place)?,
+                history: self.read(row, place + 1)?,
+                record: record.map_err(|error| self.unreadable(&error))?,
+                at: self.read(row, AT)?,
+            })
+        };
+        rows.iter().map(read).collect()
     }
 
     /// Counts what every cell, or one, has sent; an unknown cell is an error.
@@ -293,6 +346,14 @@ impl Database {
     }
 }
 
+/// The filter that passes every inspection.
+fn with_below() -> Filter {
+    Filter {
+        with_below: true,
+        ..Filter::default()
+    }
+}
+
 fn names_of(columns: &[Column]) -> Vec<&'static str> {
     columns.iter().map(|(name, _)| *name).collect()
 }
@@ -305,12 +366,8 @@ mod tests {
     #[test]
     fn a_filter_becomes_a_condition_of_the_server() {
         let cell: CellName = "cell7".parse().expect("a name");
-        let all = Filter {
-            with_below: true,
-            ..Filter::default()
-        };
-        assert_eq!(Condition::of(&all, None).sql, "TRUE");
-        let one = Condition::of(&all, Some(&cell));
+        assert_eq!(Condition::of(&with_below(), None).sql, "TRUE");
+        let one = Condition::of(&with_below(), Some(&cell));
         assert_eq!(
             (one.sql.as_str(), one.values.len()),
             ("TRUE AND there.cell = $1", 1)

@@ -56,6 +56,9 @@ pub enum AddressError {
         /// The port as given.
         port: String,
     },
+    /// It has no topic prefix.
+    #[error("the address of the broker has no topic prefix")]
+    NoPrefix,
     /// The topic prefix is not valid.
     #[error("{prefix:?} is not a valid topic prefix")]
     Prefix {
@@ -76,8 +79,8 @@ impl Advice for AddressError {
             Self::EncryptedIpv6 { .. } => {
                 "Give the name in the broker's certificate".into()
             }
-            Self::Scheme | Self::Host { .. } | Self::Port { .. } => {
-                "Give an address such as mqtt://broker/cell7 or mqtts://user@192.168.1.5:8883/hall3/cell7".into()
+            Self::Scheme | Self::Host { .. } | Self::Port { .. } | Self::NoPrefix => {
+                "Give the address as mqtt[s]://[USER@]HOST[:PORT]/PREFIX, such as mqtt://broker/cell7 or mqtts://user@192.168.1.5:8883/hall3/cell7".into()
             }
         }
     }
@@ -114,6 +117,9 @@ impl FromStr for BrokerAddress {
             let host = host.to_owned();
             return Err(AddressError::EncryptedIpv6 { host });
         }
+        if prefix.is_empty() {
+            return Err(AddressError::NoPrefix);
+        }
         if !is_prefix(prefix) {
             let prefix = prefix.to_owned();
             return Err(AddressError::Prefix { prefix });
@@ -131,7 +137,7 @@ impl FromStr for BrokerAddress {
 /// Wildcards are not allowed, nor is `$` at the start, which marks the broker's own topics.
 fn is_prefix(prefix: &str) -> bool {
     let is_bad = |c: char| matches!(c, '+' | '#') || c.is_control();
-    (1..=MAX_PREFIX_BYTES).contains(&prefix.len())
+    prefix.len() <= MAX_PREFIX_BYTES
         && !prefix.starts_with('$')
         && !prefix.contains(is_bad)
         && prefix.split('/').all(|level| !level.is_empty())
@@ -185,8 +191,8 @@ mod tests {
             ("mqtt://broker:0/cell", "not a port"),
             ("mqtt://broker:70000/cell", "not a port"),
             ("mqtt://broker:/cell", "not a port"),
-            ("mqtt://broker", "not a valid topic prefix"),
-            ("mqtt://broker/", "not a valid topic prefix"),
+            ("mqtt://broker", "no topic prefix"),
+            ("mqtt://broker/", "no topic prefix"),
             ("mqtt://broker/a//b", "not a valid topic prefix"),
             ("mqtt://broker/a/", "not a valid topic prefix"),
             ("mqtt://broker/+/a", "not a valid topic prefix"),
@@ -199,6 +205,11 @@ mod tests {
             assert!(error.to_string().contains(words), "{text}: {error}");
             assert!(!error.advice().is_empty());
             assert!(!error.to_string().contains("secret"));
+        }
+        for text in ["broker/cell", "mqtt://broker"] {
+            let advice = text.parse::<BrokerAddress>().expect_err(text).advice();
+            let form = "mqtt[s]://[USER@]HOST[:PORT]/PREFIX";
+            assert!(advice.contains(form), "{text}: {advice}");
         }
     }
 }

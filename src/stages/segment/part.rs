@@ -106,12 +106,7 @@ impl SegmentedPart {
         let surface = clusters::figures_of(scene, &indices, noise, params);
         Self {
             surface: Some(surface),
-            ..Self::of(
-                &scene.cloud,
-                indices,
-                params.noise_at_1m,
-                surface.touches_edge,
-            )
+            ..Self::of(&scene.cloud, indices, noise, surface.touches_edge)
         }
     }
 

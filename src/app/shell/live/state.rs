@@ -413,9 +413,13 @@ mod tests {
     use crate::{
         app::{
             inspection::{camera::Camera, source::CellChoice},
-            shell::action::{Action, apply as apply_any},
+            shell::{
+                action::{Action, apply as apply_any},
+                inspector,
+            },
         },
         capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
+        error::lock,
         geometry::rigid::RigidTransform,
         history::StoredVerdict,
         kit::HangingPart,
@@ -484,6 +488,30 @@ mod tests {
             let summary = &inspected.entry.record.summary;
             assert_eq!(summary.verdict, StoredVerdict::Accepted);
         }
+    }
+
+    #[test]
+    fn each_capture_of_a_watched_folder_is_a_part_of_its_own() {
+        let camera = Camera::opened_by(|_| {
+            Ok(Box::new(Hanging {
+                fender: HangingPart::new(PartKind::Fender, 3),
+                number: 0,
+            }))
+        });
+        let library_cache = LibraryCache::new(Some("reference_parts".into()), camera);
+        let mut state = State::new(&TaskRunner::without_threads(), &library_cache);
+        let spec: SourceSpec = "watch:captures".parse().expect("a source");
+        state.session.source = Source::Camera(Box::new(spec.clone()));
+        let parts = [(); 2].map(|()| {
+            toggle(&mut state);
+            assert!(lock(&state.session.live.parts).begin(&spec).is_none());
+            apply_any(&mut state, Action::Capture);
+            assert!(state.inspector.run_waiting());
+            inspector::update(&mut state);
+            let shown = state.session.shown.as_ref().expect("inspected");
+            shown.inspected.hung().clone()
+        });
+        assert_ne!(parts[0], parts[1]);
     }
 
     /// Title of the running or waiting job.
