@@ -305,6 +305,34 @@ def test_what_cannot_be_run_is_said_in_words(kept: Path, tmp_path: Path) -> None
         evaluate.pack(kept, tmp_path / "cases")
 
 
+def test_what_killed_writers_left_is_removed_from_every_folder_of_a_store() -> None:
+    require("pyarrow")
+    # Unlike a local folder, this store refuses a path with an empty name in it.
+    store = evaluate._Store("mock:///cases")
+    for folder in ("", "parts"):
+        stream, temporary = store.open_new(f"{folder}/half".lstrip("/"))
+        with stream:
+            stream.write(b"PAR1")
+        assert store.names(folder) == [os.path.basename(temporary)]
+        store.clear(folder)
+        assert store.names(folder) == []
+
+
+class Overtaken(evaluate._Judge):
+    """A worker whose batch another one does meanwhile, and removes the notes of its tries."""
+
+    def judge(self, batch: evaluate._Batch) -> None:
+        for name in self.results.names("tries"):
+            self.results.fs.delete_file(self.results.at(f"tries/{name}"))
+
+
+def test_notes_of_tries_that_another_worker_removed_are_no_error(tmp_path: Path) -> None:
+    require("pyarrow")
+    worker = Overtaken(str(tmp_path / "cases"), str(tmp_path / "results"), None, partsight.Recipe(), {})
+    batch = {"file": ["cases-00000.parquet"], "group": [0]}
+    assert worker(batch) == batch
+
+
 def test_a_pickled_recipe_has_the_same_parameters_and_name() -> None:
     recipe = partsight.Recipe({"accept.min_score": 1 / 3, "segment.plane_distance": 12.345678901})
     again = pickle.loads(pickle.dumps(recipe))

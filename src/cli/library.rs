@@ -74,6 +74,8 @@ enum LibraryCommand {
     /// Show which published version the library was taken from, and what has changed since
     #[cfg(feature = "plant")]
     Version,
+    #[cfg(feature = "plant")]
+    Versions(bundle::VersionsArgs),
 }
 
 #[derive(Debug, Args)]
@@ -108,6 +110,8 @@ pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<O
         LibraryCommand::Take(asked) => bundle::take(&args.library, asked, console),
         #[cfg(feature = "plant")]
         LibraryCommand::Version => bundle::version(&args.library, console),
+        #[cfg(feature = "plant")]
+        LibraryCommand::Versions(asked) => bundle::versions(&args.library, asked, console),
     }
 }
 

@@ -5,6 +5,7 @@ use std::{
     fs,
     io::{self, Read as _},
     path::{Path, PathBuf},
+    time::SystemTime,
 };
 
 use serde::Deserialize;
@@ -58,6 +59,9 @@ pub struct StoredPart {
 /// Maximum size of a `part.toml` or `signature.json`, bytes.
 const MAX_TEXT: u64 = 8 << 20;
 
+/// How often parts are loaded at most while writers change them.
+const MAX_LOADS: usize = 5;
+
 /// How thoroughly a stored part is checked.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum CloudCheckLevel {
@@ -102,7 +106,32 @@ impl LibraryFolder {
         look: CloudCheckLevel,
         params: &ReferenceParams,
     ) -> Result<LibraryLoad, LibraryError> {
-        Ok(load_entries(&self.entries()?, look, params))
+        self.load_unchanged(|entries| load_entries(entries, look, params))
+    }
+
+    /// Loads again if a writer moved or changed parts meanwhile: some would be missing, or be of the former library.
+    fn load_unchanged(
+        &self,
+        mut load: impl FnMut(&[Entry]) -> LibraryLoad,
+    ) -> Result<LibraryLoad, LibraryError> {
+        let mut before = self.dated_entries()?;
+        for _ in 1..MAX_LOADS {
+            let loaded = load(&before.0);
+            let after = self.dated_entries()?;
+            if before == after {
+                return Ok(loaded);
+            }
+            before = after;
+        }
+        Ok(load(&before.0))
+    }
+
+    /// The folders of all parts, and when each was changed: a new part may take the place of one of the same name.
+    fn dated_entries(&self) -> Result<(Vec<Entry>, Vec<Option<SystemTime>>), LibraryError> {
+        let entries = self.entries()?;
+        let changed = |entry: &Entry| fs::metadata(&entry.path).and_then(|m| m.modified()).ok();
+        let changed_at = entries.iter().map(changed).collect();
+        Ok((entries, changed_at))
     }
 }
 
@@ -335,4 +364,77 @@ fn belongs(file: &Path, reference: &Reference, params: &ReferenceParams) -> bool
         .and_then(|text| serde_json::from_str::<StoredSignature>(&text).ok());
     let made = StoredSignature::of(reference, params);
     matches!((stored, made), (Some(stored), Some(made)) if stored.agrees_with(&made))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::{PartNaming, shipped::write_shipped};
+
+    fn library() -> (tempfile::TempDir, LibraryFolder) {
+        let folder = tempfile::tempdir().expect("a folder");
+        write_shipped(folder.path()).expect("written");
+        let library = LibraryFolder::open(folder.path()).expect("there");
+        (folder, library)
+    }
+
+    fn quick(entries: &[Entry]) -> LibraryLoad {
+        load_entries(entries, CloudCheckLevel::Quick, &ReferenceParams::default())
+    }
+
+    #[test]
+    fn a_library_that_is_replaced_while_it_is_read_is_read_again() {
+        let (_folder, library) = library();
+        let mut num_loads = 0;
+        let load = library.load_unchanged(|entries| {
+            num_loads += 1;
+            if num_loads == 1 {
+                let replaced = library.replace_all::<()>(|building| {
+                    write_shipped(building)?;
+                    Ok(Ok(()))
+                });
+                replaced.expect("written").expect("not refused");
+                let door = "front_door".parse().expect("a name");
+                library.remove(&door).expect("removed");
+            }
+            quick(entries)
+        });
+        let load = load.expect("listed");
+        assert!(load.problems.is_empty(), "{:?}", load.problems);
+        assert_eq!((load.parts.len(), num_loads), (7, 2));
+    }
+
+    #[test]
+    fn a_part_that_is_changed_in_its_place_while_it_is_read_is_read_again() {
+        let (_folder, library) = library();
+        let mut num_loads = 0;
+        let load = library.load_unchanged(|entries| {
+            num_loads += 1;
+            let load = quick(entries);
+            if num_loads == 1 {
+                let name = "fender".parse().expect("a name");
+                let words = PartNaming {
+                    title: "Mudguard".into(),
+                    ..library.words(&name).expect("there")
+                };
+                library.rename(&name, &words).expect("renamed");
+            }
+            load
+        });
+        let load = load.expect("listed");
+        assert!(load.parts.iter().any(|part| part.title == "Mudguard"));
+    }
+
+    #[test]
+    fn a_library_that_never_rests_is_read_nevertheless() {
+        let (folder, library) = library();
+        let mut num_loads = 0;
+        let load = library.load_unchanged(|_| {
+            num_loads += 1;
+            fs::create_dir(folder.path().join(format!("part_{num_loads}"))).expect("made");
+            LibraryLoad::default()
+        });
+        load.expect("listed");
+        assert_eq!(num_loads, MAX_LOADS);
+    }
 }

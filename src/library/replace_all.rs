@@ -35,6 +35,9 @@ impl LibraryFolder {
     /// Puts the parts that `build` writes into an empty folder in the place of all others; files beside them take the
     /// place of those of the same name. Where `build` refuses, everything stays as it is. Says where the former parts
     /// lie in the trash now.
+    ///
+    /// An error may also come after the rename that makes the new parts the library: they count all the same, and the
+    /// next writer tidies up.
     pub fn replace_all<E>(
         &self,
         build: impl FnOnce(&Path) -> io::Result<Result<(), E>>,
@@ -85,7 +88,8 @@ impl LibraryFolder {
         if replacement.is_dir() {
             for name in self.leaving(&replacement)? {
                 let former = self.path().join(&name);
-                if has_same_files(&former, &replacement.join(&name))? {
+                // A former part that cannot be read may differ, and must not stop every later writer.
+                if has_same_files(&former, &replacement.join(&name)).unwrap_or(false) {
                     // Under a name by which it is cleared away, because removing a folder can be interrupted.
                     disk::rename(&former, self.path().join(format!("{NEW_PREFIX}{name}")))?;
                 } else {

@@ -3,7 +3,7 @@
 //! The file of a path is named after its checksum, which `part.toml` contains: a new path is written next to the old
 //! one and becomes valid when `part.toml` names it; then the old one is deleted. At any moment one of them is complete.
 
-use std::{fs, path::Path};
+use std::{fs, io, path::Path};
 
 use super::{
     entry::{SPRAY_PREFIX, rewrite_meta},
@@ -35,41 +35,50 @@ impl LibraryFolder {
         self.entry(name.as_str())?;
         self.writing(|| {
             self.finish_interrupted_write()?;
-            let meta = self.entry(name.as_str()).and_then(|entry| {
-                meta_of(&entry).map_err(|problem| LibraryError::Damaged(Box::new(problem)))
-            });
-            let meta = match meta {
-                Ok(meta) => meta,
-                Err(error) => return Ok(Err(error)),
-            };
-            let folder = self.path().join(name.as_str());
-            let text = path.map(SprayPath::to_text);
-            let check = path.zip(text.as_ref());
-            let check = check.map(|(path, text)| SprayCheck::of(text, path.points().len()));
-            let file_name = check.as_ref().and_then(SprayCheck::file_name);
-            if let (Some(text), Some(file_name)) = (&text, &file_name) {
-                write_file(&folder.join(file_name), text.as_bytes())?;
-            }
-            rewrite_meta(
-                &folder,
-                &PartMeta {
-                    spray: check,
-                    ..meta
-                },
-            )?;
-            for found in fs::read_dir(&folder)? {
-                let found = found?.path();
-                let other = found
-                    .file_name()
-                    .and_then(|n| n.to_str())
-                    .filter(|n| n.starts_with(SPRAY_PREFIX) && Some(*n) != file_name.as_deref());
-                if other.is_some() {
-                    disk::remove_file(&found)?;
-                }
-            }
-            sync_folder(&folder)?;
-            Ok(Ok(()))
+            self.write_spray_path(name, path)
         })?
+    }
+
+    /// As [`Self::set_spray_path`], but without the lock: for a library that is being built, which no one else knows.
+    pub fn write_spray_path(
+        &self,
+        name: &PartName,
+        path: Option<&SprayPath>,
+    ) -> io::Result<Result<(), LibraryError>> {
+        let meta = self.entry(name.as_str()).and_then(|entry| {
+            meta_of(&entry).map_err(|problem| LibraryError::Damaged(Box::new(problem)))
+        });
+        let meta = match meta {
+            Ok(meta) => meta,
+            Err(error) => return Ok(Err(error)),
+        };
+        let folder = self.path().join(name.as_str());
+        let text = path.map(SprayPath::to_text);
+        let check = path.zip(text.as_ref());
+        let check = check.map(|(path, text)| SprayCheck::of(text, path.points().len()));
+        let file_name = check.as_ref().and_then(SprayCheck::file_name);
+        if let (Some(text), Some(file_name)) = (&text, &file_name) {
+            write_file(&folder.join(file_name), text.as_bytes())?;
+        }
+        rewrite_meta(
+            &folder,
+            &PartMeta {
+                spray: check,
+                ..meta
+            },
+        )?;
+        for found in fs::read_dir(&folder)? {
+            let found = found?.path();
+            let other = found
+                .file_name()
+                .and_then(|n| n.to_str())
+                .filter(|n| n.starts_with(SPRAY_PREFIX) && Some(*n) != file_name.as_deref());
+            if other.is_some() {
+                disk::remove_file(&found)?;
+            }
+        }
+        sync_folder(&folder)?;
+        Ok(Ok(()))
     }
 }
 

@@ -23,7 +23,7 @@ use partsight::{
 };
 use rand::{RngExt as _, SeedableRng as _};
 
-use self::s3::{ForgetfulServer, S3Server};
+use self::s3::{Fault, FaultyServer, S3Server};
 
 /// A secret that no message may contain.
 const SECRET: &str = "Zk3-secret-of-the-bucket";
@@ -247,7 +247,7 @@ fn of_two_programs_that_publish_to_s3_at_once_none_writes_over_the_other() {
 
 #[test]
 fn a_store_that_writes_over_what_is_there_is_not_published_to() {
-    let server = ForgetfulServer::start();
+    let server = FaultyServer::start(Fault::WritesOver);
     let plant = Plant::at(server.endpoint());
     let publish = ["publish", "--to", "s3://parts", "--key", "keys/library.key"];
     let text = plant.refused(&[&publish[..], &["--library", "parts"]].concat());
@@ -257,6 +257,144 @@ fn a_store_that_writes_over_what_is_there_is_not_published_to() {
     assert!(
         written.iter().all(|name| !name.contains("manifests")),
         "{written:?}"
+    );
+}
+
+#[test]
+fn a_version_counts_though_the_answer_of_the_store_was_lost() {
+    let server = FaultyServer::start(Fault::LosesAnswers);
+    let plant = Plant::at(server.endpoint());
+    let published = plant.publish("s3://parts");
+    assert!(
+        published.starts_with("Published version 1: parts: 3\n"),
+        "{published}"
+    );
+    let written = server.written();
+    assert!(
+        written.iter().any(|name| name.contains("manifests")),
+        "{written:?}"
+    );
+}
+
+#[test]
+fn what_a_store_refuses_is_said_in_words_with_what_to_do() {
+    for (status, code, words) in [
+        ("404 Not Found", "NoSuchBucket", "there is no such bucket"),
+        ("403 Forbidden", "InvalidAccessKeyId", "AWS_ACCESS_KEY_ID"),
+        (
+            "403 Forbidden",
+            "AccessDenied",
+            "permission to list and read",
+        ),
+        ("301 Moved Permanently", "PermanentRedirect", "AWS_REGION"),
+        (
+            "503 Service Unavailable",
+            "SlowDown",
+            "503 Service Unavailable, SlowDown",
+        ),
+    ] {
+        let server = FaultyServer::start(Fault::Refuses(status, code));
+        let plant = Plant::at(server.endpoint());
+        let text = plant.refused(&take_from("s3://parts"));
+        assert!(
+            text.contains("error: s3://parts: cannot list the versions: "),
+            "{text}"
+        );
+        assert!(text.contains(words), "{text}");
+        for internal in ["<?xml", "Generic", "retries", "http://"] {
+            assert!(!text.contains(internal), "{text}");
+        }
+    }
+}
+
+#[test]
+fn an_endpoint_without_encryption_needs_permission_and_a_wrong_one_is_named() {
+    let mut plant = Plant::new();
+    plant.endpoint = Some(s3::closed_endpoint());
+    let mut command = plant.command(&take_from("s3://parts"));
+    let (code, text) = said(&command.env_remove("AWS_ALLOW_HTTP").output().expect("ran"));
+    assert_eq!(code, Some(2), "{text}");
+    assert!(
+        text.contains("nothing would be encrypted") && text.contains("https://"),
+        "{text}"
+    );
+    plant.endpoint = Some("minio:9000".into());
+    let text = plant.refused(&take_from("s3://parts"));
+    assert!(text.contains("AWS_ENDPOINT is \"minio:9000\""), "{text}");
+}
+
+#[test]
+fn the_versions_of_a_store_are_listed_with_the_one_that_is_here() {
+    let plant = Plant::new();
+    fs::create_dir(plant.path("store")).expect("made");
+    plant.publish("store");
+    plant.accepted(&take_from("store"));
+    plant.accepted(&["remove", "fender", "--library", "parts"]);
+    plant.publish("store");
+    let versions = ["versions", "store", "--library", "cell"];
+    let listed = plant.accepted(&versions);
+    let lines: Vec<&str> = listed.lines().collect();
+    let [heading, second, first] = lines[..] else {
+        panic!("{listed}");
+    };
+    assert!(heading.starts_with("VERSION  PUBLISHED"), "{listed}");
+    assert!(
+        second.starts_with("2 ") && !second.contains("taken"),
+        "{listed}"
+    );
+    assert!(
+        first.starts_with("1 ") && first.contains("taken"),
+        "{listed}"
+    );
+    let json = plant.accepted(&[&versions[..], &["--json"]].concat());
+    let lines = json
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("JSON"));
+    let lines: Vec<serde_json::Value> = lines.collect();
+    let fields = lines.iter().map(|line| {
+        assert_eq!(line["note"], "tried");
+        let number = |name: &str| line[name].as_u64().expect("a number");
+        (
+            number("version"),
+            number("num_parts"),
+            line["taken"] == true,
+        )
+    });
+    let fields: Vec<_> = fields.collect();
+    assert_eq!(fields, [(2, 2, false), (1, 3, true)]);
+
+    fs::write(plant.path("store/manifests/0000000002.txt"), "x").expect("written");
+    let (code, text) = plant.run(&versions);
+    assert_eq!(code, Some(1), "{text}");
+    assert!(text.contains("the manifest is damaged"), "{text}");
+    // The publisher took nothing.
+    let version = plant.accepted(&["version", "--library", "parts"]);
+    assert!(
+        version.contains("no version was taken into this library")
+            && version.contains("partsight library versions STORE"),
+        "{version}"
+    );
+}
+
+#[test]
+fn a_spray_path_of_a_cell_is_no_obstacle_and_stays() {
+    let plant = Plant::new();
+    fs::create_dir(plant.path("store")).expect("made");
+    plant.publish("store");
+    plant.accepted(&take_from("store"));
+    let table =
+        "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n0,0,1150,0,0,1\n";
+    fs::write(plant.path("path.csv"), table).expect("written");
+    // Wherever it lies over the part, it is stored.
+    let (_, text) = plant.run(&["path", "grille", "path.csv", "--library", "cell"]);
+    assert!(text.contains("Stored path.csv with grille"), "{text}");
+    plant.publish("store");
+    let taken = plant.accepted(&take_from("store"));
+    assert!(taken.contains("  kept path grille\n"), "{taken}");
+    let version = plant.accepted(&["version", "--library", "cell"]);
+    assert!(
+        version.contains("  changed   grille (spray path stored here)\n"),
+        "{version}"
     );
 }
 

@@ -1,6 +1,7 @@
 //! S3 servers that the tests start.
 
 use std::{
+    collections::BTreeMap,
     io::{BufRead as _, BufReader, Read as _, Write as _},
     net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream},
     process::{Child, Command, Stdio},
@@ -83,25 +84,39 @@ impl Drop for S3Server {
     }
 }
 
-/// A server with an empty bucket that accepts every write, like stores that do not know `If-None-Match`.
-pub(crate) struct ForgetfulServer {
-    address: SocketAddr,
-    written: Arc<Mutex<Vec<String>>>,
+/// What is wrong with a [`FaultyServer`].
+#[derive(Clone, Copy)]
+pub(crate) enum Fault {
+    /// It writes over what is there, like stores that do not know `If-None-Match`.
+    WritesOver,
+    /// It keeps a manifest, and closes the connection instead of answering.
+    LosesAnswers,
+    /// It answers every request with this status and this code of S3.
+    Refuses(&'static str, &'static str),
 }
 
-impl ForgetfulServer {
+/// Names and contents of a store's objects.
+type Objects = BTreeMap<String, Vec<u8>>;
+
+/// A server with a bucket that never lists anything.
+pub(crate) struct FaultyServer {
+    address: SocketAddr,
+    objects: Arc<Mutex<Objects>>,
+}
+
+impl FaultyServer {
     /// Starts the server; its thread ends with the test program.
-    pub(crate) fn start() -> Self {
+    pub(crate) fn start(fault: Fault) -> Self {
         let socket = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a free port");
         let address = socket.local_addr().expect("its address");
-        let written = Arc::new(Mutex::new(Vec::new()));
-        let theirs = Arc::clone(&written);
+        let objects = Arc::new(Mutex::new(Objects::new()));
+        let theirs = Arc::clone(&objects);
         thread::spawn(move || {
             for stream in socket.incoming() {
-                answer(stream.expect("a connection"), &theirs);
+                answer(stream.expect("a connection"), fault, &theirs);
             }
         });
-        Self { address, written }
+        Self { address, objects }
     }
 
     pub(crate) fn endpoint(&self) -> String {
@@ -110,17 +125,19 @@ impl ForgetfulServer {
 
     /// The names of all objects that were written.
     pub(crate) fn written(&self) -> Vec<String> {
-        self.written.lock().expect("no panic").clone()
+        let objects = self.objects.lock().expect("no panic");
+        objects.keys().cloned().collect()
     }
 }
 
 /// Answers one request and closes the connection.
-fn answer(stream: TcpStream, written: &Mutex<Vec<String>>) {
-    const EMPTY: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?><ListBucketResult><Name>parts</Name>\
-                         <KeyCount>0</KeyCount><IsTruncated>false</IsTruncated></ListBucketResult>";
+fn answer(stream: TcpStream, fault: Fault, objects: &Mutex<Objects>) {
+    const NOTHING: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?><ListBucketResult><Name>parts</Name>\
+                           <KeyCount>0</KeyCount><IsTruncated>false</IsTruncated></ListBucketResult>";
     let mut reader = BufReader::new(stream);
     let mut request = String::new();
     let mut length = 0;
+    let mut is_new = false;
     loop {
         let mut line = String::new();
         if reader.read_line(&mut line).unwrap_or(0) == 0 {
@@ -130,6 +147,7 @@ fn answer(stream: TcpStream, written: &Mutex<Vec<String>>) {
         if let Some(value) = header.strip_prefix("content-length:") {
             length = value.trim().parse().expect("a number");
         }
+        is_new |= header.starts_with("if-none-match:");
         if request.is_empty() {
             request = line;
         } else if header.is_empty() {
@@ -140,17 +158,34 @@ fn answer(stream: TcpStream, written: &Mutex<Vec<String>>) {
     reader.read_exact(&mut body).expect("the body");
     let mut words = request.split(' ');
     let (method, path) = (words.next(), words.next().expect("a path"));
-    let content = if method == Some("PUT") {
-        written.lock().expect("no panic").push(path.to_owned());
-        ""
-    } else {
-        EMPTY
+    let mut objects = objects.lock().expect("no panic");
+    let (status, content) = match (fault, method) {
+        (Fault::Refuses(status, code), _) => {
+            let text = format!("<?xml version=\"1.0\"?><Error><Code>{code}</Code></Error>");
+            (status, text.into_bytes())
+        }
+        (Fault::LosesAnswers, Some("PUT")) if is_new && objects.contains_key(path) => {
+            ("412 Precondition Failed", Vec::new())
+        }
+        (_, Some("PUT")) => {
+            objects.insert(path.to_owned(), body);
+            if matches!(fault, Fault::LosesAnswers) && path.contains("manifests") {
+                return;
+            }
+            ("200 OK", Vec::new())
+        }
+        _ if path.contains("list-type") => ("200 OK", NOTHING.into()),
+        _ => match objects.get(path) {
+            Some(content) => ("200 OK", content.clone()),
+            None => ("404 Not Found", Vec::new()),
+        },
     };
     let head = format!(
-        "HTTP/1.1 200 OK\r\nETag: \"1\"\r\nContent-Type: application/xml\r\nContent-Length: {}\r\nConnection: close\r\n\r\n",
+        "HTTP/1.1 {status}\r\nETag: \"1\"\r\nLast-Modified: Fri, 20 Nov 2026 10:00:00 GMT\r\n\
+         Content-Length: {}\r\nConnection: close\r\n\r\n",
         content.len()
     );
     let mut stream = reader.into_inner();
-    let sent = stream.write_all((head + content).as_bytes());
+    let sent = stream.write_all(&[head.as_bytes(), &content].concat());
     sent.expect("sent");
 }

@@ -18,6 +18,7 @@ import os
 import socket
 import uuid
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -136,7 +137,12 @@ class _Store:
         """Removes what writers left that were killed."""
         for name in self.names(folder):
             if name.endswith(ending):
-                self.fs.delete_file(self.at(f"{folder}/{name}"))
+                self.remove(f"{folder}/{name}".lstrip("/"))
+
+    def remove(self, name: str) -> None:
+        """Removes a file, unless another worker has done so already."""
+        with suppress(FileNotFoundError):
+            self.fs.delete_file(self.at(name))
 
     def open_new(self, name: str) -> tuple[Any, str]:
         """A stream to a temporary file, and its path."""
@@ -280,7 +286,7 @@ class _Judge:
             tried = self._note_try(asked)
             self.judge(asked)
             for name in tried:
-                self.results.fs.delete_file(self.results.at(name))
+                self.results.remove(name)
         return batch
 
     def _note_try(self, batch: _Batch) -> list[str]:
@@ -347,7 +353,7 @@ class _Run:
             with self.results.parquet(f"{_PARTS}/{batch.part}") as part:
                 return bool(part.metadata.num_rows == num_cases)
         except (OSError, _needed("pyarrow").ArrowInvalid):
-            self.results.fs.delete_file(self.results.at(f"{_PARTS}/{batch.part}"))
+            self.results.remove(f"{_PARTS}/{batch.part}")
             return False
 
     def report(self, num_threads: int) -> Report:

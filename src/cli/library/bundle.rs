@@ -1,17 +1,19 @@
-//! `partsight library keys`, `publish`, `take` and `version`: one library for many cells.
+//! `partsight library keys`, `publish`, `take`, `version` and `versions`: one library for many cells.
 
 use std::path::PathBuf;
 
 use clap::Args;
+use jiff::Timestamp;
+use serde::Serialize;
 
-use super::{Console, LibraryChoice, Outcome};
+use super::{Console, LibraryChoice, Outcome, Table};
 use crate::{
     cli::console::Advised as _,
     files::file_name,
     library::{LibraryFolder, LibraryPlace, PartName, PartNumbers},
     plant::bundle::{
         self, BundleError, BundleStore, Installed, KeyFiles, LocalPart, LocalParts, Manifest,
-        SigningKey, StoreAddress, Take, TakenBundle, TrustedKey, make_keys,
+        PublishedVersion, SigningKey, StoreAddress, Take, TakenBundle, TrustedKey, make_keys,
     },
 };
 
@@ -60,7 +62,8 @@ Examples:
   partsight library take --from s3://parts/hall-3 --trust library.pub --version 6
 
 Signature, digest and every part are checked before anything is changed. Parts that the version replaces are moved to the
-library's .trash. Inspections do not need the store: they use the installed library. A running program keeps the library
+library's .trash. A spray path that was stored here stays with its part if the version has the same reference of the part
+and no path for it. Inspections do not need the store: they use the installed library. A running program keeps the library
 that it read at its start; only the window, and serve --take, notice the change by themselves.")]
 pub(super) struct TakeArgs {
     /// The store, as for publish (partsight library publish --help)
@@ -72,9 +75,27 @@ pub(super) struct TakeArgs {
     /// Take this version, even an older one; default: the newest, if it is newer than the installed one
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     version: Option<u32>,
-    /// Also move parts that were enrolled or changed here to the library's .trash
+    /// Also move parts to the library's .trash that were enrolled or changed here, or whose spray path does not fit the version
     #[arg(long)]
     replace: bool,
+}
+
+/// List the versions in a store, the newest first; exit code 1 if one of them is damaged
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight library versions /mnt/plant/library
+  partsight library versions s3://parts/hall-3 --json
+
+KEY is the beginning of the public key's SHA-256, as library keys shows it: only library take checks it against the key
+that you trust. HERE marks the version that the library was taken from.")]
+pub(super) struct VersionsArgs {
+    /// The store, as for publish (partsight library publish --help)
+    #[arg(value_name = "STORE")]
+    store: String,
+    /// Write a line of JSON per version
+    #[arg(long)]
+    json: bool,
 }
 
 pub(super) fn make(args: &KeysArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -138,7 +159,11 @@ pub(super) fn take(
                 manifest.version
             ));
         }
-        Installed::New { manifest, trashed } => {
+        Installed::New {
+            manifest,
+            trashed,
+            kept_paths,
+        } => {
             let Manifest {
                 version, num_parts, ..
             } = manifest;
@@ -150,6 +175,9 @@ pub(super) fn take(
             }
             for kept in trashed {
                 console.entry("in .trash", &file_name(&kept));
+            }
+            for part in kept_paths {
+                console.entry("kept path", &part);
             }
             note_other_numbers(&library, &manifest.numbers, console)?;
         }
@@ -187,9 +215,10 @@ pub(super) fn version(choice: &LibraryChoice, console: &mut Console) -> anyhow::
     let taken = place.folder().map(TakenBundle::of).transpose().advised()?;
     let (Some(folder), Some(taken)) = (place.folder(), taken.flatten()) else {
         console.line(&format_args!(
-            "{}: not taken from a store",
+            "{}: no version was taken into this library",
             place.location()
         ));
+        console.note(&"  to do: See which versions a store has: partsight library versions STORE");
         return Ok(Outcome::Accepted);
     };
     let manifest = &taken.manifest;
@@ -207,6 +236,90 @@ pub(super) fn version(choice: &LibraryChoice, console: &mut Console) -> anyhow::
         console.entry("changed", &names.join(", "));
     }
     Ok(Outcome::Accepted)
+}
+
+/// A version of a store, as `versions --json` writes it.
+#[derive(Serialize)]
+struct VersionLine<'a> {
+    version: u32,
+    /// Null in a version that cannot be read, as all that follows but `taken` and `damage`.
+    published_at: Option<Timestamp>,
+    num_parts: Option<usize>,
+    bytes: Option<u64>,
+    note: Option<&'a str>,
+    /// As messages show it.
+    key: Option<String>,
+    /// Whether the library was taken from it.
+    taken: bool,
+    /// Why it cannot be read; null if it can.
+    damage: Option<String>,
+}
+
+pub(super) fn versions(
+    choice: &LibraryChoice,
+    args: &VersionsArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let store = open_store(&args.store)?;
+    let place = choice.open(console)?;
+    let taken = match place.folder().map(TakenBundle::of).transpose() {
+        Ok(taken) => taken.flatten(),
+        Err(error) => {
+            console.warn(&error, &error);
+            None
+        }
+    };
+    let versions = bundle::versions(&store).advised()?;
+    if versions.is_empty() && !args.json {
+        console.line(&format_args!(
+            "{}: no version was published",
+            store.address()
+        ));
+    }
+    let mut table = Table::new(&["VERSION", "PUBLISHED", "PARTS", "KEY", "HERE", "NOTE"]);
+    let mut outcome = Outcome::Accepted;
+    for PublishedVersion { version, manifest } in &versions {
+        let damage = manifest.as_ref().err();
+        if let Some(error) = damage {
+            outcome = Outcome::NotAccepted;
+            console.warn(error, error);
+        }
+        let known = manifest.as_ref().ok();
+        let line = VersionLine {
+            version: *version,
+            published_at: known.map(|(manifest, _)| manifest.published_at),
+            num_parts: known.map(|(manifest, _)| manifest.num_parts),
+            bytes: known.map(|(manifest, _)| manifest.bundle.bytes),
+            note: known.map(|(manifest, _)| manifest.note.as_str()),
+            key: known.map(|(_, key)| key.to_string()),
+            taken: (taken.as_ref().zip(known))
+                .is_some_and(|(taken, (manifest, key))| taken.is_of(manifest, *key)),
+            damage: damage.map(ToString::to_string),
+        };
+        if args.json {
+            console.line(&serde_json::to_string(&line)?);
+            continue;
+        }
+        let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".into());
+        let published = (line.published_at).map(|at| at.strftime(MINUTE).to_string());
+        table.row([
+            version.to_string(),
+            or_dash(published),
+            or_dash(line.num_parts.map(|num| num.to_string())),
+            or_dash(line.key),
+            if line.taken { "taken" } else { "" }.to_owned(),
+            line.note.map_or("cannot be read", first_line).to_owned(),
+        ]);
+    }
+    if !versions.is_empty() && !args.json {
+        table.show(console);
+    }
+    Ok(outcome)
+}
+
+/// A note may have several lines, a row of a table has one.
+fn first_line(note: &str) -> &str {
+    note.lines().next().unwrap_or_default()
 }
 
 /// Which published version a library was taken from, in words. Without one that can be read, it is not shown.

@@ -1,12 +1,13 @@
 //! How the store's client speaks HTTP: over hyper and rustls, as the rest of the program does.
 
-use std::{fmt, io, time::Duration};
+use std::{fmt, time::Duration};
 
 use async_trait::async_trait;
-use http_body_util::BodyExt as _;
+use http_body_util::{BodyExt as _, Collected, Limited};
+use hyper::{Response, StatusCode, body::Incoming};
 use hyper_rustls::{HttpsConnector, HttpsConnectorBuilder};
 use hyper_util::{
-    client::legacy::{self, Client, connect::HttpConnector as TcpConnector},
+    client::legacy::{Client, connect::HttpConnector as TcpConnector},
     rt::TokioExecutor,
 };
 use object_store::{
@@ -18,6 +19,7 @@ use object_store::{
 };
 use tokio::time::timeout;
 
+use super::store_error::StoreError;
 use crate::plant::credentials::{client_config, system_roots};
 
 /// How long a connection may take to open.
@@ -26,6 +28,10 @@ const CONNECT_TIMEOUT: Duration = Duration::from_secs(10);
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(30);
 /// The slowest network that bundles go over, in bytes per second.
 const SLOWEST: u64 = 1 << 16;
+/// The largest answer that is read for the code of an error, in bytes.
+const MAX_ERROR_BYTES: usize = 1 << 16;
+/// Where a machine in Amazon's cloud gets its credentials, if the environment has none.
+const CREDENTIALS_HOST: &str = "169.254.169.254";
 
 /// How long so many bytes may take.
 pub(super) fn patience(bytes: u64) -> Duration {
@@ -48,24 +54,24 @@ impl HttpConnector for Connector {
             let yes = ["1", "true", "on", "yes", "y"];
             yes.contains(&value.to_lowercase().as_str())
         });
-        let https = HttpsConnectorBuilder::new().with_tls_config(config);
-        let https = if is_http_allowed {
-            https.https_or_http()
-        } else {
-            https.https_only()
-        };
         let mut tcp = TcpConnector::new();
-        // The one around it says which of both are allowed.
+        // The connector around it opens both.
         tcp.enforce_http(false);
         tcp.set_connect_timeout(Some(CONNECT_TIMEOUT));
         let client = Client::builder(TokioExecutor::new());
-        let client = client.build(https.enable_http1().wrap_connector(tcp));
-        Ok(HttpClient::new(Service { client }))
+        let https = HttpsConnectorBuilder::new().with_tls_config(config);
+        // The service refuses what is not allowed: its error is in words.
+        let client = client.build(https.https_or_http().enable_http1().wrap_connector(tcp));
+        Ok(HttpClient::new(Service {
+            client,
+            is_http_allowed,
+        }))
     }
 }
 
 struct Service {
     client: Client<HttpsConnector<TcpConnector>, HttpRequestBody>,
+    is_http_allowed: bool,
 }
 
 impl fmt::Debug for Service {
@@ -77,25 +83,72 @@ impl fmt::Debug for Service {
 #[async_trait]
 impl HttpService for Service {
     async fn call(&self, request: HttpRequest) -> Result<HttpResponse, HttpError> {
-        let patience = patience(request.body().content_length() as u64);
-        let answer = timeout(patience, self.client.request(request)).await;
-        let answer = answer.map_err(|late| HttpError::new(HttpErrorKind::Timeout, late))?;
-        let (head, body) = answer.map_err(|error| wrong(&error))?.into_parts();
-        let body = body.map_err(|error| HttpError::new(HttpErrorKind::Interrupted, error));
-        Ok(HttpResponse::from_parts(head, HttpResponseBody::new(body)))
+        let uri = request.uri();
+        if uri.scheme_str() == Some("http") && !self.is_http_allowed {
+            let error = StoreError::Unencrypted;
+            return Err(HttpError::new(HttpErrorKind::Unknown, error));
+        }
+        let host = uri.authority().map(ToString::to_string).unwrap_or_default();
+        let is_for_credentials = uri.host() == Some(CREDENTIALS_HOST);
+        let answer = self.send(request, &host).await;
+        if !is_for_credentials {
+            return in_words(answer?, host).await;
+        }
+        match answer {
+            Ok(answer) if answer.status() != StatusCode::NOT_FOUND => Ok(passed_on(answer, host)),
+            // Not tried again: whoever has set no credentials waits for a message.
+            _ => Err(HttpError::new(
+                HttpErrorKind::Unknown,
+                StoreError::NoCredentials,
+            )),
+        }
     }
 }
 
-/// What went wrong, in the words of its cause: those around it say no more than that something did.
-fn wrong(error: &legacy::Error) -> HttpError {
-    let kind = if error.is_connect() {
-        HttpErrorKind::Connect
-    } else {
-        HttpErrorKind::Interrupted
-    };
-    let mut cause: &dyn std::error::Error = error;
-    while let Some(deeper) = cause.source() {
-        cause = deeper;
+impl Service {
+    async fn send(
+        &self,
+        request: HttpRequest,
+        host: &str,
+    ) -> Result<Response<Incoming>, HttpError> {
+        let patience = patience(request.body().content_length() as u64);
+        let answer = timeout(patience, self.client.request(request)).await;
+        let answer = answer.map_err(|late| HttpError::new(HttpErrorKind::Timeout, late))?;
+        answer.map_err(|error| {
+            let kind = if error.is_connect() {
+                HttpErrorKind::Connect
+            } else {
+                HttpErrorKind::Interrupted
+            };
+            HttpError::new(kind, StoreError::of_connection(host, &error))
+        })
     }
-    HttpError::new(kind, io::Error::other(cause.to_string()))
+}
+
+/// The answer, or an error in words where the client has none of its own.
+async fn in_words(answer: Response<Incoming>, host: String) -> Result<HttpResponse, HttpError> {
+    if answer.status().is_success() {
+        return Ok(passed_on(answer, host));
+    }
+    let (head, body) = answer.into_parts();
+    // What cannot be read of it says no more than the status.
+    let body = Limited::new(body, MAX_ERROR_BYTES).collect().await;
+    let body = body.map(Collected::to_bytes).unwrap_or_default();
+    match StoreError::of_answer(head.status, &body) {
+        // The client tries again.
+        Some(error) if head.status.is_server_error() => {
+            Err(HttpError::new(HttpErrorKind::Request, error))
+        }
+        Some(error) => Err(HttpError::new(HttpErrorKind::Unknown, error)),
+        None => Ok(HttpResponse::from_parts(head, body.into())),
+    }
+}
+
+fn passed_on(answer: Response<Incoming>, host: String) -> HttpResponse {
+    let (head, body) = answer.into_parts();
+    let broken = move |error: hyper::Error| {
+        let error = StoreError::of_connection(&host, &error);
+        HttpError::new(HttpErrorKind::Interrupted, error)
+    };
+    HttpResponse::from_parts(head, HttpResponseBody::new(body.map_err(broken)))
 }

@@ -1,17 +1,19 @@
 //! Why a library could not be published or taken.
 
-use std::{fmt, io, path::PathBuf};
+use std::{io, path::PathBuf};
 
 use thiserror::Error;
 
-use super::{keys::TrustedKey, store::StoreAddress};
+use super::{keys::TrustedKey, local::LocalPart, store::StoreAddress, store_error::StoreError};
 use crate::{
     error::Advice,
     files::{FileError, advice_on, words_of},
-    library::{EntryProblem, EntryWarning, LibraryError, PartName},
+    library::{EntryProblem, EntryWarning, LibraryError},
 };
 
-/// Why a library could not be published or taken. The library and the versions in the store are as they were before.
+/// Why a library could not be published or taken. The library and the versions in the store are as they were before, with
+/// two exceptions: after the last rename of [`take`](fn@super::take) the new version counts, and where the store stopped
+/// answering [`publish`](fn@super::publish), only the store knows whether it has the version.
 #[derive(Debug, Error)]
 pub enum BundleError {
     /// A text is no store.
@@ -23,14 +25,14 @@ pub enum BundleError {
         reason: &'static str,
     },
     /// The store cannot be reached, or refuses.
-    #[error("{store}: {doing}: {reason}")]
+    #[error("{store}: {doing}: {source}")]
     Store {
         /// Which.
         store: StoreAddress,
         /// What was tried, such as `cannot list the versions`.
         doing: &'static str,
-        /// What its client says.
-        reason: String,
+        /// Why.
+        source: Box<StoreError>,
     },
     /// The store writes over what is there, though it was asked not to.
     #[error(
@@ -156,8 +158,8 @@ pub enum BundleError {
         /// The version of the library.
         installed: u32,
     },
-    /// Parts would leave the library that are in no version taken before.
-    #[error("these parts are not from a version that was taken: {}", listed(parts))]
+    /// Parts or spray paths would leave the library that are in no version taken before.
+    #[error("the version would replace what was made here: {}", listed(parts))]
     LocalParts {
         /// Which, and what became of them since.
         parts: Vec<LocalPart>,
@@ -209,27 +211,6 @@ pub enum BundleError {
     Library(#[from] LibraryError),
 }
 
-/// A part of a library that differs from the version taken last.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum LocalPart {
-    /// It is not in that version.
-    Enrolled(String),
-    /// It is in that version, with other files.
-    Changed(String),
-    /// It is in that version, but not here.
-    Removed(PartName),
-}
-
-impl fmt::Display for LocalPart {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Enrolled(name) => write!(f, "{name} (enrolled here)"),
-            Self::Changed(name) => write!(f, "{name} (changed here)"),
-            Self::Removed(name) => write!(f, "{name} (removed here)"),
-        }
-    }
-}
-
 fn listed(parts: &[LocalPart]) -> String {
     let parts: Vec<String> = parts.iter().map(LocalPart::to_string).collect();
     parts.join(", ")
@@ -241,14 +222,7 @@ impl Advice for BundleError {
             Self::BadAddress { .. } => {
                 "Give a folder, or s3://BUCKET or s3://BUCKET/PREFIX".into()
             }
-            Self::Store {
-                store: StoreAddress::Folder(_),
-                ..
-            } => "Check that the folder exists, that its drive or share is connected, and that you may use it".into(),
-            Self::Store { .. } => {
-                "Check the network, the bucket and its name, and AWS_ENDPOINT, AWS_REGION, AWS_ACCESS_KEY_ID and \
-                 AWS_SECRET_ACCESS_KEY in the environment; the installed library works without the store".into()
-            }
+            Self::Store { source, .. } => source.advice(),
             Self::NoConditionalPut { .. } => {
                 "Publish to a folder, or to a store that knows If-None-Match, such as Amazon S3 or a recent MinIO".into()
             }
@@ -285,7 +259,7 @@ impl Advice for BundleError {
                 format!("Nothing needs to be done, unless you want to go back: then give --version {found}")
             }
             Self::LocalParts { .. } => {
-                "Publish them with the library, or take with --replace, which moves them to the library's .trash".into()
+                "Publish them with the library, or take with --replace, which moves these parts to the library's .trash".into()
             }
             Self::BadRecord { path, .. } => {
                 format!("Remove {}, then take the version again", path.display())

@@ -64,14 +64,22 @@ pub fn make_keys(folder: &Path) -> Result<KeyFiles, BundleError> {
         })?;
     let public = [&PUBLIC_KEY_PREFIX[..], pair.public_key().as_ref()].concat();
     disk::create_dir_all(folder).map_err(|source| FileError::writing(folder, source))?;
-    write_new(
-        &files.private,
+    write_pair(
+        &files,
         &pem("PRIVATE KEY", document.as_ref()),
-        0o600,
+        &pem("PUBLIC KEY", &public),
     )?;
-    write_new(&files.public, &pem("PUBLIC KEY", &public), 0o644)?;
     sync_folder(folder).map_err(|source| FileError::writing(folder, source))?;
     Ok(files)
+}
+
+/// Writes both keys, or none.
+fn write_pair(files: &KeyFiles, private: &str, public: &str) -> Result<(), FileError> {
+    write_new(&files.private, private, 0o600)?;
+    write_new(&files.public, public, 0o644).inspect_err(|_| {
+        // One key alone would stand in the way of the next try.
+        let _ = disk::remove_file(&files.private);
+    })
 }
 
 /// Writes a file that is not there yet.
@@ -221,6 +229,17 @@ mod tests {
         assert!(matches!(again, BundleError::KeyExists { .. }), "{again}");
         assert_eq!(fs::read(&files.private).expect("read"), before);
         assert!(!files.public.exists());
+    }
+
+    #[test]
+    fn no_private_key_is_left_without_its_public_one() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let files = KeyFiles {
+            private: folder.path().join("library.key"),
+            public: folder.path().join("missing/library.pub"),
+        };
+        write_pair(&files, "private", "public").expect_err("no folder for the public key");
+        assert!(!files.private.exists());
     }
 
     #[test]

@@ -85,15 +85,48 @@ impl Manifest {
         bytes: &[u8],
         trusted: TrustedKey,
     ) -> Result<Self, BundleError> {
-        /// What every format has.
-        #[derive(Deserialize)]
-        struct Versioned {
-            schema: u32,
+        let signed = SignedText::of(name, bytes)?;
+        if signed.key == trusted {
+            signed.manifest()
+        } else {
+            Err(BundleError::OtherKey {
+                name: name.to_owned(),
+                found: signed.key,
+                trusted,
+            })
         }
-        let damaged = |reason: &str| BundleError::BadManifest {
-            name: name.to_owned(),
-            reason: reason.to_owned(),
-        };
+    }
+
+    /// Of a published file, whichever key signed it, and that key: to be shown, not to be trusted.
+    pub(super) fn of_any_key(name: &str, bytes: &[u8]) -> Result<(Self, TrustedKey), BundleError> {
+        let signed = SignedText::of(name, bytes)?;
+        Ok((signed.manifest()?, signed.key))
+    }
+
+    /// This manifest, if it is of the version under whose number it was found.
+    pub(super) fn numbered(self, name: &str, version: u32) -> Result<Self, BundleError> {
+        if self.version == version {
+            Ok(self)
+        } else {
+            Err(BundleError::BadManifest {
+                name: name.to_owned(),
+                reason: format!("it is of version {}", self.version),
+            })
+        }
+    }
+}
+
+/// The three lines of a published file. Nothing of them was checked yet.
+struct SignedText<'a> {
+    /// For the errors.
+    name: &'a str,
+    json: &'a str,
+    key: TrustedKey,
+    signature: Vec<u8>,
+}
+
+impl<'a> SignedText<'a> {
+    fn of(name: &'a str, bytes: &'a [u8]) -> Result<Self, BundleError> {
         let text = str::from_utf8(bytes).ok();
         let lines = text.and_then(|text| text.strip_suffix('\n'));
         let lines: Vec<&str> = lines
@@ -101,36 +134,52 @@ impl Manifest {
             .flat_map(|text| text.split('\n'))
             .collect();
         let [json, key, signature] = lines[..] else {
-            return Err(damaged("expected three lines"));
+            return Err(damaged(name, "expected three lines"));
         };
         let decoded = |line: &str| STANDARD.decode(line).ok();
         let key = decoded(key).and_then(|bytes| TrustedKey::of_bytes(&bytes));
-        let key = key.ok_or_else(|| damaged("the second line is no key"))?;
-        if key != trusted {
-            return Err(BundleError::OtherKey {
-                name: name.to_owned(),
-                found: key,
-                trusted,
-            });
+        let key = key.ok_or_else(|| damaged(name, "the second line is no key"))?;
+        let signature = decoded(signature);
+        let signature = signature.ok_or_else(|| damaged(name, "the third line is no signature"))?;
+        Ok(Self {
+            name,
+            json,
+            key,
+            signature,
+        })
+    }
+
+    /// The manifest, if the signature is its key's.
+    fn manifest(&self) -> Result<Manifest, BundleError> {
+        /// What every format has.
+        #[derive(Deserialize)]
+        struct Versioned {
+            schema: u32,
         }
-        let signature =
-            decoded(signature).ok_or_else(|| damaged("the third line is no signature"))?;
-        if !trusted.is_signature(&signed_bytes(json), &signature) {
-            return Err(damaged("the signature is not one of this text"));
+        let name = self.name;
+        if !(self.key).is_signature(&signed_bytes(self.json), &self.signature) {
+            return Err(damaged(name, "the signature is not one of this text"));
         }
-        let wrong = |error: serde_json::Error| damaged(&error.to_string());
-        let Versioned { schema } = serde_json::from_str(json).map_err(wrong)?;
+        let wrong = |error: serde_json::Error| damaged(name, &error.to_string());
+        let Versioned { schema } = serde_json::from_str(self.json).map_err(wrong)?;
         if schema > SCHEMA {
             return Err(BundleError::Newer {
                 name: name.to_owned(),
             });
         }
-        let manifest: Self = serde_json::from_str(json).map_err(wrong)?;
+        let manifest: Manifest = serde_json::from_str(self.json).map_err(wrong)?;
         if is_sha256(&manifest.bundle.sha256) {
             Ok(manifest)
         } else {
-            Err(damaged("the bundle's SHA-256 is none"))
+            Err(damaged(name, "the bundle's SHA-256 is none"))
         }
+    }
+}
+
+fn damaged(name: &str, reason: &str) -> BundleError {
+    BundleError::BadManifest {
+        name: name.to_owned(),
+        reason: reason.to_owned(),
     }
 }
 
@@ -200,6 +249,10 @@ mod tests {
         let [theirs, ours] = [&other, &mine].map(|key| key.trusted().to_base64());
         let claimed = text.replace(&theirs, &ours);
         let error = Manifest::verified("7.txt", claimed.as_bytes(), mine.trusted());
+        assert!(matches!(error, Err(BundleError::BadManifest { .. })));
+        let (shown, key) = Manifest::of_any_key("7.txt", text.as_bytes()).expect("signed");
+        assert_eq!((shown.version, key), (7, other.trusted()));
+        let error = Manifest::of_any_key("7.txt", claimed.as_bytes());
         assert!(matches!(error, Err(BundleError::BadManifest { .. })));
     }
 

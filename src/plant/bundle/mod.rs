@@ -15,18 +15,24 @@ mod archive;
 mod connector;
 mod error;
 mod keys;
+mod local;
 mod manifest;
 mod publish;
 mod store;
+mod store_error;
 mod take;
+mod versions;
 
 pub use self::{
-    error::{BundleError, LocalPart},
+    error::BundleError,
     keys::{KeyFiles, SigningKey, TrustedKey, make_keys},
+    local::LocalPart,
     manifest::{BundleCheck, Manifest},
     publish::publish,
     store::{BundleStore, StoreAddress},
+    store_error::StoreError,
     take::{Installed, LocalParts, Take, TakenBundle, take},
+    versions::{PublishedVersion, versions},
 };
 
 /// The largest bundle, in bytes: a thousand parts. It is held in memory.

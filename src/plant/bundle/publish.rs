@@ -20,7 +20,8 @@ use crate::{
 /// published: every part is loaded from the packed bundle first. The note is for people, at most 2000 characters. The
 /// numbers of the parts are published with them; a part without one gets it now.
 ///
-/// Nothing was published where it fails, whatever of the bundle is left in the store: a version counts from its manifest on.
+/// A version counts from its manifest on, whatever of its bundle is in the store. Where this fails nothing was published,
+/// unless the store stopped answering while the manifest was written.
 pub fn publish(
     library: &LibraryFolder,
     store: &BundleStore,
@@ -66,7 +67,7 @@ pub fn publish(
     store.put_bundle(&check.sha256, bundle)?;
     let now = Timestamp::now();
     let manifest = Manifest::new(version, now, parts.len(), check, note, numbers);
-    if store.put_manifest(version, manifest.signed(key))? {
+    if store.put_manifest(version, &manifest.signed(key))? {
         Ok(manifest)
     } else {
         Err(BundleError::VersionTaken {

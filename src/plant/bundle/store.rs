@@ -7,9 +7,12 @@ use std::{
     time::Duration,
 };
 
+use hyper::Uri;
 use object_store::{
     BackoffConfig, GetOptions, ObjectStore, PutMode, PutOptions, PutPayload, RetryConfig,
-    aws::AmazonS3Builder, local::LocalFileSystem, path::Path,
+    aws::{AmazonS3Builder, AmazonS3ConfigKey},
+    local::LocalFileSystem,
+    path::Path,
 };
 use tokio::{
     runtime::{self, Runtime},
@@ -20,6 +23,7 @@ use super::{
     connector::{Connector, patience},
     error::BundleError,
     manifest,
+    store_error::StoreError,
 };
 
 /// Digits of a version in the name of its manifest.
@@ -83,6 +87,7 @@ impl FromStr for StoreAddress {
 fn without_secrets(text: &str) -> String {
     match (text.split_once("://"), text.rsplit_once('@')) {
         (Some((scheme, _)), Some((_, rest))) => format!("{scheme}://…@{rest}"),
+        (None, Some((_, rest))) => format!("…@{rest}"),
         _ => text.to_owned(),
     }
 }
@@ -114,10 +119,10 @@ impl BundleStore {
             StoreAddress::Folder(path) => (folder(path), Path::default()),
             StoreAddress::S3 { bucket, prefix } => (s3(bucket), Path::from(prefix.as_str())),
         };
-        let objects = objects.map_err(|error| BundleError::Store {
+        let objects = objects.map_err(|source| BundleError::Store {
             store: address.clone(),
             doing: "cannot be used",
-            reason: reason_of(&error),
+            source: Box::new(source),
         })?;
         Ok(Self {
             address,
@@ -134,18 +139,23 @@ impl BundleStore {
 
     /// The number of the newest version; none where nothing was published.
     pub(super) fn newest(&self) -> Result<Option<u32>, BundleError> {
+        Ok(self.versions()?.into_iter().max())
+    }
+
+    /// The numbers of all versions, in no order.
+    pub(super) fn versions(&self) -> Result<Vec<u32>, BundleError> {
         let folder = self.prefix.clone().join("manifests");
         let listed = self.run(patience(0), self.objects.list_with_delimiter(Some(&folder)));
         let listed = match listed {
             // Of a store that is a folder, nothing was published yet.
-            Err(object_store::Error::NotFound { .. }) => return Ok(None),
+            Err(object_store::Error::NotFound { .. }) => return Ok(Vec::new()),
             listed => listed.map_err(|error| self.wrong("cannot list the versions", &error))?,
         };
         let names = listed
             .objects
             .iter()
             .filter_map(|found| found.location.filename());
-        Ok(names.filter_map(version_of).max())
+        Ok(names.filter_map(version_of).collect())
     }
 
     /// The manifest of a version, as it lies there; none if there is no such version.
@@ -153,15 +163,22 @@ impl BundleStore {
         self.get(&manifest_name(version), manifest::MAX_BYTES)
     }
 
-    /// Writes the manifest of a version, unless there is one; then false.
-    pub(super) fn put_manifest(&self, version: u32, text: String) -> Result<bool, BundleError> {
-        match self.put(&manifest_name(version), text.into_bytes(), PutMode::Create) {
-            Ok(()) => Ok(true),
-            Err(
-                object_store::Error::AlreadyExists { .. }
-                | object_store::Error::Precondition { .. },
-            ) => Ok(false),
-            Err(error) => Err(self.wrong("cannot write the manifest", &error)),
+    /// Writes the manifest of a version; false if there is another one.
+    pub(super) fn put_manifest(&self, version: u32, text: &str) -> Result<bool, BundleError> {
+        let bytes = text.as_bytes().to_vec();
+        let error = match self.put(&manifest_name(version), bytes, PutMode::Create) {
+            Ok(()) => return Ok(true),
+            Err(error) => error,
+        };
+        // The answer to a write may be lost, and if the client writes again, it finds what it has written itself.
+        let found = self.manifest(version).ok().flatten();
+        if found.as_deref() == Some(text.as_bytes()) {
+            return Ok(true);
+        }
+        match error {
+            object_store::Error::AlreadyExists { .. }
+            | object_store::Error::Precondition { .. } => Ok(false),
+            error => Err(self.wrong("cannot write the manifest", &error)),
         }
     }
 
@@ -251,37 +268,84 @@ impl BundleStore {
         BundleError::Store {
             store: self.address.clone(),
             doing,
-            reason: reason_of(error),
+            source: Box::new(StoreError::of(error)),
         }
     }
 }
 
-fn folder(path: &FilePath) -> object_store::Result<Box<dyn ObjectStore>> {
-    let folder = LocalFileSystem::new_with_prefix(path)?.with_fsync(true);
-    Ok(Box::new(folder))
+fn folder(path: &FilePath) -> Result<Box<dyn ObjectStore>, StoreError> {
+    let folder = LocalFileSystem::new_with_prefix(path);
+    let folder = folder.map_err(|error| StoreError::of(&error))?;
+    Ok(Box::new(folder.with_fsync(true)))
 }
 
-fn s3(bucket: &str) -> object_store::Result<Box<dyn ObjectStore>> {
+fn s3(bucket: &str) -> Result<Box<dyn ObjectStore>, StoreError> {
     // A person waits: with the defaults it would be three minutes until a store counts as unreachable.
     let retry = RetryConfig {
         backoff: BackoffConfig::default(),
         max_retries: 2,
         retry_timeout: Duration::from_secs(20),
     };
-    let store = AmazonS3Builder::from_env()
+    let builder = AmazonS3Builder::from_env();
+    check_settings(&|key| builder.get_config_value(&key))?;
+    let store = builder
         .with_bucket_name(bucket)
         .with_retry(retry)
         .with_http_connector(Connector)
-        .build()?;
-    Ok(Box::new(store))
+        .build();
+    Ok(Box::new(store.map_err(|error| StoreError::of(&error))?))
 }
 
-/// The words of the client on one line, without the XML that stores answer with.
-fn reason_of(error: &object_store::Error) -> String {
-    let words = error.to_string();
-    let words = words.split("<?xml").next().unwrap_or_default();
-    let words: Vec<&str> = words.split_whitespace().collect();
-    words.join(" ").trim_end_matches([':', ' ']).to_owned()
+/// Checks what the environment says: the client panics or puts it into every address and header as it is.
+fn check_settings(
+    value_of: &dyn Fn(AmazonS3ConfigKey) -> Option<String>,
+) -> Result<(), StoreError> {
+    let wrong = |name, problem: String| Err(StoreError::Setting { name, problem });
+    for (key, name) in [
+        (AmazonS3ConfigKey::Endpoint, "AWS_ENDPOINT"),
+        (AmazonS3ConfigKey::S3Endpoint, "AWS_ENDPOINT_URL_S3"),
+    ] {
+        if let Some(endpoint) = value_of(key).filter(|endpoint| !is_endpoint(endpoint)) {
+            let shown = without_secrets(&endpoint);
+            return wrong(name, format!("is {shown:?}, expected https://HOST[:PORT]"));
+        }
+    }
+    let region = value_of(AmazonS3ConfigKey::Region).unwrap_or_default();
+    if !(region.bytes()).all(|c| c.is_ascii_alphanumeric() || c == b'-') {
+        let problem = format!("is {region:?}, expected a region such as us-east-1");
+        return wrong("AWS_REGION", problem);
+    }
+    let (key_id, secret) = ("AWS_ACCESS_KEY_ID", "AWS_SECRET_ACCESS_KEY");
+    let credentials = [
+        (key_id, value_of(AmazonS3ConfigKey::AccessKeyId)),
+        (secret, value_of(AmazonS3ConfigKey::SecretAccessKey)),
+        ("AWS_SESSION_TOKEN", value_of(AmazonS3ConfigKey::Token)),
+    ];
+    for (name, value) in &credentials {
+        let is_odd = |c: u8| !c.is_ascii_graphic();
+        if value
+            .as_ref()
+            .is_some_and(|value| value.bytes().any(is_odd))
+        {
+            let problem = "has a blank or another character that no credentials have";
+            return wrong(*name, problem.into());
+        }
+    }
+    match credentials.map(|(_, value)| value.is_some()) {
+        [true, false, _] => wrong(secret, format!("is missing, though {key_id} is set")),
+        [false, true, _] => wrong(key_id, format!("is missing, though {secret} is set")),
+        _ => Ok(()),
+    }
+}
+
+/// True for http or https, a host, and at most a path.
+fn is_endpoint(text: &str) -> bool {
+    let Ok(uri) = text.parse::<Uri>() else {
+        return false;
+    };
+    let is_web = matches!(uri.scheme_str(), Some("http" | "https"));
+    let has_host = uri.host().is_some_and(|host| !host.is_empty());
+    is_web && has_host && !text.contains('@') && uri.query().is_none()
 }
 
 pub(super) fn manifest_name(version: u32) -> String {
@@ -303,6 +367,7 @@ fn version_of(name: &str) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::Advice as _;
 
     #[test]
     fn addresses_are_folders_or_buckets() {
@@ -358,8 +423,10 @@ mod tests {
         store
             .check_conditional_put()
             .expect("a folder keeps what is there");
-        assert!(store.put_manifest(1, "first".into()).expect("written"));
-        assert!(!store.put_manifest(1, "second".into()).expect("refused"));
+        assert!(store.put_manifest(1, "first").expect("written"));
+        assert!(!store.put_manifest(1, "second").expect("refused"));
+        // As after an answer that was lost.
+        assert!(store.put_manifest(1, "first").expect("there"));
         assert_eq!(
             store.manifest(1).expect("read").as_deref(),
             Some(&b"first"[..])
@@ -378,12 +445,70 @@ mod tests {
     }
 
     #[test]
+    fn what_the_environment_says_is_checked_before_it_is_used() {
+        use AmazonS3ConfigKey::{AccessKeyId, Endpoint, Region, SecretAccessKey};
+        let checked = |settings: &[(AmazonS3ConfigKey, &str)]| {
+            check_settings(&|key| {
+                let found = settings.iter().find(|(name, _)| *name == key);
+                found.map(|(_, value)| (*value).to_owned())
+            })
+        };
+        assert_eq!(checked(&[]), Ok(()));
+        let sound = [
+            (Endpoint, "https://minio.plant.example:9000"),
+            (Region, "eu-central-1"),
+            (AccessKeyId, "cell"),
+            (SecretAccessKey, "a/b+c="),
+        ];
+        assert_eq!(checked(&sound), Ok(()));
+        for (settings, words) in [
+            (
+                &[(Endpoint, "minio:9000")][..],
+                "AWS_ENDPOINT is \"minio:9000\", expected https://",
+            ),
+            (&[(Endpoint, "")][..], "AWS_ENDPOINT is \"\""),
+            (&[(Endpoint, "ftp://minio")][..], "AWS_ENDPOINT is"),
+            (&[(Endpoint, "cell:hidden@minio")][..], "AWS_ENDPOINT is"),
+            (
+                &[(Endpoint, "https://cell:hidden@minio")][..],
+                "AWS_ENDPOINT is",
+            ),
+            (&[(Region, "eu west")][..], "AWS_REGION is \"eu west\""),
+            (
+                &[(AccessKeyId, "cell")][..],
+                "AWS_SECRET_ACCESS_KEY is missing",
+            ),
+            (
+                &[(SecretAccessKey, "hidden")][..],
+                "AWS_ACCESS_KEY_ID is missing",
+            ),
+            (
+                &[(AccessKeyId, "cell"), (SecretAccessKey, "hidden\n")][..],
+                "AWS_SECRET_ACCESS_KEY has a blank",
+            ),
+        ] {
+            let error = checked(settings).expect_err(words);
+            let text = format!("{error}; {}", error.advice());
+            assert!(
+                text.starts_with(words) && text.contains("Correct AWS_"),
+                "{text}"
+            );
+            assert!(!text.contains("hidden"), "{text}");
+        }
+    }
+
+    #[test]
     fn a_folder_that_is_not_mounted_is_an_error_and_not_made() {
         let folder = tempfile::tempdir().expect("a folder");
         let missing = folder.path().join("share");
         let error = BundleStore::open(StoreAddress::Folder(missing.clone()));
         let error = error.err().expect("not there");
-        assert!(matches!(error, BundleError::Store { .. }), "{error}");
+        let expected = format!(
+            "{}: cannot be used: the folder does not exist",
+            missing.display()
+        );
+        assert_eq!(error.to_string(), expected);
+        assert!(error.advice().contains("share is connected"));
         assert!(!missing.exists());
     }
 }

@@ -1,10 +1,6 @@
 //! Takes a version out of a store: whole or not at all.
 
-use std::{
-    collections::BTreeMap,
-    io,
-    path::{Path, PathBuf},
-};
+use std::{io, path::PathBuf};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -12,13 +8,14 @@ use serde::{Deserialize, Serialize};
 use super::{
     MAX_BUNDLE_BYTES, Manifest, TrustedKey,
     archive::{files_in, unpack},
-    error::{BundleError, LocalPart},
+    error::BundleError,
+    local::{ArrivingPart, Digests, LocalContent, LocalPart, StoredPart, differences},
     sha256,
     store::{BundleStore, bundle_name, manifest_name},
 };
 use crate::{
-    files::{FileError, file_name, read_bytes, read_limited, write_file},
-    library::{LibraryFolder, PartName, PartNumbers, shipped_files},
+    files::{FileError, read_limited, write_file},
+    library::{LibraryFolder, PartName, PartNumbers, SprayPath},
     stages::reference::ReferenceParams,
 };
 
@@ -29,7 +26,7 @@ const MAX_RECORD_BYTES: u64 = 4 << 20;
 /// The version of its format.
 const SCHEMA: u32 = 1;
 
-/// What becomes of parts that were enrolled or changed here, and are in no version that was taken.
+/// What becomes of parts that were enrolled or changed here, and of spray paths that do not fit the new version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LocalParts {
     /// Nothing: the version is not taken.
@@ -60,7 +57,7 @@ pub struct TakenBundle {
     /// The version.
     pub manifest: Manifest,
     /// The digest of every part as it was taken.
-    parts: BTreeMap<PartName, String>,
+    parts: Digests,
 }
 
 /// What came of taking.
@@ -72,6 +69,8 @@ pub enum Installed {
         manifest: Manifest,
         /// Where the parts that it replaced lie in the trash.
         trashed: Vec<PathBuf>,
+        /// The parts whose spray paths were stored here, and still are.
+        kept_paths: Vec<PartName>,
     },
     /// The newest version was there already; nothing was changed.
     Already(Manifest),
@@ -80,6 +79,10 @@ pub enum Installed {
 /// Puts a version in the place of all parts of a library. Before that, its signature, its digest and the names in it are
 /// checked, and every part is loaded. Where anything is wrong, the library stays as it is; replaced parts go to its trash.
 /// Parts that have a number here keep it; the others get the published one.
+/// Spray paths that were stored here stay with their parts where the version has the same reference and no path for it.
+///
+/// The version counts from the rename by which [`LibraryFolder::replace_all`] installs it: an error of what follows, moving
+/// the former parts to the trash, is reported, and the next writer completes it.
 pub fn take(
     library: &LibraryFolder,
     store: &BundleStore,
@@ -116,12 +119,34 @@ pub fn take(
         reason,
     };
     let files = files_in(&bundle).map_err(bad)?;
+    let mut kept_paths = Vec::new();
     let replaced = library.replace_all(|building| {
         unpack(&files, building)?;
-        let record = match checked_record(library, building, store, trusted, &manifest, asked.local)
-        {
-            Ok(record) => record,
+        let checked = LibraryFolder::open(building)
+            .map_err(BundleError::from)
+            .and_then(|coming| {
+                let parts = arriving_parts(&coming, store, &manifest)?;
+                let paths = paths_to_keep(library, &parts, asked.local)?;
+                Ok((coming, parts, paths))
+            });
+        let (coming, parts, paths) = match checked {
+            Ok(checked) => checked,
             Err(error) => return Ok(Err(error)),
+        };
+        for (part, path) in paths {
+            if let Err(error) = coming.write_spray_path(&part, Some(&path))? {
+                return Ok(Err(error.into()));
+            }
+            kept_paths.push(part);
+        }
+        let parts = parts.into_iter();
+        let record = TakenBundle {
+            schema: SCHEMA,
+            store: store.address().to_string(),
+            key: trusted.to_base64(),
+            taken_at: Timestamp::now(),
+            manifest: manifest.clone(),
+            parts: parts.map(|part| (part.meta.name, part.digest)).collect(),
         };
         let text = serde_json::to_vec_pretty(&record).map_err(io::Error::other)?;
         write_file(&building.join(RECORD), &text)?;
@@ -135,7 +160,11 @@ pub fn take(
         Ok(Ok(()))
     })?;
     let trashed = replaced?;
-    Ok(Installed::New { manifest, trashed })
+    Ok(Installed::New {
+        manifest,
+        trashed,
+        kept_paths,
+    })
 }
 
 fn verified_manifest(
@@ -151,15 +180,7 @@ fn verified_manifest(
         wanted: version,
         newest,
     })?;
-    let manifest = Manifest::verified(&name, &bytes, trusted)?;
-    if manifest.version == version {
-        Ok(manifest)
-    } else {
-        Err(BundleError::BadManifest {
-            name,
-            reason: format!("it is of version {}", manifest.version),
-        })
-    }
+    Manifest::verified(&name, &bytes, trusted)?.numbered(&name, version)
 }
 
 fn verified_bundle(store: &BundleStore, manifest: &Manifest) -> Result<Vec<u8>, BundleError> {
@@ -209,16 +230,12 @@ fn numbers_with(
     Ok(numbers)
 }
 
-/// What the library will say of itself, if all new parts can be loaded and none is lost that is in no version.
-fn checked_record(
-    library: &LibraryFolder,
-    building: &Path,
+/// All parts of the version, if each can be loaded.
+fn arriving_parts(
+    coming: &LibraryFolder,
     store: &BundleStore,
-    trusted: TrustedKey,
     manifest: &Manifest,
-    local: LocalParts,
-) -> Result<TakenBundle, BundleError> {
-    let coming = LibraryFolder::open(building)?;
+) -> Result<Vec<ArrivingPart>, BundleError> {
     let load = coming.load(&ReferenceParams::default())?;
     if let Some(problem) = load.problems.into_iter().next() {
         return Err(BundleError::UnreadablePart {
@@ -233,54 +250,33 @@ fn checked_record(
             reason: format!("it has {found} parts, expected {}", manifest.num_parts),
         });
     }
-    let mut parts = BTreeMap::new();
+    let mut parts = Vec::new();
     for meta in load.parts {
-        let digest = digest_of(&coming, &meta.name)?;
-        parts.insert(meta.name, digest);
+        let found = StoredPart::of(coming, &meta.name).ok_or_else(|| BundleError::BadBundle {
+            name: store.shown(&bundle_name(&manifest.bundle.sha256)),
+            reason: format!("its part {} cannot be read", meta.name),
+        })?;
+        let digest = found.digest;
+        parts.push(ArrivingPart { meta, digest });
     }
-    if local == LocalParts::Keep {
-        let before = TakenBundle::of(library)?;
-        let local = local_parts(library, before.as_ref(), &parts)?;
-        if !local.is_empty() {
-            return Err(BundleError::LocalParts { parts: local });
-        }
-    }
-    Ok(TakenBundle {
-        schema: SCHEMA,
-        store: store.address().to_string(),
-        key: trusted.to_base64(),
-        taken_at: Timestamp::now(),
-        manifest: manifest.clone(),
-        parts,
-    })
+    Ok(parts)
 }
 
-/// The parts that were enrolled or changed here. Those that the program brings along, and those that come again with the
-/// new version, are none.
-fn local_parts(
+/// The spray paths that go over to the version. An error if it would replace anything else that was made here, unless that
+/// may go to the trash.
+fn paths_to_keep(
     library: &LibraryFolder,
-    before: Option<&TakenBundle>,
-    coming: &BTreeMap<PartName, String>,
-) -> Result<Vec<LocalPart>, BundleError> {
-    let mut local = Vec::new();
-    for name in library.names()? {
-        let part = PartName::new(&name).ok();
-        // One that cannot be read is not lost either.
-        let digest = part.as_ref().and_then(|part| digest_of(library, part).ok());
-        let taken = before
-            .zip(part.as_ref())
-            .and_then(|(before, part)| before.parts.get(part));
-        let arriving = part.as_ref().and_then(|part| coming.get(part));
-        let shipped = shipped_files(&name).map(digest_of_files);
-        let known = [taken, arriving, shipped.as_ref()];
-        let is_known = digest.is_some_and(|found| known.contains(&Some(&found)));
-        match taken {
-            _ if is_known => {}
-            Some(_) => local.push(LocalPart::Changed(name)),
-            None => local.push(LocalPart::Enrolled(name)),
-        }
+    arriving: &[ArrivingPart],
+    local: LocalParts,
+) -> Result<Vec<(PartName, SprayPath)>, BundleError> {
+    let before = TakenBundle::of(library)?;
+    let before = before.as_ref().map(|before| &before.parts);
+    let LocalContent { parts, spray_paths } = LocalContent::of(library, before, arriving)?;
+    if parts.is_empty() || local == LocalParts::Trash {
+        Ok(spray_paths)
+    } else {
+        Err(BundleError::LocalParts { parts })
     }
-    Ok(local)
 }
 
 impl TakenBundle {
@@ -301,47 +297,15 @@ impl TakenBundle {
         }
     }
 
+    /// True if it is this version, signed with this key.
+    pub fn is_of(&self, manifest: &Manifest, key: TrustedKey) -> bool {
+        self.manifest == *manifest && self.key == key.to_base64()
+    }
+
     /// What differs from that version here, in the order of the names: enrolled or changed parts, then removed ones.
     pub fn differences(&self, library: &LibraryFolder) -> Result<Vec<LocalPart>, BundleError> {
-        let names = library.names()?;
-        let mut differences = Vec::new();
-        for name in &names {
-            let part = PartName::new(name).ok();
-            let taken = part.as_ref().and_then(|part| self.parts.get(part));
-            let digest = part.as_ref().and_then(|part| digest_of(library, part).ok());
-            match taken {
-                None => differences.push(LocalPart::Enrolled(name.clone())),
-                Some(_) if digest.as_ref() == taken => {}
-                Some(_) => differences.push(LocalPart::Changed(name.clone())),
-            }
-        }
-        let is_gone = |part: &&PartName| names.iter().all(|name| name != part.as_str());
-        let gone = self.parts.keys().filter(is_gone).cloned();
-        differences.extend(gone.map(LocalPart::Removed));
-        Ok(differences)
+        differences(library, &self.parts)
     }
-}
-
-/// By what a part is known: all that the program reads of it.
-fn digest_of(library: &LibraryFolder, part: &PartName) -> Result<String, BundleError> {
-    let mut files = Vec::new();
-    for path in library.files_of(part)? {
-        files.push((file_name(&path), read_bytes(&path)?));
-    }
-    let files: Vec<(&str, &[u8])> = files
-        .iter()
-        .map(|(name, content)| (name.as_str(), &content[..]))
-        .collect();
-    Ok(digest_of_files(&files))
-}
-
-/// Of names and contents, in this order.
-fn digest_of_files(files: &[(&str, &[u8])]) -> String {
-    let lines: Vec<String> = files
-        .iter()
-        .map(|(name, content)| format!("{name} {}\n", sha256(content)))
-        .collect();
-    sha256(lines.concat().as_bytes())
 }
 
 #[cfg(test)]

@@ -1,11 +1,13 @@
-use std::{fs, thread::ScopedJoinHandle};
+use std::{fs, path::Path, thread::ScopedJoinHandle};
 
 use super::*;
 use crate::{
     error::Advice as _,
-    library::LibraryError,
+    files::file_name,
+    library::{LibraryError, PathPoint, shipped_files},
     plant::bundle::{
-        BundleCheck, KeyFiles, SigningKey, StoreAddress, archive::pack, make_keys, publish,
+        BundleCheck, KeyFiles, PublishedVersion, SigningKey, StoreAddress, archive::pack,
+        make_keys, publish, versions,
     },
 };
 
@@ -131,7 +133,10 @@ fn state(library: &LibraryFolder) -> String {
 fn a_taken_library_is_the_published_one_to_the_byte() {
     let plant = Plant::with_two_versions();
     let taken = plant.take_newest().expect("taken");
-    let Installed::New { manifest, trashed } = taken else {
+    let Installed::New {
+        manifest, trashed, ..
+    } = taken
+    else {
         panic!("{taken:?}");
     };
     assert_eq!((manifest.version, manifest.num_parts), (2, 2));
@@ -325,7 +330,7 @@ fn publish_as_it_is(plant: &Plant, version: u32, bundle: Vec<u8>, num_parts: usi
         PartNumbers::default(),
     );
     let text = manifest.signed(&plant.key());
-    assert!(store.put_manifest(version, text).expect("written"));
+    assert!(store.put_manifest(version, &text).expect("written"));
 }
 
 #[test]
@@ -387,7 +392,7 @@ fn what_claims_to_be_too_large_is_refused_before_it_is_read() {
         PartNumbers::default(),
     );
     let text = manifest.signed(&plant.key());
-    assert!(plant.store().put_manifest(1, text).expect("written"));
+    assert!(plant.store().put_manifest(1, &text).expect("written"));
     let refused = plant.take_newest().expect_err("too large");
     assert!(matches!(refused, BundleError::TooLarge { .. }), "{refused}");
 }
@@ -442,6 +447,191 @@ fn parts_that_are_in_no_version_are_kept_unless_they_may_go_to_the_trash() {
     assert!(differences.contains(&LocalPart::Removed(part("grille"))));
 }
 
+/// Stores a spray path whose first point is at `x` metres.
+fn store_path(library: &LibraryFolder, name: &str, x: f64) -> SprayPath {
+    let point = PathPoint {
+        nozzle: nalgebra::Point3::new(x, 0.0, 1.0),
+        direction: nalgebra::Vector3::z_axis(),
+        stand_off: None,
+        is_gun_on: true,
+        speed: None,
+        fan: None,
+    };
+    let path = SprayPath::new(vec![point; 3]).expect("points");
+    let stored = library.set_spray_path(&part(name), Some(&path));
+    stored.expect("stored");
+    path
+}
+
+#[test]
+fn a_spray_path_of_this_cell_stays_with_its_part_in_every_version_that_has_none() {
+    let plant = Plant::with_two_versions();
+    plant.take(Some(1), LocalParts::Keep).expect("taken");
+    let cell = plant.cell();
+    let path = store_path(&cell, "grille", 0.1);
+    for (version, local) in [(2, LocalParts::Keep), (3, LocalParts::Trash)] {
+        if version == 3 {
+            plant.publish("third");
+        }
+        let taken = plant.take(None, local).expect("taken");
+        let Installed::New {
+            manifest,
+            kept_paths,
+            ..
+        } = taken
+        else {
+            panic!("{taken:?}");
+        };
+        assert_eq!(manifest.version, version);
+        assert_eq!(kept_paths, [part("grille")]);
+        assert_eq!(
+            cell.spray_path("grille").expect("read").as_ref(),
+            Some(&path)
+        );
+        let words = cell.words(&part("grille")).expect("there");
+        assert_eq!(words.title, "Grille of 2027");
+        let record = TakenBundle::of(&cell).expect("read").expect("taken");
+        assert_eq!(
+            record.differences(&cell).expect("compared"),
+            [LocalPart::SprayPath("grille".into())]
+        );
+    }
+    // Without the path the part is again as it was published.
+    cell.set_spray_path(&part("grille"), None).expect("removed");
+    let record = TakenBundle::of(&cell).expect("read").expect("taken");
+    assert!(record.differences(&cell).expect("compared").is_empty());
+}
+
+#[test]
+fn a_spray_path_that_does_not_fit_the_new_version_stops_it_unless_it_may_go_to_the_trash() {
+    /// Replaces the shape of a part of the library by that of a fender.
+    fn reshape(plant: &Plant) {
+        let grille = plant.path("library/grille");
+        fs::remove_dir_all(&grille).expect("removed");
+        copy_part("fender", &plant.path("library"));
+        fs::rename(plant.path("library/fender"), &grille).expect("moved");
+        let meta = grille.join("part.toml");
+        let text = fs::read_to_string(&meta).expect("read");
+        let text = text.replace("name = \"fender\"", "name = \"grille\"");
+        fs::write(meta, text).expect("written");
+    }
+    let changes: [fn(&Plant); 3] = [
+        reshape,
+        |plant| drop(plant.library().remove(&part("grille")).expect("removed")),
+        |plant| drop(store_path(&plant.library(), "grille", 0.2)),
+    ];
+    for change in changes {
+        let plant = Plant::with_two_versions();
+        plant.take_newest().expect("taken");
+        let cell = plant.cell();
+        let path = store_path(&cell, "grille", 0.1);
+        change(&plant);
+        plant.publish("third");
+        let before = contents(&cell);
+        let refused = plant.take_newest().expect_err("the path would be lost");
+        let local = [LocalPart::SprayPath("grille".into())];
+        assert!(
+            matches!(&refused, BundleError::LocalParts { parts } if *parts == local),
+            "{refused}"
+        );
+        assert!(refused.advice().contains("--replace"), "{refused}");
+        assert_eq!(contents(&cell), before);
+        let taken = plant.take(None, LocalParts::Trash).expect("taken");
+        let Installed::New { trashed, .. } = taken else {
+            panic!("{taken:?}");
+        };
+        assert_eq!(trashed.len(), 1, "{trashed:?}");
+        cell.restore(&trashed[0]).expect("restored");
+        assert_eq!(cell.spray_path("grille").expect("read"), Some(path));
+    }
+}
+
+#[test]
+fn a_spray_path_that_came_with_a_version_goes_with_it() {
+    let plant = Plant::with_two_versions();
+    let path = store_path(&plant.library(), "grille", 0.1);
+    plant.publish("with a path");
+    plant.take_newest().expect("taken");
+    let cell = plant.cell();
+    assert_eq!(cell.spray_path("grille").expect("read"), Some(path));
+    let grille = part("grille");
+    plant
+        .library()
+        .set_spray_path(&grille, None)
+        .expect("removed");
+    plant.publish("without");
+    plant.take_newest().expect("taken");
+    assert_eq!(cell.spray_path("grille").expect("read"), None);
+    // The same path, stored at both places, is in nobody's way.
+    for library in [&cell, &plant.library()] {
+        store_path(library, "grille", 0.3);
+    }
+    retitle(&plant.path("library/grille"), "Grille of 2028");
+    plant.publish("the same path");
+    plant.take_newest().expect("taken");
+    assert_eq!(contents(&cell), contents(&plant.library()));
+}
+
+#[test]
+fn all_versions_of_a_store_are_listed_whoever_signed_them() {
+    let plant = Plant::with_two_versions();
+    plant.take(Some(1), LocalParts::Keep).expect("taken");
+    let record = TakenBundle::of(&plant.cell())
+        .expect("read")
+        .expect("taken");
+    let store = plant.store();
+    let others = make_keys(&plant.path("others")).expect("made");
+    let others = SigningKey::load(&others.private).expect("read");
+    let check = BundleCheck {
+        sha256: "0f".repeat(32),
+        bytes: 1,
+    };
+    let theirs = Manifest::new(
+        3,
+        Timestamp::UNIX_EPOCH,
+        5,
+        check,
+        "theirs",
+        PartNumbers::default(),
+    );
+    assert!(
+        store
+            .put_manifest(3, &theirs.signed(&others))
+            .expect("written")
+    );
+    // A version under another number, and no manifest at all.
+    assert!(
+        store
+            .put_manifest(4, &theirs.signed(&others))
+            .expect("written")
+    );
+    assert!(store.put_manifest(5, "nothing").expect("written"));
+    let mut found = Vec::new();
+    for PublishedVersion { version, manifest } in versions(&store).expect("listed") {
+        let shown = manifest.ok().map(|(manifest, key)| {
+            assert_eq!(manifest.version, version);
+            (manifest.num_parts, key, record.is_of(&manifest, key))
+        });
+        found.push((version, shown));
+    }
+    let (own, other) = (plant.key().trusted(), others.trusted());
+    let expected = [
+        (5, None),
+        (4, None),
+        (3, Some((5, other, false))),
+        (2, Some((2, own, false))),
+        (1, Some((2, own, true))),
+    ];
+    assert_eq!(found, expected);
+    let empty = tempfile::tempdir().expect("a folder");
+    let empty = BundleStore::open(StoreAddress::Folder(empty.path().to_owned()));
+    assert!(
+        versions(&empty.expect("opened"))
+            .expect("listed")
+            .is_empty()
+    );
+}
+
 #[test]
 fn of_two_publishers_at_once_one_is_refused() {
     let plant = Plant::new();
@@ -485,7 +675,7 @@ fn a_version_that_another_has_published_meanwhile_is_not_written_over() {
     let plant = Plant::with_two_versions();
     let store = plant.store();
     let theirs = store.manifest(2).expect("read").expect("there");
-    assert!(!store.put_manifest(2, "mine".into()).expect("asked"));
+    assert!(!store.put_manifest(2, "mine").expect("asked"));
     assert_eq!(store.manifest(2).expect("read"), Some(theirs));
 }
 
