@@ -13,7 +13,7 @@ use skrifa::{FontRef, MetadataProvider as _};
 use super::{
     Language,
     catalogue::{Files, files},
-    keys,
+    keys, parameters,
 };
 use crate::app::task::{Task, TaskEvent, TaskRunner};
 
@@ -45,7 +45,7 @@ fn messages(files: Files) -> BTreeMap<String, Variables> {
     messages
 }
 
-/// Collects the messages that the code uses.
+/// Collects the messages that the code uses, by name or for a parameter.
 fn asked_for() -> BTreeMap<String, Variables> {
     let mut sources = Vec::new();
     rust_files(
@@ -67,6 +67,8 @@ fn asked_for() -> BTreeMap<String, Variables> {
             assert_eq!(*known, variables, "{id} in {}", path.display());
         }
     }
+    let of_parameters = parameters::message_ids().into_iter();
+    asked.extend(of_parameters.map(|id| (id, Variables::new())));
     asked
 }
 

@@ -11,8 +11,11 @@ use super::{
     widgets::{button_width, labelled},
 };
 use crate::{
-    app::language::{parameters, text, within_sentence},
-    pipeline::parameters::{Kind, Number, Parameter, Parameters},
+    app::language::{
+        parameters::{self, TranslatedParameters},
+        text, within_sentence,
+    },
+    pipeline::parameters::{Kind, Number, Parameter},
 };
 
 /// A change of a parameter by the user.
@@ -39,7 +42,7 @@ const RESET: f32 = 58.0;
 
 /// Draws the name of a parameter, its slider or options and, if it differs from the default, a reset button. Passes changes to
 /// `changed`; a typed number may be out of range.
-pub(in crate::app) fn control<R: Parameters>(
+pub(in crate::app) fn control<R: TranslatedParameters>(
     ui: &mut Ui,
     parameter: &Parameter<R>,
     recipe: &R,
@@ -91,7 +94,7 @@ pub(in crate::app) fn control<R: Parameters>(
     });
 }
 
-fn hover_text<R: Parameters>(parameter: &Parameter<R>, default: &R) -> String {
+fn hover_text<R: TranslatedParameters>(parameter: &Parameter<R>, default: &R) -> String {
     let default = parameters::value(parameter, default);
     let valid = match &parameter.kind {
         Kind::Number(number) => {
@@ -116,7 +119,7 @@ fn hover_text<R: Parameters>(parameter: &Parameter<R>, default: &R) -> String {
 }
 
 /// Draws a slider, and a number that can be dragged or typed.
-fn number_ui<R: Parameters>(
+fn number_ui<R: TranslatedParameters>(
     ui: &mut Ui,
     parameter: &Parameter<R>,
     number: &Number<R>,
@@ -183,7 +186,7 @@ fn number_ui<R: Parameters>(
     }
 }
 
-fn choice_ui<R: Parameters>(
+fn choice_ui<R: TranslatedParameters>(
     ui: &mut Ui,
     parameter: &Parameter<R>,
     recipe: &R,
