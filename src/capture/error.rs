@@ -117,6 +117,34 @@ fn counted(num_frames: u64) -> String {
     }
 }
 
+/// The rest of a message that names what was found instead: `, only A, B`; empty if nothing was found.
+pub(super) fn only(found: &[String]) -> String {
+    if found.is_empty() {
+        String::new()
+    } else {
+        format!(", only {}", found.join(", "))
+    }
+}
+
+/// The rest of a message that quotes a camera's library: `: no such device`; empty if the library gave no message.
+pub(super) fn quoted(message: Option<&String>) -> String {
+    message.map_or_else(String::new, |message| format!(": {message}"))
+}
+
+/// Checks that every error has a sentence and an advice of its own.
+#[cfg(test)]
+pub(super) fn check_messages<E: Advice + std::fmt::Display>(errors: &[E]) {
+    let advice: std::collections::BTreeSet<String> = errors.iter().map(Advice::advice).collect();
+    assert_eq!(advice.len(), errors.len());
+    for error in errors {
+        let text = format!("{error}. {}", error.advice());
+        assert!(
+            !text.contains('\n') && !error.advice().ends_with('.'),
+            "{text}"
+        );
+    }
+}
+
 /// How to recover from a source's error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Recovery {

@@ -217,15 +217,9 @@ impl Genicam {
     fn captured(&self, name: String, frame: &Frame<'_>, image: Image) -> Captured {
         let taken_at = Timestamp::from_nanosecond(i128::from(frame.received_at()));
         Captured {
-            number: self.num_frames,
-            name,
             taken_at: taken_at.unwrap_or_else(|_| Timestamp::now()),
-            arrived: Instant::now(),
-            is_simulated: image.is_simulated(),
-            image,
-            truth: None,
-            robot_from_flange: None,
             warnings: self.warnings.clone(),
+            ..Captured::now(self.num_frames, name, image)
         }
     }
 

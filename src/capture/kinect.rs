@@ -21,8 +21,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-use jiff::Timestamp;
-
 pub use self::error::{KinectError, KinectWarning};
 use self::{
     freenect::{Context, Device, Failed, Library},
@@ -187,21 +185,16 @@ impl Kinect {
     fn captured(&mut self, depth: Vec<u16>) -> Captured {
         self.num_frames += 1;
         self.silence.restart();
-        Captured {
-            number: self.num_frames,
-            name: format!("Kinect frame {}", self.num_frames),
-            taken_at: Timestamp::now(),
-            arrived: Instant::now(),
-            image: Image::Depth(DepthFrame {
-                intrinsics: self.camera,
-                metres_per_unit: 0.001,
-                depth,
-                is_simulated: false,
-            }),
+        let image = Image::Depth(DepthFrame {
+            intrinsics: self.camera,
+            metres_per_unit: 0.001,
+            depth,
             is_simulated: false,
-            truth: None,
-            robot_from_flange: None,
+        });
+        let name = format!("Kinect frame {}", self.num_frames);
+        Captured {
             warnings: self.warnings.clone(),
+            ..Captured::now(self.num_frames, name, image)
         }
     }
 

@@ -20,8 +20,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-use jiff::Timestamp;
-
 pub use self::error::OpenNiError;
 use self::{
     header::{
@@ -33,7 +31,7 @@ use self::{
 };
 use super::{
     driver_search::CameraLibrary,
-    error::CaptureError,
+    error::{CaptureError, quoted},
     open::SourceListing,
     read_timeout::ReadTimeout,
     source::{Captured, DepthSource, Image, NextCapture},
@@ -232,22 +230,14 @@ impl OpenNi {
             let rows = depth.chunks_exact_mut(self.camera.width);
             rows.for_each(<[u16]>::reverse);
         }
-        Captured {
-            number: self.num_frames,
-            name: format!("OpenNI frame {}", self.num_frames),
-            taken_at: Timestamp::now(),
-            arrived: Instant::now(),
-            image: Image::Depth(DepthFrame {
-                intrinsics: self.camera,
-                metres_per_unit: self.metres_per_unit,
-                depth,
-                is_simulated: false,
-            }),
+        let image = Image::Depth(DepthFrame {
+            intrinsics: self.camera,
+            metres_per_unit: self.metres_per_unit,
+            depth,
             is_simulated: false,
-            truth: None,
-            robot_from_flange: None,
-            warnings: Vec::new(),
-        }
+        });
+        let name = format!("OpenNI frame {}", self.num_frames);
+        Captured::now(self.num_frames, name, image)
     }
 
     /// Closes the camera. If a file cannot be played on, it is damaged.
@@ -303,7 +293,7 @@ fn open_file(path: &Path, library: Option<&Path>) -> Result<Device, OpenNiError>
     }
     let context = start(library)?;
     open_device(context, &name).map_err(|Failed { said }| {
-        let said = error::words(&said);
+        let said = quoted(said.first());
         unusable(format!("OpenNI cannot read it{said}"))
     })
 }

@@ -201,21 +201,16 @@ impl Realsense {
         // Frames of a file have their time of recording.
         let recorded_at = received.captured_at.filter(|_| self.file.is_some());
         let recorded_at = recorded_at.and_then(|ms| Timestamp::from_millisecond(ms as i64).ok());
-        Captured {
-            number: self.num_frames,
-            name: format!("RealSense frame {}", self.num_frames),
-            taken_at: recorded_at.unwrap_or_else(Timestamp::now),
-            arrived: Instant::now(),
-            image: Image::Depth(DepthFrame {
-                intrinsics: self.camera,
-                metres_per_unit: self.metres_per_unit,
-                depth: received.depth,
-                is_simulated: false,
-            }),
+        let image = Image::Depth(DepthFrame {
+            intrinsics: self.camera,
+            metres_per_unit: self.metres_per_unit,
+            depth: received.depth,
             is_simulated: false,
-            truth: None,
-            robot_from_flange: None,
-            warnings: Vec::new(),
+        });
+        let name = format!("RealSense frame {}", self.num_frames);
+        Captured {
+            taken_at: recorded_at.unwrap_or_else(Timestamp::now),
+            ..Captured::now(self.num_frames, name, image)
         }
     }
 

@@ -67,6 +67,23 @@ pub struct Captured {
     pub warnings: Vec<CaptureWarning>,
 }
 
+impl Captured {
+    /// A capture that a camera has just delivered.
+    pub(crate) fn now(number: u64, name: String, image: Image) -> Self {
+        Self {
+            number,
+            name,
+            taken_at: Timestamp::now(),
+            arrived: Instant::now(),
+            is_simulated: image.is_simulated(),
+            image,
+            truth: None,
+            robot_from_flange: None,
+            warnings: Vec::new(),
+        }
+    }
+}
+
 /// The image of a capture, in camera space.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Image {

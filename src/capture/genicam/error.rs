@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::{
-    capture::{CameraLibraryError, Recovery},
+    capture::{CameraLibraryError, Recovery, error::quoted},
     error::Advice,
 };
 
@@ -76,7 +76,7 @@ pub enum GenicamError {
         what: String,
     },
     /// The camera was unplugged, lost its power, or was taken by another program.
-    #[error("the connection to the camera was lost{}", said.as_ref().map(|said| format!(": {said}")).unwrap_or_default())]
+    #[error("the connection to the camera was lost{}", quoted(said.as_ref()))]
     Lost {
         /// The library's message.
         said: Option<String>,
@@ -172,6 +172,7 @@ impl Advice for GenicamWarning {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capture::error::check_messages;
 
     #[test]
     fn every_trouble_has_a_sentence_and_an_advice_of_its_own() {
@@ -205,15 +206,6 @@ mod tests {
             GenicamError::Lost { said: Some(said) },
             GenicamError::Silent { seconds: 8 },
         ];
-        let advice: std::collections::BTreeSet<String> =
-            errors.iter().map(Advice::advice).collect();
-        assert_eq!(advice.len(), errors.len());
-        for error in &errors {
-            let text = format!("{error}. {}", error.advice());
-            assert!(
-                !text.contains('\n') && !error.advice().ends_with('.'),
-                "{text}"
-            );
-        }
+        check_messages(&errors);
     }
 }

@@ -6,7 +6,10 @@ use thiserror::Error;
 
 use super::{FREENECT, freenect::Failed};
 use crate::{
-    capture::{CameraLibraryError, Recovery},
+    capture::{
+        CameraLibraryError, Recovery,
+        error::{only, quoted},
+    },
     error::Advice,
 };
 
@@ -26,7 +29,7 @@ pub enum KinectError {
     #[error("no Kinect is plugged in")]
     NoDevice,
     /// Other Kinects are plugged in, but not the requested one.
-    #[error("no Kinect with serial number {serial} is plugged in{}", others(found))]
+    #[error("no Kinect with serial number {serial} is plugged in{}", only(found))]
     NoSuchSerial {
         /// The requested serial number.
         serial: String,
@@ -46,7 +49,7 @@ pub enum KinectError {
     #[error("the Kinect is in use by Partsight itself")]
     InUse,
     /// The Kinect cannot be opened for another reason.
-    #[error("the Kinect cannot be opened{}", words(said))]
+    #[error("the Kinect cannot be opened{}", quoted(said.first()))]
     NotOpened {
         /// The library's messages.
         said: Vec<String>,
@@ -55,13 +58,13 @@ pub enum KinectError {
     #[error("the Kinect offers depth in none of the supported formats (millimetres, 11 bits)")]
     NoDepthMode,
     /// The Kinect opens, but its stream does not start.
-    #[error("the Kinect cannot be started{}", words(said))]
+    #[error("the Kinect cannot be started{}", quoted(said.first()))]
     NotStarted {
         /// The library's messages.
         said: Vec<String>,
     },
     /// The Kinect was unplugged, or lost its power.
-    #[error("the connection to the Kinect was lost{}", words(said))]
+    #[error("the connection to the Kinect was lost{}", quoted(said.first()))]
     Lost {
         /// The library's messages.
         said: Vec<String>,
@@ -149,20 +152,6 @@ impl KinectError {
     }
 }
 
-fn others(found: &[String]) -> String {
-    if found.is_empty() {
-        String::new()
-    } else {
-        format!(", only {}", found.join(", "))
-    }
-}
-
-fn words(said: &[String]) -> String {
-    said.first()
-        .map(|first| format!(": {first}"))
-        .unwrap_or_default()
-}
-
 impl Advice for KinectError {
     fn advice(&self) -> String {
         match self {
@@ -230,6 +219,7 @@ impl Advice for KinectWarning {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capture::error::check_messages;
 
     fn failed(said: &str) -> Failed {
         Failed {
@@ -289,15 +279,6 @@ mod tests {
                 what: "not there".into(),
             },
         ];
-        let advice: std::collections::BTreeSet<String> =
-            errors.iter().map(Advice::advice).collect();
-        assert_eq!(advice.len(), errors.len());
-        for error in &errors {
-            let text = format!("{error}. {}", error.advice());
-            assert!(
-                !text.contains('\n') && !error.advice().ends_with('.'),
-                "{text}"
-            );
-        }
+        check_messages(&errors);
     }
 }

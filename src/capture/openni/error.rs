@@ -6,7 +6,10 @@ use thiserror::Error;
 
 use super::OPENNI;
 use crate::{
-    capture::{CameraLibraryError, Recovery},
+    capture::{
+        CameraLibraryError, Recovery,
+        error::{only, quoted},
+    },
     error::Advice,
 };
 
@@ -17,7 +20,7 @@ pub enum OpenNiError {
     #[error(transparent)]
     Library(#[from] CameraLibraryError),
     /// The library does not start, usually because it finds no drivers.
-    #[error("libOpenNI2 cannot be started{}", words(said))]
+    #[error("libOpenNI2 cannot be started{}", quoted(said.first()))]
     NoDrivers {
         /// The library's messages.
         said: Vec<String>,
@@ -29,7 +32,7 @@ pub enum OpenNiError {
     #[error("no OpenNI camera is plugged in")]
     NoDevice,
     /// Other cameras are plugged in, but not the requested one.
-    #[error("no OpenNI camera {uri} is plugged in{}", others(found))]
+    #[error("no OpenNI camera {uri} is plugged in{}", only(found))]
     NoSuchDevice {
         /// The requested URI.
         uri: String,
@@ -37,7 +40,7 @@ pub enum OpenNiError {
         found: Vec<String>,
     },
     /// The camera is plugged in but cannot be opened.
-    #[error("the OpenNI camera cannot be opened{}", words(said))]
+    #[error("the OpenNI camera cannot be opened{}", quoted(said.first()))]
     NotOpened {
         /// The library's messages.
         said: Vec<String>,
@@ -73,13 +76,13 @@ pub enum OpenNiError {
         title: String,
     },
     /// The camera opens, but its stream does not start.
-    #[error("the OpenNI camera cannot be started{}", words(said))]
+    #[error("the OpenNI camera cannot be started{}", quoted(said.first()))]
     NotStarted {
         /// The library's messages.
         said: Vec<String>,
     },
     /// The camera was unplugged, or reports an error.
-    #[error("the connection to the OpenNI camera was lost{}", words(said))]
+    #[error("the connection to the OpenNI camera was lost{}", quoted(said.first()))]
     Lost {
         /// The library's messages.
         said: Vec<String>,
@@ -122,20 +125,6 @@ impl OpenNiError {
             | Self::FileUnusable { .. } => Recovery::None,
         }
     }
-}
-
-fn others(found: &[String]) -> String {
-    if found.is_empty() {
-        String::new()
-    } else {
-        format!(", only {}", found.join(", "))
-    }
-}
-
-pub(super) fn words(said: &[String]) -> String {
-    said.first()
-        .map(|first| format!(": {first}"))
-        .unwrap_or_default()
 }
 
 impl Advice for OpenNiError {
@@ -189,6 +178,7 @@ impl Advice for OpenNiError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capture::error::check_messages;
 
     #[test]
     fn every_trouble_has_a_sentence_and_an_advice_of_its_own() {
@@ -223,15 +213,6 @@ mod tests {
                 what: "not there".into(),
             },
         ];
-        let advice: std::collections::BTreeSet<String> =
-            errors.iter().map(Advice::advice).collect();
-        assert_eq!(advice.len(), errors.len());
-        for error in &errors {
-            let text = format!("{error}. {}", error.advice());
-            assert!(
-                !text.contains('\n') && !error.advice().ends_with('.'),
-                "{text}"
-            );
-        }
+        check_messages(&errors);
     }
 }

@@ -6,7 +6,10 @@ use thiserror::Error;
 
 use super::REALSENSE;
 use crate::{
-    capture::{CameraLibraryError, Recovery},
+    capture::{
+        CameraLibraryError, Recovery,
+        error::{only, quoted},
+    },
     error::Advice,
 };
 
@@ -80,7 +83,7 @@ pub enum RealsenseError {
         said: String,
     },
     /// The camera was unplugged, or reports an error.
-    #[error("the connection to the RealSense camera was lost{}", said.as_ref().map(|said| format!(": {said}")).unwrap_or_default())]
+    #[error("the connection to the RealSense camera was lost{}", quoted(said.as_ref()))]
     Lost {
         /// The library's message.
         said: Option<String>,
@@ -129,8 +132,10 @@ impl RealsenseError {
                 format!("librealsense cannot play it: {said}")
             }
             Self::Lost { said } => {
-                let said = said.map(|said| format!(": {said}")).unwrap_or_default();
-                format!("librealsense cannot play the rest of it{said}")
+                format!(
+                    "librealsense cannot play the rest of it{}",
+                    quoted(said.as_ref())
+                )
             }
             Self::NoDepth { .. } | Self::Silent { .. } => {
                 "it has no depth image that can be read".to_owned()
@@ -141,14 +146,6 @@ impl RealsenseError {
             path: path.to_path_buf(),
             what,
         }
-    }
-}
-
-fn only(offered: &[String]) -> String {
-    if offered.is_empty() {
-        String::new()
-    } else {
-        format!(", only {}", offered.join(", "))
     }
 }
 
@@ -201,6 +198,7 @@ impl Advice for RealsenseError {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capture::error::check_messages;
 
     #[test]
     fn every_trouble_has_a_sentence_and_an_advice_of_its_own() {
@@ -242,16 +240,7 @@ mod tests {
                 what: "cut off".into(),
             },
         ];
-        let advice: std::collections::BTreeSet<String> =
-            errors.iter().map(Advice::advice).collect();
-        assert_eq!(advice.len(), errors.len());
-        for error in &errors {
-            let text = format!("{error}. {}", error.advice());
-            assert!(
-                !text.contains('\n') && !error.advice().ends_with('.'),
-                "{text}"
-            );
-        }
+        check_messages(&errors);
     }
 
     #[test]

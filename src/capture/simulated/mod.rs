@@ -11,8 +11,6 @@ use std::{
     time::{Duration, Instant},
 };
 
-use jiff::Timestamp;
-
 use self::conveyor::ConveyorState;
 use super::{
     error::CaptureError,
@@ -143,16 +141,10 @@ impl DepthSource for SimulatedCell {
         }
         self.number = number;
         let (image, truth) = self.frame(number);
+        let name = format!("simulated frame {number}");
         Ok(NextCapture::Captured(Captured {
-            number,
-            name: format!("simulated frame {number}"),
-            taken_at: Timestamp::now(),
-            arrived: Instant::now(),
-            image,
-            is_simulated: true,
             truth: Some(Arc::new(truth)),
-            robot_from_flange: None,
-            warnings: Vec::new(),
+            ..Captured::now(number, name, image)
         }))
     }
 }

@@ -136,15 +136,9 @@ impl WatchedFolder {
                 file.state = Progress::Done;
                 self.number += 1;
                 return Some(NextCapture::Captured(Captured {
-                    number: self.number,
-                    name: file_name(path),
                     taken_at: written_at(path).unwrap_or_else(Timestamp::now),
-                    arrived: Instant::now(),
-                    is_simulated: image.is_simulated(),
-                    image,
-                    truth: None,
-                    robot_from_flange: None,
                     warnings,
+                    ..Captured::now(self.number, file_name(path), image)
                 }));
             }
             Err(error) => error,

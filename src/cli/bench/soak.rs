@@ -123,16 +123,11 @@ impl DepthSource for SmallCell {
         let place = (self.num_given / Self::HANGING) as usize % self.pictures.len();
         let nanoseconds = self.num_given as i64 * (1_000_000_000 / Self::FRAMES_PER_SECOND);
         self.num_given += 1;
+        let name = format!("simulated frame {}", self.num_given);
+        let image = Image::Depth(self.pictures[place].clone());
         Ok(NextCapture::Captured(Captured {
-            number: self.num_given,
-            name: format!("simulated frame {}", self.num_given),
             taken_at: self.begun + SignedDuration::from_nanos(nanoseconds),
-            arrived: Instant::now(),
-            image: Image::Depth(self.pictures[place].clone()),
-            is_simulated: true,
-            truth: None,
-            robot_from_flange: None,
-            warnings: Vec::new(),
+            ..Captured::now(self.num_given, name, image)
         }))
     }
 }
