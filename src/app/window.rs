@@ -401,7 +401,6 @@ impl Window {
         }
         self.state.session.language.make_current();
         let ctx = ui.ctx().clone();
-        let theme = Theme::of(self.state.session.theme);
         let mut actions = Vec::new();
         if self.state.session.is_operator_view()
             && !self.is_behind_dialog(&ctx)
@@ -411,17 +410,17 @@ impl Window {
         }
         let work = self.work();
         if self.state.session.is_operator_view() {
-            operator_bars::ui(ui, &self.state, &self.robot, work, theme, &mut actions);
+            operator_bars::ui(ui, &self.state, &self.robot, work, &mut actions);
         } else {
-            top_bar::ui(ui, &self.state, &self.robot, work, theme, &mut actions);
-            rail::ui(ui, &self.state, theme, &mut actions);
+            top_bar::ui(ui, &self.state, &self.robot, work, &mut actions);
+            rail::ui(ui, &self.state, &mut actions);
         }
-        let room = notices::room(ui, &self.state, theme);
+        let room = notices::room(ui, &self.state);
         let front = self.state.session.workspace;
         let canvas = match front {
             // Its view covers everything, and a software driver would still paint what is below.
             WorkspaceKind::Inspect => Frame::new(),
-            _ => Frame::new().fill(theme.canvas),
+            _ => Frame::new().fill(Theme::of(ui).canvas),
         };
         CentralPanel::default().frame(canvas).show(ui, |ui| {
             self.lend(front, &ctx, |workspace, cx| workspace.ui(ui, cx));
@@ -429,14 +428,14 @@ impl Window {
         let hosted = self.hosted(front);
         let view_has_focus = hosted.is_some_and(Workspace::has_key_focus);
         let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);
-        live::set_up(&ctx, &self.state, theme, &mut actions);
-        roles::dialog(&ctx, &self.state, theme, &mut actions);
-        closing::dialog(&ctx, &self.state, theme, &mut actions);
-        let of_robot = self.robot.ui(&ctx, &self.state.session, theme);
+        live::set_up(&ctx, &self.state, &mut actions);
+        roles::dialog(&ctx, &self.state, &mut actions);
+        closing::dialog(&ctx, &self.state, &mut actions);
+        let of_robot = self.robot.ui(&ctx, &self.state.session);
         actions.extend(of_robot.into_iter().map(Action::Robot));
-        path_entry::ui(&ctx, &self.services.dialogs, theme);
-        keys::help(&ctx, &self.state, &keys, theme, &mut actions);
-        notices::ui(&ctx, room, &self.state, theme, &mut actions);
+        path_entry::ui(&ctx, &self.services.dialogs);
+        keys::help(&ctx, &self.state, &keys, &mut actions);
+        notices::ui(&ctx, room, &self.state, &mut actions);
         let is_behind_dialog = self.is_behind_dialog(&ctx);
         keys::shortcuts(
             &ctx,

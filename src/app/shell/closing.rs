@@ -1,12 +1,12 @@
 //! The question before the window closes with unsaved data.
 
-use egui::{Button, Context, RichText};
+use egui::Context;
 
-use super::{action::Action, state::State, top_bar::labelled};
+use super::{action::Action, state::State};
 use crate::app::language::text;
 use crate::app::ui::{
-    theme::{Theme, font, space},
-    widgets,
+    theme::space,
+    widgets::{self, text_button},
 };
 
 /// Whether the window may close.
@@ -22,27 +22,20 @@ pub enum Closing {
 }
 
 /// Draws the question while it is open.
-pub(in crate::app) fn dialog(
-    ctx: &Context,
-    state: &State,
-    theme: &Theme,
-    actions: &mut Vec<Action>,
-) {
+pub(in crate::app) fn dialog(ctx: &Context, state: &State, actions: &mut Vec<Action>) {
     let Closing::Asked(what) = &state.closing else {
         return;
     };
     let modal = widgets::dialog(ctx, "closing", |ui| {
         ui.set_max_width(420.0);
-        let title = RichText::new(text!("shell-close-without-saving")).font(font::verdict());
-        ui.label(title.color(theme.text));
-        ui.label(RichText::new(what).color(theme.weak_text));
+        ui.heading(text!("shell-close-without-saving"));
+        ui.weak(what);
         ui.add_space(space::MEDIUM);
         ui.horizontal(|ui| {
-            if widgets::default_button(ui, &text!("shell-keep-open"), true, theme) {
+            if widgets::default_button(ui, &text!("shell-keep-open"), true) {
                 actions.push(Action::StayOpen);
             }
-            let close = text!("shell-close-anyway");
-            if labelled(ui, Button::new(&*close), &close).clicked() {
+            if text_button(ui, &text!("shell-close-anyway")).clicked() {
                 actions.push(Action::CloseAnyway);
             }
         });

@@ -1,7 +1,7 @@
 //! What the shell lends to a workspace while it draws or handles results.
 
 use super::{file_dialog::DialogLock, message::Message, notice::Notice, session::Session};
-use crate::app::{inspection::library_cache::LibraryCache, ui::theme::Theme};
+use crate::app::inspection::library_cache::LibraryCache;
 
 /// Data shared by tasks. Clones go into jobs.
 #[derive(Clone, Debug)]
@@ -19,8 +19,6 @@ pub struct ShellContext<'a> {
     pub egui: &'a egui::Context,
     /// State shared by the workspaces.
     pub session: &'a Session,
-    /// Colours of the current theme.
-    pub theme: &'static Theme,
     /// Data shared by tasks.
     pub services: &'a Services,
     messages: &'a mut Vec<Message>,
@@ -37,7 +35,6 @@ impl<'a> ShellContext<'a> {
         Self {
             egui,
             session,
-            theme: Theme::of(session.theme),
             services,
             messages,
         }

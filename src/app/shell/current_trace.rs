@@ -6,10 +6,7 @@ use std::sync::{Arc, Mutex};
 use egui::{Align2, TextEdit, Ui, WidgetInfo, vec2};
 
 use crate::{
-    app::{
-        language::text,
-        ui::theme::{Theme, space},
-    },
+    app::{language::text, ui::theme::space},
     error::lock,
     history::Traceability,
 };
@@ -76,7 +73,7 @@ impl CurrentTrace {
 type TraceEntry = fn(&mut Traceability) -> &mut String;
 
 /// Draws the input fields.
-pub(in crate::app) fn fields(ui: &mut Ui, trace: &CurrentTrace, theme: &Theme) {
+pub(in crate::app) fn fields(ui: &mut Ui, trace: &CurrentTrace) {
     let entries: [(String, String, TraceEntry); 3] = [
         (
             text!("operator-serial"),
@@ -96,7 +93,7 @@ pub(in crate::app) fn fields(ui: &mut Ui, trace: &CurrentTrace, theme: &Theme) {
         ui.horizontal(|ui| {
             ui.set_min_height(space::TARGET);
             let from = ui.cursor().left();
-            let label = ui.label(egui::RichText::new(&name).color(theme.weak_text));
+            let label = ui.label(egui::RichText::new(&name).weak());
             ui.add_space((from + NAME - ui.cursor().left()).max(0.0));
             let field = TextEdit::singleline(&mut text)
                 .hint_text(says)

@@ -14,7 +14,7 @@ use super::{
 use crate::app::{
     language::{keys, text},
     ui::{
-        theme::{Theme, font, space},
+        theme::{font, space},
         widgets,
     },
 };
@@ -229,7 +229,6 @@ pub(in crate::app) fn help(
     ctx: &egui::Context,
     state: &State,
     own: &[KeyBinding],
-    theme: &Theme,
     actions: &mut Vec<Action>,
 ) {
     if state.help == HelpPage::Closed {
@@ -239,11 +238,7 @@ pub(in crate::app) fn help(
         ui.set_max_width(520.0);
         let height = ui.spacing().interact_size.y;
         ui.spacing_mut().interact_size.y = 24.0;
-        ui.label(
-            RichText::new(text!("shell-shortcuts"))
-                .font(font::verdict())
-                .color(theme.text),
-        );
+        ui.heading(text!("shell-shortcuts"));
         ui.add_space(space::SMALL);
         let room = ctx.content_rect().height() - HELP_MARGIN;
         let list = egui::Grid::new("shortcuts")
@@ -263,14 +258,14 @@ pub(in crate::app) fn help(
                 let others = of_picture.chain(other_keys());
                 for [keys, does] in named.chain(own).chain(of_rail).chain(others) {
                     ui.label(RichText::new(keys).font(font::body_strong()));
-                    ui.label(RichText::new(does).color(theme.weak_text));
+                    ui.weak(does);
                     ui.end_row();
                 }
             });
         });
         ui.spacing_mut().interact_size.y = height;
         ui.add_space(space::MEDIUM);
-        widgets::default_button(ui, &text!("shell-close"), true, theme)
+        widgets::default_button(ui, &text!("shell-close"), true)
     });
     let is_pressed_again = || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1));
     if modal.inner || modal.should_close() || is_pressed_again() {

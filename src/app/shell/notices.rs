@@ -1,20 +1,18 @@
 //! The strip of notices below the work: the work shrinks to make room, so that nothing is covered.
 
 use egui::{
-    Align, Area, Button, Context, Frame, Id, Layout, Margin, Order, Panel, Rect, RichText, Sense,
-    Ui, Vec2, pos2,
+    Align, Area, Context, Frame, Id, Layout, Margin, Order, Panel, Rect, RichText, Ui, pos2,
 };
 
 use super::{
     action::Action,
     notice::{Notice, NoticeKind},
     state::State,
-    top_bar::labelled,
 };
 use crate::app::language::text;
 use crate::app::ui::{
     theme::{ROUNDING, Theme, space},
-    widgets::{Mark, mark, sentence},
+    widgets::{Mark, line_mark, sentence, text_button},
 };
 
 /// Margin around the notices, logical pixels.
@@ -32,7 +30,8 @@ fn display_seconds(kind: NoticeKind) -> Option<f64> {
 }
 
 /// Reserves room at the bottom of the window; [`ui`] draws the notices there.
-pub(in crate::app) fn room(ui: &mut Ui, state: &State, theme: &Theme) -> Option<Rect> {
+pub(in crate::app) fn room(ui: &mut Ui, state: &State) -> Option<Rect> {
+    let theme = Theme::of(ui);
     let wanted = if state.notices.is_empty() {
         0.0
     } else {
@@ -78,7 +77,6 @@ pub(in crate::app) fn ui(
     ctx: &Context,
     room: Option<Rect>,
     state: &State,
-    theme: &Theme,
     actions: &mut Vec<Action>,
 ) {
     expire(ctx, room, &state.notices, actions);
@@ -86,7 +84,7 @@ pub(in crate::app) fn ui(
         return;
     };
     if ctx.memory(|memory| memory.top_modal_layer().is_some()) {
-        return over_dialog(ctx, room, state, theme, actions);
+        return over_dialog(ctx, room, state, actions);
     }
     // Below menus.
     let drawn = Area::new(Id::unique("notices"))
@@ -96,7 +94,7 @@ pub(in crate::app) fn ui(
             ui.set_width(room.width());
             ui.spacing_mut().item_spacing.y = EDGE;
             for (place, notice) in state.notices.iter().enumerate() {
-                plate(ui, place, notice, theme, actions);
+                plate(ui, place, notice, actions);
             }
         });
     let wanted = drawn.response.rect.height() + 2.0 * EDGE;
@@ -108,7 +106,7 @@ pub(in crate::app) fn ui(
 
 /// Draws the newest notice on top of the bar and a dialog: dialogs are tall, and the notice that one causes must be readable
 /// and dismissible.
-fn over_dialog(ctx: &Context, room: Rect, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+fn over_dialog(ctx: &Context, room: Rect, state: &State, actions: &mut Vec<Action>) {
     let Some((place, notice)) = state.notices.iter().enumerate().next_back() else {
         return;
     };
@@ -117,50 +115,49 @@ fn over_dialog(ctx: &Context, room: Rect, state: &State, theme: &Theme, actions:
         .fixed_pos(pos2(room.left(), ctx.content_rect().top() + 2.0))
         .show(ctx, |ui| {
             ui.set_width(room.width());
-            plate(ui, place, notice, theme, actions);
+            plate(ui, place, notice, actions);
         });
 }
 
-fn plate(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut Vec<Action>) {
+fn plate(ui: &mut Ui, place: usize, notice: &Notice, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
     Frame::new()
         .fill(theme.control)
         .stroke(theme.edge_stroke())
         .corner_radius(ROUNDING)
         .inner_margin(Margin::symmetric(14, 4))
-        .show(ui, |ui| line(ui, place, notice, theme, actions));
+        .show(ui, |ui| line(ui, place, notice, actions));
 }
 
-fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut Vec<Action>) {
-    let (dismiss, undo) = (text!("shell-dismiss"), text!("shell-undo"));
-    let reread = text!("shell-read-in-millimetres");
+fn line(ui: &mut Ui, place: usize, notice: &Notice, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
     ui.horizontal(|ui| {
         ui.set_min_height(space::TARGET);
-        let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
         let sign = match notice.kind {
             NoticeKind::Look => Mark::Look,
             NoticeKind::Done | NoticeKind::Undoable => Mark::Good,
         };
-        mark(ui.painter(), rect.center(), 9.0, sign, theme);
+        line_mark(ui, 20.0, 9.0, sign);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if labelled(ui, Button::new(&*dismiss), &dismiss).clicked() {
+            if text_button(ui, &text!("shell-dismiss")).clicked() {
                 actions.push(Action::Dismiss(place));
             }
             let is_offered = notice.in_millimetres.is_some();
-            if is_offered && labelled(ui, Button::new(&*reread), &reread).clicked() {
+            if is_offered && text_button(ui, &text!("shell-read-in-millimetres")).clicked() {
                 actions.push(Action::Reread(place));
             }
             let is_undoable = notice.kind == NoticeKind::Undoable;
-            if is_undoable && labelled(ui, Button::new(&*undo), &undo).clicked() {
+            if is_undoable && text_button(ui, &text!("shell-undo")).clicked() {
                 actions.push(Action::Undo);
             }
             let words = Layout::left_to_right(Align::Center).with_main_wrap(true);
             ui.with_layout(words, |ui| {
                 if notice.advice.is_empty() {
-                    ui.label(RichText::new(sentence(&notice.what)).color(theme.text));
+                    ui.label(sentence(&notice.what));
                 } else {
                     let what = sentence(notice.what.trim_end_matches(['.', '。']));
                     let what = text!("shell-sentence", text = what);
-                    ui.label(RichText::new(what).color(theme.text));
+                    ui.label(what);
                     ui.label(RichText::new(&notice.advice).color(theme.warning));
                 }
             });

@@ -1,8 +1,6 @@
 //! The bars above and below the operator's view: the parts of this shift, the running work, and the operator's few controls.
 
-use egui::{
-    Align, Button, Frame, Layout, Margin, Panel, RichText, Sense, Ui, Vec2, WidgetInfo, vec2,
-};
+use egui::{Align, Button, Frame, Layout, Margin, Panel, RichText, Ui, WidgetInfo, vec2};
 
 use super::{
     action::Action,
@@ -13,13 +11,13 @@ use super::{
     shift::ShiftParts,
     source_menu,
     state::State,
-    top_bar::{Progress, labelled, language_menu, progress},
+    top_bar::{Progress, language_menu, progress},
 };
 use crate::app::{
     language::{keys, text},
     ui::{
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, mark},
+        widgets::{Mark, labelled, line_mark, text_button},
     },
 };
 
@@ -34,9 +32,9 @@ pub(in crate::app) fn ui(
     state: &State,
     robot: &RobotCell,
     work: Option<Progress>,
-    theme: &Theme,
     actions: &mut Vec<Action>,
 ) {
+    let theme = Theme::of(ui);
     let frame = Frame::new()
         .fill(theme.panel)
         .inner_margin(Margin::symmetric(14, 0));
@@ -45,14 +43,14 @@ pub(in crate::app) fn ui(
         .resizable(false)
         .frame(frame)
         .show(ui, |ui| {
-            ui.horizontal_centered(|ui| upper(ui, state, robot, work, theme, actions));
+            ui.horizontal_centered(|ui| upper(ui, state, robot, work, actions));
         });
     Panel::bottom("operator's lower bar")
         .exact_size(LOWER)
         .resizable(false)
         .frame(frame)
         .show(ui, |ui| {
-            ui.horizontal_centered(|ui| lower(ui, state, theme, actions));
+            ui.horizontal_centered(|ui| lower(ui, state, actions));
         });
 }
 
@@ -61,17 +59,16 @@ fn upper(
     state: &State,
     robot: &RobotCell,
     work: Option<Progress>,
-    theme: &Theme,
     actions: &mut Vec<Action>,
 ) {
     ui.label(RichText::new("Partsight").font(font::body_strong()));
     ui.add_space(space::LARGE);
     // Otherwise the row would be as high as the bar.
-    ui.horizontal(|ui| counts(ui, &state.session.shift, theme));
+    ui.horizontal(|ui| counts(ui, &state.session.shift));
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        let key = RichText::new(keys("Ctrl K")).font(font::small());
+        let key = RichText::new(keys("Ctrl K")).small();
         let name = text!("shell-engineers-view");
-        let engineer = Button::new(&*name).shortcut_text(key.color(theme.weak_text));
+        let engineer = Button::new(&*name).shortcut_text(key.weak());
         let says = match state.roles.pin {
             Some(_) => text!("operator-locked-says"),
             None => text!("shell-to-engineer"),
@@ -80,7 +77,7 @@ fn upper(
             actions.push(Action::Role(RoleAction::Switch));
         }
         let history = WorkspaceKind::History.title();
-        if labelled(ui, Button::new(&*history), &history)
+        if text_button(ui, &history)
             .on_hover_text(text!("operator-history-says"))
             .clicked()
         {
@@ -88,14 +85,15 @@ fn upper(
         }
         language_menu(ui, state, actions);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            robot::chip(ui, robot, &state.session, work.is_some(), theme);
-            progress(ui, state, work, theme, actions);
+            robot::chip(ui, robot, &state.session, work.is_some());
+            progress(ui, state, work, actions);
         });
     });
 }
 
 /// Draws the number of parts of this shift, and how many were accepted.
-fn counts(ui: &mut Ui, shift: &ShiftParts, theme: &Theme) {
+fn counts(ui: &mut Ui, shift: &ShiftParts) {
+    let theme = Theme::of(ui);
     let Some(since) = &shift.since else {
         return;
     };
@@ -103,7 +101,7 @@ fn counts(ui: &mut Ui, shift: &ShiftParts, theme: &Theme) {
         "operator-shift-since",
         time = since.strftime("%H:%M").to_string()
     );
-    ui.label(RichText::new(since).color(theme.weak_text));
+    ui.weak(since);
     let num = shift.num_ok + shift.num_not_ok;
     let chips = [
         (None, text!("operator-num-parts", num = num)),
@@ -125,22 +123,22 @@ fn counts(ui: &mut Ui, shift: &ShiftParts, theme: &Theme) {
             .show(ui, |ui| {
                 ui.spacing_mut().interact_size.y = 0.0;
                 if let Some(sign) = sign {
-                    let (rect, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
-                    mark(ui.painter(), rect.center(), 8.0, sign, theme);
+                    line_mark(ui, 16.0, 8.0, sign);
                 }
                 ui.label(RichText::new(text).font(font::body_strong()));
             });
     }
 }
 
-fn lower(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+fn lower(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
     let text = |text: &str| RichText::new(text).font(font::verdict());
-    let key = |text: &str| RichText::new(text).font(font::small());
+    let key = |text: &str| RichText::new(text).small();
     let is_live = state.session.is_live();
     let (name, space) = (text!("shell-capture"), keys("Space"));
     // The accent marks the next button to press; while a source is followed, there is none.
     let capture = if is_live {
-        Button::new(text(&name)).shortcut_text(key(&space).color(theme.weak_text))
+        Button::new(text(&name)).shortcut_text(key(&space).weak())
     } else {
         Button::new(text(&name).color(theme.on_accent))
             .shortcut_text(key(&space).color(theme.on_accent))
@@ -179,7 +177,7 @@ fn lower(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
         actions.push(Action::GoTo(WorkspaceKind::History));
     }
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        source(ui, &state.session, theme);
+        source(ui, &state.session);
     });
 }
 
@@ -190,13 +188,12 @@ fn labelled_large(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Respons
 }
 
 /// Draws the source, and whether frames arrive.
-fn source(ui: &mut Ui, session: &Session, theme: &Theme) {
-    let text = |text: String| egui::Label::new(RichText::new(text).color(theme.weak_text));
+fn source(ui: &mut Ui, session: &Session) {
+    let text = |text: String| egui::Label::new(RichText::new(text).weak());
     if session.is_live() {
         let (sign, words) = live::words(session);
         ui.add(text(words).truncate());
-        let (rect, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
-        mark(ui.painter(), rect.center(), 8.0, sign, theme);
+        line_mark(ui, 16.0, 8.0, sign);
     } else {
         let source = text!(
             "operator-source",

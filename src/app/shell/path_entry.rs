@@ -5,18 +5,15 @@ use std::{
     task::Poll,
 };
 
-use egui::{Button, Context, Key, RichText, TextEdit};
+use egui::{Context, Key, RichText, TextEdit};
 
-use super::{
-    file_dialog::{DialogLock, FileChoice, FileRequest},
-    top_bar::labelled,
-};
+use super::file_dialog::{DialogLock, FileChoice, FileRequest};
 use crate::{
     app::{
         language::text,
         ui::{
-            theme::{Theme, font, space},
-            widgets,
+            theme::{Theme, space},
+            widgets::{self, text_button},
         },
     },
     files::file_of,
@@ -121,17 +118,17 @@ fn free(folder: &Path, name: &str) -> PathBuf {
 }
 
 /// Draws the dialog while a path is being typed.
-pub(in crate::app) fn ui(ctx: &Context, lock: &DialogLock, theme: &Theme) {
+pub(in crate::app) fn ui(ctx: &Context, lock: &DialogLock) {
+    let theme = Theme::of(ctx);
     let mut typed = lock.typed();
     let Some(entry) = typed.as_mut() else {
         return;
     };
     let modal = widgets::dialog(ctx, "typed path", |ui| {
         ui.set_max_width(WIDTH);
-        let title = RichText::new(&entry.request.title).font(font::verdict());
-        ui.label(title.color(theme.text));
+        ui.heading(&entry.request.title);
         let says = text!("shell-no-file-dialog");
-        ui.label(RichText::new(says).color(theme.weak_text));
+        ui.weak(says);
         let name = ui.label(text!("shell-path"));
         let mut text = entry.text.clone();
         let field = ui.add(TextEdit::singleline(&mut text).desired_width(WIDTH));
@@ -148,14 +145,12 @@ pub(in crate::app) fn ui(ctx: &Context, lock: &DialogLock, theme: &Theme) {
         }
         ui.add_space(space::SMALL);
         ui.horizontal(|ui| {
-            let ok = text!("shell-ok");
-            if labelled(ui, Button::new(&*ok), &ok).clicked() || is_entered {
+            if text_button(ui, &text!("shell-ok")).clicked() || is_entered {
                 entry.confirm();
                 field.request_focus();
                 ui.ctx().request_repaint();
             }
-            let cancel = text!("shell-cancel");
-            if labelled(ui, Button::new(&*cancel), &cancel).clicked() {
+            if text_button(ui, &text!("shell-cancel")).clicked() {
                 entry.outcome = Poll::Ready(None);
                 ui.ctx().request_repaint();
             }
@@ -173,7 +168,6 @@ mod tests {
     use egui_kittest::{Harness, kittest::Queryable as _};
 
     use super::*;
-    use crate::app::ui::theme::ThemeChoice;
 
     fn entry(choice: FileChoice, folder: &Path) -> PathEntry {
         let request = FileRequest {
@@ -230,7 +224,7 @@ mod tests {
                 Theme::install_fonts(ui.ctx());
                 return;
             }
-            super::ui(ui.ctx(), &shared, Theme::of(ThemeChoice::Dark));
+            super::ui(ui.ctx(), &shared);
         });
         harness.run_steps(4);
         let field = |harness: &Harness<'_>| {

@@ -7,12 +7,15 @@ use super::{
     roles::{UserRole, chip, is_operators},
     session::WorkspaceKind,
     state::State,
-    top_bar::focus_ring,
 };
-use crate::app::ui::theme::{Theme, font, space};
+use crate::app::ui::{
+    theme::{Theme, font, space},
+    widgets::focus_ring,
+};
 
 /// Draws the rail.
-pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+pub(in crate::app) fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
     let frame = Frame::new().fill(theme.panel);
     Panel::left("rail")
         .exact_size(space::RAIL)
@@ -40,7 +43,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
                 let icon = rect.center() - vec2(0.0, 9.0);
                 sign(painter, workspace, icon, Stroke::new(1.6, colour));
                 label(painter, rect, &workspace.title(), colour);
-                focus_ring(ui, rect, &response, theme);
+                focus_ring(ui, rect, &response);
                 response.widget_info(|| {
                     let label = workspace.title();
                     egui::WidgetInfo::selected(egui::Role::Tab, true, is_front, label)
@@ -49,7 +52,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
                     actions.push(Action::GoTo(workspace));
                 }
             }
-            chip(ui, state, theme, actions);
+            chip(ui, state, actions);
         });
 }
 

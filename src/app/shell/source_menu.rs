@@ -9,13 +9,16 @@ use super::{
     live::LiveAction,
     session::Source,
     state::State,
-    top_bar::{NARROW, shortened},
+    top_bar::NARROW,
 };
 use crate::{
     app::{
         inspection::source::{CellChoice, file_name},
         language::text,
-        ui::theme::{font, space},
+        ui::{
+            theme::{font, space},
+            widgets::shortened,
+        },
     },
     capture::{GenicamSpec, KinectSpec, OpenNiSpec, RealsenseSpec, SimulatedSpec, SourceSpec},
 };

@@ -10,12 +10,14 @@ use super::{
     source_menu,
     state::State,
 };
-pub(in crate::app) use crate::app::ui::widgets::{focus_ring, labelled, shortened};
 use crate::app::{
     inspection::{figures::StagePanel, library_cache::LibraryView, source::file_name},
     language::{Language, keys, text},
     task::Running,
-    ui::theme::{Theme, ThemeChoice, font, space},
+    ui::{
+        theme::{Theme, ThemeChoice, font, space},
+        widgets::{labelled, shortened, text_button},
+    },
 };
 
 /// Width of the window, logical pixels, below which the bar has no room for keys.
@@ -35,9 +37,9 @@ pub(in crate::app) fn ui(
     state: &State,
     robot: &RobotCell,
     work: Option<Progress>,
-    theme: &Theme,
     actions: &mut Vec<Action>,
 ) {
+    let theme = Theme::of(ui);
     let frame = Frame::new()
         .fill(theme.panel)
         .inner_margin(Margin::symmetric(14, 0));
@@ -56,7 +58,7 @@ pub(in crate::app) fn ui(
                     space::LARGE
                 });
                 source_menu::ui(ui, state, actions);
-                robot_button(ui, state, robot, theme, actions);
+                robot_button(ui, state, robot, actions);
                 let name = text!("shell-capture");
                 let capture = RichText::new(&name).font(font::body_strong());
                 // The accent marks the next button to press; while a source is followed, there is none.
@@ -69,17 +71,17 @@ pub(in crate::app) fn ui(
                 if labelled(ui, capture, &name).clicked() {
                     actions.push(Action::Capture);
                 }
-                live_button(ui, state, theme, actions);
+                live_button(ui, state, actions);
                 let name = text!("shell-open");
                 let open = with_key(ui, Button::new(&*name), "Ctrl O", theme.weak_text);
                 if labelled(ui, open, &name).clicked() {
                     actions.push(Action::Ask(DialogRequest::Scene));
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    settings(ui, state, work.is_some(), theme, actions);
+                    settings(ui, state, work.is_some(), actions);
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                        robot::chip(ui, robot, &state.session, work.is_some(), theme);
-                        progress(ui, state, work, theme, actions);
+                        robot::chip(ui, robot, &state.session, work.is_some());
+                        progress(ui, state, work, actions);
                     });
                 });
             });
@@ -91,12 +93,13 @@ fn with_key<'a>(ui: &Ui, button: Button<'a>, key: &str, colour: Color32) -> Butt
     if ui.ctx().content_rect().width() < NARROW {
         return button;
     }
-    let key = RichText::new(keys(key)).font(font::small());
+    let key = RichText::new(keys(key)).small();
     button.shortcut_text(key.color(colour))
 }
 
 /// Draws the button that starts and stops following the source.
-fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+fn live_button(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
     let is_live = state.session.is_live();
     let colour = if is_live { theme.on_accent } else { theme.text };
     let key = if is_live {
@@ -106,7 +109,7 @@ fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Acti
     };
     let name = text!("shell-live");
     let text = RichText::new(&name).font(font::body_strong()).color(colour);
-    let key = RichText::new("L").font(font::small()).color(key);
+    let key = RichText::new("L").small().color(key);
     let button = Button::selectable(is_live, text)
         .frame_when_inactive(true)
         .shortcut_text(key)
@@ -124,13 +127,8 @@ fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Acti
 }
 
 /// Draws the button of the robot's cell, which shows whether it is calibrated.
-fn robot_button(
-    ui: &mut Ui,
-    state: &State,
-    robot: &RobotCell,
-    theme: &Theme,
-    actions: &mut Vec<Action>,
-) {
+fn robot_button(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
     let name = text!("shell-robot");
     let button = with_key(ui, Button::new(&*name), "B", theme.weak_text);
     let says = match (&state.session.robot, robot.in_use()) {
@@ -144,13 +142,8 @@ fn robot_button(
 }
 
 /// Draws help, colours, units and library, from right to left.
-fn settings(
-    ui: &mut Ui,
-    state: &State,
-    is_at_work: bool,
-    theme: &Theme,
-    actions: &mut Vec<Action>,
-) {
+fn settings(ui: &mut Ui, state: &State, is_at_work: bool, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
     let name = text!("shell-help");
     let help = with_key(ui, Button::new(&*name), "F1", theme.weak_text);
     if labelled(ui, help, &name).clicked() {
@@ -161,7 +154,7 @@ fn settings(
         ThemeChoice::Dark => text!("shell-to-dark"),
         ThemeChoice::Light => text!("shell-to-light"),
     };
-    let colours = labelled(ui, Button::new(&*name), &name);
+    let colours = text_button(ui, &name);
     if colours.on_hover_text(says).clicked() {
         actions.push(Action::SwitchTheme);
     }
@@ -244,20 +237,19 @@ pub(super) fn progress(
     ui: &mut Ui,
     state: &State,
     work: Option<Progress>,
-    theme: &Theme,
     actions: &mut Vec<Action>,
 ) {
+    let theme = Theme::of(ui);
     let Some(Progress { running, cancel }) = work else {
         // In Inspect the verdict card shows it.
         if state.session.is_live() && state.session.workspace != WorkspaceKind::Inspect {
-            live::chip(ui, &state.session, theme);
+            live::chip(ui, &state.session);
         }
         return;
     };
     ui.add_space(space::SMALL);
-    let name = text!("shell-cancel");
     if let Some(cancel) = cancel
-        && labelled(ui, Button::new(&*name), &name).clicked()
+        && text_button(ui, &text!("shell-cancel")).clicked()
     {
         actions.push(cancel);
     }
@@ -286,5 +278,5 @@ pub(super) fn progress(
         }
         (None, None) => shortened(&running.title, 28),
     };
-    ui.add(egui::Label::new(RichText::new(text).color(theme.weak_text)).truncate());
+    ui.add(egui::Label::new(RichText::new(text).weak()).truncate());
 }

@@ -23,7 +23,7 @@ use crate::app::{
     shell::session::{Session, WorkspaceKind},
     ui::{
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, focus_ring, grouped, labelled, mark, sentence, shortened},
+        widgets::{Mark, focus_ring, grouped, labelled, line_mark, sentence, shortened},
     },
 };
 
@@ -42,7 +42,6 @@ pub(in crate::app) struct ShownShots<'a> {
     pub(in crate::app) choice: &'a ShotChoice,
     pub(in crate::app) shots: &'a ShotsState,
     pub(in crate::app) session: &'a Session,
-    pub(in crate::app) theme: &'a Theme,
 }
 
 /// The list, with the textures of its pictures.
@@ -66,7 +65,6 @@ impl ShotList {
             fused,
             shots,
             session,
-            theme,
             ..
         } = scan;
         let shown = shots.strip;
@@ -82,7 +80,7 @@ impl ShotList {
                 }
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let key = |text: &str| RichText::new(text).font(font::small());
+                let key = |text: &str| RichText::new(text).small();
                 let add = text!("shots-add");
                 if labelled(ui, Button::new(key(&add)), &add)
                     .on_hover_text(text!("shots-add-says"))
@@ -116,8 +114,8 @@ impl ShotList {
                     }
                 }
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    let text = RichText::new(caption(fused, session.units)).font(font::small());
-                    ui.add(Label::new(text.color(theme.weak_text)).truncate());
+                    let text = RichText::new(caption(fused, session.units)).small();
+                    ui.add(Label::new(text.weak()).truncate());
                 });
             });
         });
@@ -188,7 +186,7 @@ fn card(
 ) {
     let is_taken = !scan.choice.dropped.contains(&place);
     Frame::new()
-        .fill(scan.theme.control)
+        .fill(Theme::of(ui).control)
         .corner_radius(ROUNDING)
         .inner_margin(Margin {
             left: 8,
@@ -221,7 +219,7 @@ fn card(
                 }
                 ui.horizontal_top(|ui| {
                     picture(ui, place, is_taken, texture, scan, actions);
-                    ui.vertical(|ui| words(ui, row, is_taken, scan.session.units, scan.theme));
+                    ui.vertical(|ui| words(ui, row, is_taken, scan.session.units));
                 });
             });
         });
@@ -236,7 +234,7 @@ fn picture(
     scan: ShownShots<'_>,
     actions: &mut Vec<ShotsAction>,
 ) {
-    let theme = scan.theme;
+    let theme = Theme::of(ui);
     let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::click());
     let is_marked = scan.shots.looked_at == Some(place);
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -249,7 +247,7 @@ fn picture(
         ui.painter()
             .rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
     }
-    focus_ring(ui, rect, &response, theme);
+    focus_ring(ui, rect, &response);
     let label = text!("shots-mark", shot = place + 1);
     response
         .widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_marked, label.clone()));
@@ -259,18 +257,18 @@ fn picture(
 }
 
 /// Draws what the shot contributes, or why it does not.
-fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem, theme: &Theme) {
+fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem) {
+    let theme = Theme::of(ui);
     ui.spacing_mut().interact_size.y = 0.0;
     ui.spacing_mut().item_spacing.y = 1.0;
     let small = |ui: &mut Ui, text: String, colour: Color32| {
-        let text = RichText::new(text).font(font::small()).color(colour);
+        let text = RichText::new(text).small().color(colour);
         ui.add(Label::new(text).truncate())
     };
     let said = |ui: &mut Ui, text: String, hint: &str| {
         ui.horizontal_top(|ui| {
-            let (rect, _) = ui.allocate_exact_size(Vec2::splat(14.0), Sense::hover());
-            mark(ui.painter(), rect.center(), 6.5, Mark::Look, theme);
-            let text = RichText::new(text).font(font::small()).color(theme.warning);
+            line_mark(ui, 14.0, 6.5, Mark::Look);
+            let text = RichText::new(text).small().color(theme.warning);
             ui.add(Label::new(text).wrap()).on_hover_text(hint);
         });
     };

@@ -15,21 +15,21 @@ use crate::app::{
 };
 
 /// Draws the section.
-pub(in crate::app) fn summary(ui: &mut Ui, fused: &FusedShots, units: UnitSystem, theme: &Theme) {
-    heading(ui, theme, &text!("shots-scan"));
+pub(in crate::app) fn summary(ui: &mut Ui, fused: &FusedShots, units: UnitSystem) {
+    heading(ui, &text!("shots-scan"));
     // Rows of text may be closer together than controls.
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 20.0;
         ui.spacing_mut().item_spacing.y = 3.0;
-        figures(ui, fused, units, theme);
+        figures(ui, fused, units);
     });
 }
 
-fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem, theme: &Theme) {
+fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem) {
+    let theme = Theme::of(ui);
     let num_all = fused.rows.len();
     row(
         ui,
-        theme,
         &text!("shots-used"),
         &text!("shots-num-used", used = fused.num_used(), num = num_all),
     );
@@ -41,19 +41,14 @@ fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem, theme: &Theme) {
         [most[0].max(one[0]), most[1].max(one[1])]
     });
     let moved = format!("{} · {}", units.length(shift), units.angle(turn));
-    row(ui, theme, &text!("shots-refined-by"), &moved);
+    row(ui, &text!("shots-refined-by"), &moved);
     if let Some(overlap) = fused.scan.after.part.or(fused.scan.after.all) {
-        row(
-            ui,
-            theme,
-            &text!("shots-agree-to"),
-            &units.length(overlap.rms.0),
-        );
+        row(ui, &text!("shots-agree-to"), &units.length(overlap.rms.0));
     }
     let num_part = fused.scan.cloud.is_part.iter().filter(|is| **is).count();
-    row(ui, theme, &text!("shots-points"), &grouped(num_part));
+    row(ui, &text!("shots-points"), &grouped(num_part));
     let open = format!("{:.0} %", fused.figure.open_share * 100.0);
-    row(ui, theme, &text!("shots-outline-open"), &open);
+    row(ui, &text!("shots-outline-open"), &open);
     for (place, shot) in fused.rows.iter().enumerate() {
         if let ShotFate::Excluded(why) = shot.fate {
             ui.add_space(space::SMALL);
@@ -62,7 +57,7 @@ fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem, theme: &Theme) {
                 shot = place + 1,
                 why = excluded(&why)
             );
-            ui.label(RichText::new(sentence(&text)).color(theme.text));
+            ui.label(sentence(&text));
             ui.label(
                 RichText::new(excluded_advice(&why))
                     .font(font::body_strong())

@@ -47,16 +47,16 @@ pub(in crate::app) fn control<R: TranslatedParameters>(
     parameter: &Parameter<R>,
     recipe: &R,
     default: &R,
-    theme: &Theme,
     changed: &mut dyn FnMut(ParameterChange),
 ) {
+    let theme = Theme::of(ui);
     let is_changed = parameter.differs(recipe, default);
     let title = parameters::name(parameter);
     let name = if is_changed {
         let name = text!("view-parameter-changed", parameter = &title);
         RichText::new(name).color(theme.accent)
     } else {
-        RichText::new(&title).color(theme.text)
+        RichText::new(&title)
     };
     let hover = hover_text(parameter, default);
     ui.scope(|ui| {

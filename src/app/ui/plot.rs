@@ -111,9 +111,9 @@ impl<'a> Axes<'a> {
         self,
         ui: &mut Ui,
         rect: Rect,
-        theme: &Theme,
         draw: impl FnOnce(&mut PlotUi<'a>) + 'a,
     ) -> PlotTransform {
+        let theme = Theme::of(ui);
         let Self {
             title,
             across,
@@ -196,7 +196,8 @@ pub(in crate::app) struct RayCurves<'a> {
 
 impl RayCurves<'_> {
     /// Draws both curves, the part's dashed.
-    pub(in crate::app) fn show(self, ui: &mut Ui, area: Rect, theme: &Theme) {
+    pub(in crate::app) fn show(self, ui: &mut Ui, area: Rect) {
+        let theme = Theme::of(ui);
         let Self {
             name,
             unit,
@@ -237,7 +238,7 @@ impl RayCurves<'_> {
                 )
             }));
         }
-        axes.show(ui, area, theme, |plot| {
+        axes.show(ui, area, |plot| {
             if let Some(part) = part {
                 let dashed = LineStyle::Dashed { length: 6.0 };
                 let line = curve(part, theme.reference_series).width(1.3);
@@ -297,7 +298,7 @@ pub(in crate::app) fn over_time(
             format!("{at}: {}", values.join(", "))
         })),
     };
-    let shown = axes.show(ui, rect.shrink(space::MEDIUM), theme, |plot| {
+    let shown = axes.show(ui, rect.shrink(space::MEDIUM), |plot| {
         for (_, values, colour) in curves {
             let points = values
                 .iter()

@@ -36,6 +36,14 @@ impl ThemeChoice {
             Self::Light => Self::Dark,
         }
     }
+
+    /// Returns its colours.
+    pub fn colours(self) -> &'static Theme {
+        match self {
+            Self::Dark => &DARK,
+            Self::Light => &LIGHT,
+        }
+    }
 }
 
 /// Colours by role.
@@ -217,11 +225,11 @@ pub mod font {
 }
 
 impl Theme {
-    /// Returns the colours of a choice.
-    pub fn of(choice: ThemeChoice) -> &'static Self {
-        match choice {
-            ThemeChoice::Dark => &DARK,
-            ThemeChoice::Light => &LIGHT,
+    /// Returns the colours of the window that is being drawn.
+    pub fn of(ctx: &egui::Context) -> &'static Self {
+        match ctx.theme() {
+            egui::Theme::Dark => &DARK,
+            egui::Theme::Light => &LIGHT,
         }
     }
 
@@ -271,7 +279,7 @@ impl Theme {
         };
         ctx.set_theme(egui_theme);
         let mut style = Style {
-            visuals: Self::of(choice).visuals(choice),
+            visuals: choice.colours().visuals(choice),
             ..Style::default()
         };
         style.text_styles = [
@@ -352,7 +360,7 @@ mod tests {
     #[test]
     fn text_stands_out_from_whatever_it_is_written_on() {
         for choice in [ThemeChoice::Dark, ThemeChoice::Light] {
-            let theme = Theme::of(choice);
+            let theme = choice.colours();
             let Theme { canvas, panel, .. } = *theme;
             let (control, hovered) = (theme.control, theme.control_hovered);
             let (good, bad) = (theme.accepted_back, theme.rejected_back);

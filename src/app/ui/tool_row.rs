@@ -12,7 +12,7 @@ pub(in crate::app) fn choice(
     is_chosen: bool,
     is_enabled: bool,
 ) -> egui::Response {
-    let button = Button::new(RichText::new(text).font(font::small())).selected(is_chosen);
+    let button = Button::new(RichText::new(text).small()).selected(is_chosen);
     let button = button.min_size(Vec2::splat(space::TARGET));
     let response = ui.add_enabled(is_enabled, button);
     response.widget_info(|| {
@@ -79,7 +79,7 @@ fn buttons<A>(ui: &mut Ui, groups: Vec<Vec<Tool<A>>>, actions: &mut Vec<A>) {
 fn width<A>(ui: &Ui, groups: &[Vec<Tool<A>>], gap: f32) -> f32 {
     let spacing = ui.spacing();
     let of_one = |tool: &Tool<A>| {
-        let text = WidgetText::from(RichText::new(&tool.text).font(font::small()));
+        let text = WidgetText::from(RichText::new(&tool.text).small());
         let wrap = Some(TextWrapMode::Extend);
         let galley = text.into_galley(ui, wrap, f32::INFINITY, font::small());
         (galley.size().x + 2.0 * spacing.button_padding.x).max(space::TARGET)

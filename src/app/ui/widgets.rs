@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{
     Align, Button, Color32, ColorImage, Context, Event, FontId, Frame, Galley, Id, Key, Label,
-    Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response, RichText, Stroke,
+    Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response, RichText, Sense, Stroke,
     StrokeKind, TextStyle, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 use image::RgbImage;
@@ -64,26 +64,29 @@ pub(in crate::app) fn mark(
     }
 }
 
+/// Draws a mark of this radius in a line of text, in a square with this side.
+pub(in crate::app) fn line_mark(ui: &mut Ui, side: f32, radius: f32, sign: Mark) -> Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(side), Sense::hover());
+    mark(ui.painter(), rect.center(), radius, sign, Theme::of(ui));
+    response
+}
+
 /// Draws a name on the left and its value on the right.
-pub(in crate::app) fn row(ui: &mut Ui, theme: &Theme, name: &str, value: &str) {
+pub(in crate::app) fn row(ui: &mut Ui, name: &str, value: &str) {
     ui.horizontal(|ui| {
         // Nothing here can be pressed, so rows need no minimum height.
         ui.spacing_mut().interact_size.y = 0.0;
-        ui.label(RichText::new(name).color(theme.weak_text));
+        ui.weak(name);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label(RichText::new(value).color(theme.text));
+            ui.label(value);
         });
     });
 }
 
 /// Draws the heading of a group.
-pub(in crate::app) fn heading(ui: &mut Ui, theme: &Theme, text: &str) {
+pub(in crate::app) fn heading(ui: &mut Ui, text: &str) {
     ui.add_space(super::theme::space::MEDIUM);
-    ui.label(
-        RichText::new(text)
-            .font(font::heading())
-            .color(theme.weak_text),
-    );
+    ui.label(RichText::new(text).font(font::heading()).weak());
 }
 
 /// Capitalises the first letter, unless the text begins with the name of a file or of a parameter.
@@ -141,12 +144,18 @@ pub(in crate::app) fn plane_in(
 }
 
 /// Outlines a hand-drawn control that has the focus.
-pub(in crate::app) fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response, theme: &Theme) {
+pub(in crate::app) fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response) {
+    let theme = Theme::of(ui);
     if response.has_focus() {
         let stroke = Stroke::new(2.0, theme.accent);
         ui.painter()
             .rect_stroke(rect.shrink(1.0), ROUNDING, stroke, StrokeKind::Inside);
     }
+}
+
+/// Draws a button.
+pub(in crate::app) fn text_button(ui: &mut Ui, text: &str) -> egui::Response {
+    labelled(ui, Button::new(text), text)
 }
 
 /// Draws a button whose accessible name is `label` alone, whatever shortcut it shows.
@@ -259,7 +268,8 @@ pub(in crate::app) fn dialog<R>(
 
 /// Draws the button that Enter presses in a dialog while no control has the focus. Ignores the Enter that ends text input or
 /// that opened the dialog.
-pub(in crate::app) fn default_button(ui: &mut Ui, label: &str, can: bool, theme: &Theme) -> bool {
+pub(in crate::app) fn default_button(ui: &mut Ui, label: &str, can: bool) -> bool {
+    let theme = Theme::of(ui);
     let button = Button::new(RichText::new(label).color(theme.on_accent)).fill(theme.accent);
     let is_clicked = ui
         .add_enabled_ui(can, |ui| labelled(ui, button, label).clicked())

@@ -1,15 +1,15 @@
 //! The dialog that sets up the simulated cell.
 
-use egui::{Button, Context, DragValue, Grid, RichText, Ui, vec2};
+use egui::{Button, Context, DragValue, Grid, Ui, vec2};
 
 use super::state::LiveAction;
 use crate::{
     app::{
         language::{results::object, text},
-        shell::{action::Action, state::State, top_bar::labelled},
+        shell::{action::Action, state::State},
         ui::{
-            theme::{Theme, font, space},
-            widgets,
+            theme::space,
+            widgets::{self, text_button},
         },
     },
     capture::{CellScene, SimulatedPose, SimulatedSpec, SourceSpec},
@@ -30,20 +30,14 @@ const EVERY: f64 = 8.0;
 const MAX_MODEL: u64 = 999;
 
 /// Draws the dialog while it is open.
-pub(in crate::app) fn set_up(
-    ctx: &Context,
-    state: &State,
-    theme: &Theme,
-    actions: &mut Vec<Action>,
-) {
+pub(in crate::app) fn set_up(ctx: &Context, state: &State, actions: &mut Vec<Action>) {
     let Some(known) = &state.session.live.setup else {
         return;
     };
     let mut spec = known.clone();
     let modal = widgets::dialog(ctx, "set up the cell", |ui| {
         ui.set_max_width(560.0);
-        let title = RichText::new(text!("shell-simulated-cell")).font(font::verdict());
-        ui.label(title.color(theme.text));
+        ui.heading(text!("shell-simulated-cell"));
         ui.add_space(space::SMALL);
         Grid::new("cell")
             .num_columns(2)
@@ -52,11 +46,10 @@ pub(in crate::app) fn set_up(
         ui.add_space(space::MEDIUM);
         let mut closing = None;
         ui.horizontal(|ui| {
-            if widgets::default_button(ui, &text!("live-use-it"), true, theme) {
+            if widgets::default_button(ui, &text!("live-use-it"), true) {
                 closing = Some(true);
             }
-            let close = text!("shell-close");
-            if labelled(ui, Button::new(&*close), &close).clicked() {
+            if text_button(ui, &text!("shell-close")).clicked() {
                 closing = Some(false);
             }
         });

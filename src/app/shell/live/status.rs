@@ -1,6 +1,6 @@
 //! Status of following the source as text: on the verdict card, or in the bar while the card is not in front.
 
-use egui::{Button, Label, RichText, Sense, Ui, Vec2};
+use egui::{Button, Label, RichText, Ui, Vec2};
 
 use super::{
     state::megabytes,
@@ -11,8 +11,8 @@ use crate::{
         language::text,
         shell::session::{Session, Source},
         ui::{
-            theme::{Theme, font, space},
-            widgets::{Mark, mark},
+            theme::{font, space},
+            widgets::{Mark, line_mark},
         },
     },
     capture::SourceSpec,
@@ -23,22 +23,17 @@ use crate::{
 const HEIGHT: f32 = 64.0;
 
 /// Draws the head of the verdict card while the source is followed. True if recording shall start or stop.
-pub(in crate::app) fn card(ui: &mut Ui, session: &Session, theme: &Theme) -> bool {
+pub(in crate::app) fn card(ui: &mut Ui, session: &Session) -> bool {
     let (sign, words) = words(session);
-    let small = |text: String| {
-        RichText::new(text)
-            .font(font::small())
-            .color(theme.weak_text)
-    };
+    let small = |text: String| RichText::new(text).small().weak();
     let size = Vec2::new(ui.available_width(), HEIGHT);
     ui.allocate_ui(size, |ui| {
         ui.set_min_size(size);
         ui.spacing_mut().item_spacing.y = 3.0;
         ui.horizontal(|ui| {
-            let (rect, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
-            mark(ui.painter(), rect.center(), 7.5, sign, theme);
+            line_mark(ui, 16.0, 7.5, sign);
             let words = RichText::new(words).font(font::body_strong());
-            ui.add(Label::new(words.color(theme.text)).truncate());
+            ui.add(Label::new(words).truncate());
         });
         let status = session.live.status.as_ref();
         ui.label(small(status.map_or_else(String::new, evidence_text)));
@@ -54,7 +49,7 @@ pub(in crate::app) fn card(ui: &mut Ui, session: &Session, theme: &Theme) -> boo
 fn record(ui: &mut Ui, session: &Session) -> bool {
     let size = Vec2::new(ui.available_width(), space::TARGET);
     if session.live.recording.is_none() {
-        let text = RichText::new(text!("live-record")).font(font::small());
+        let text = RichText::new(text!("live-record")).small();
         let says = text!("live-record-says");
         let button = ui.add(Button::new(text).min_size(size));
         return button.on_hover_text(says).clicked();
@@ -69,7 +64,7 @@ fn record(ui: &mut Ui, session: &Session) -> bool {
         ),
         None => text!("live-stop-recording"),
     };
-    let text = RichText::new(&name).font(font::small());
+    let text = RichText::new(&name).small();
     let button = Button::selectable(true, text).min_size(size);
     let response = ui.add(button);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
@@ -77,17 +72,16 @@ fn record(ui: &mut Ui, session: &Session) -> bool {
 }
 
 /// Draws the same in one line.
-pub(in crate::app) fn chip(ui: &mut Ui, session: &Session, theme: &Theme) {
+pub(in crate::app) fn chip(ui: &mut Ui, session: &Session) {
     let (sign, words) = words(session);
     ui.add_space(space::SMALL);
-    let (rect, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
-    mark(ui.painter(), rect.center(), 7.5, sign, theme);
+    line_mark(ui, 16.0, 7.5, sign);
     let rates = session.live.status.as_ref().map(figures);
     let text = match rates {
         Some(rates) if ui.available_width() > 320.0 => format!("{words} · {rates}"),
         _ => words,
     };
-    ui.add(Label::new(RichText::new(text).color(theme.weak_text)).truncate());
+    ui.add(Label::new(RichText::new(text).weak()).truncate());
 }
 
 /// Returns the most important status, with its mark.

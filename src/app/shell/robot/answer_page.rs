@@ -1,6 +1,6 @@
 //! The page about answering robots, and its status in the bars.
 
-use egui::{Button, Label, RichText, Role, Sense, TextEdit, Ui, Vec2, WidgetInfo};
+use egui::{Label, RichText, Role, TextEdit, Ui, WidgetInfo};
 use jiff::{Timestamp, tz::TimeZone};
 
 use super::{
@@ -13,8 +13,8 @@ use crate::{
         language::text,
         shell::session::Session,
         ui::{
-            theme::{Theme, font, space},
-            widgets::{self, Mark, heading, labelled, mark, row},
+            theme::space,
+            widgets::{self, Mark, heading, line_mark, row, text_button},
         },
         user_error::UserError,
     },
@@ -26,22 +26,15 @@ use crate::{
 const ROOM: [f32; 2] = [180.0, 480.0];
 
 /// Draws the status in a bar, while answering is on.
-pub(in crate::app) fn chip(
-    ui: &mut Ui,
-    robot: &RobotCell,
-    session: &Session,
-    is_at_work: bool,
-    theme: &Theme,
-) {
+pub(in crate::app) fn chip(ui: &mut Ui, robot: &RobotCell, session: &Session, is_at_work: bool) {
     let Some((sign, words)) = robot.answering().words(session) else {
         return;
     };
     ui.add_space(space::SMALL);
-    let (rect, response) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
-    mark(ui.painter(), rect.center(), 7.5, sign, theme);
+    let response = line_mark(ui, 16.0, 7.5, sign);
     let room = if is_at_work { ROOM[1] } else { ROOM[0] };
     if ui.available_width() > room {
-        let text = RichText::new(&words).color(theme.text);
+        let text = RichText::new(&words);
         ui.add(Label::new(text).truncate());
     } else {
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
@@ -54,33 +47,32 @@ pub(super) fn ui(
     robot: &RobotCell,
     session: &Session,
     dialog: &mut RobotDialog,
-    theme: &Theme,
     caused: &mut Vec<RobotAction>,
 ) {
-    let says = RichText::new(text!("robot-answer-says")).font(font::small());
-    ui.label(says.color(theme.weak_text));
+    let says = RichText::new(text!("robot-answer-says")).small();
+    ui.label(says.weak());
     ui.add_space(space::SMALL);
     fields(ui, dialog);
     let typed = typed(session, dialog);
     match &typed {
         Ok(listener) => {
             let poses = listener.convention().title();
-            row(ui, theme, &text!("robot-poses-as"), poses);
+            row(ui, &text!("robot-poses-as"), poses);
             if listener.doubt().is_some() {
                 let open = UserError {
                     what: text!("robot-open-to-network", at = listener.at.to_string()),
                     advice: text!("robot-open-to-network-advice"),
                 };
-                told(ui, Mark::Look, &open, theme);
+                told(ui, Mark::Look, &open);
             }
         }
-        Err(trouble) => told(ui, Mark::Bad, trouble, theme),
+        Err(trouble) => told(ui, Mark::Bad, trouble),
     }
     ui.add_space(space::SMALL);
     let at = typed.ok().map(|listener| listener.at);
-    buttons(ui, session, at, dialog.pose, theme, caused);
-    state(ui, robot, session, theme);
-    numbers(ui, session, theme);
+    buttons(ui, session, at, dialog.pose, caused);
+    state(ui, robot, session);
+    numbers(ui, session);
 }
 
 /// Draws the fields for protocol, address and pose.
@@ -129,7 +121,6 @@ fn buttons(
     session: &Session,
     at: Option<ListenAddress>,
     pose: PoseKind,
-    theme: &Theme,
     caused: &mut Vec<RobotAction>,
 ) {
     let now = session.answering;
@@ -142,19 +133,18 @@ fn buttons(
     ui.horizontal(|ui| {
         if !now.is_on {
             let can = wanted.is_some() && session.robot.is_some();
-            let is_pressed = widgets::default_button(ui, &text!("robot-turn-on"), can, theme);
+            let is_pressed = widgets::default_button(ui, &text!("robot-turn-on"), can);
             if let (true, Some(setup)) = (is_pressed, wanted) {
                 act(setup);
             }
             return;
         }
         if let Some(setup) = wanted.filter(|setup| *setup != now)
-            && widgets::default_button(ui, &text!("robot-use-it"), true, theme)
+            && widgets::default_button(ui, &text!("robot-use-it"), true)
         {
             act(setup);
         }
-        let off = text!("robot-turn-off");
-        if labelled(ui, Button::new(&*off), &off).clicked() {
+        if text_button(ui, &text!("robot-turn-off")).clicked() {
             act(AnswerSetup {
                 is_on: false,
                 ..now
@@ -164,7 +154,7 @@ fn buttons(
 }
 
 /// Draws whether robots are answered, and if not, why.
-fn state(ui: &mut Ui, robot: &RobotCell, session: &Session, theme: &Theme) {
+fn state(ui: &mut Ui, robot: &RobotCell, session: &Session) {
     let answering = robot.answering();
     ui.add_space(space::SMALL);
     if session.robot.is_none() {
@@ -172,7 +162,7 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session, theme: &Theme) {
             what: text!("robot-not-calibrated"),
             advice: text!("robot-calibrate-first"),
         };
-        told(ui, Mark::Look, &nowhere, theme);
+        told(ui, Mark::Look, &nowhere);
     }
     let Some((sign, what)) = answering.words(session) else {
         return;
@@ -182,63 +172,58 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session, theme: &Theme) {
         Mark::Good | Mark::Bad | Mark::Open => String::new(),
     };
     match answering.trouble() {
-        Some(trouble) => told(ui, Mark::Bad, trouble, theme),
-        None => told(ui, sign, &UserError { what, advice }, theme),
+        Some(trouble) => told(ui, Mark::Bad, trouble),
+        None => told(ui, sign, &UserError { what, advice }),
     }
     if let Some(status) = answering.status() {
-        figures(ui, status, theme);
+        figures(ui, status);
     }
 }
 
 /// Draws the address, the connections and the last answer.
-fn figures(ui: &mut Ui, status: &AnsweringStatus, theme: &Theme) {
-    row(
-        ui,
-        theme,
-        &text!("robot-listens-at"),
-        &status.at.to_string(),
-    );
+fn figures(ui: &mut Ui, status: &AnsweringStatus) {
+    row(ui, &text!("robot-listens-at"), &status.at.to_string());
     let clients = status.num_clients.to_string();
-    row(ui, theme, &text!("robot-clients"), &clients);
+    row(ui, &text!("robot-clients"), &clients);
     if let Some(event) = &status.client {
-        client(ui, event, theme);
+        client(ui, event);
     }
     let last = match &status.last {
         Some(last) => in_words(last),
         None => text!("robot-no-trigger"),
     };
-    row(ui, theme, &text!("robot-last-trigger"), &last);
+    row(ui, &text!("robot-last-trigger"), &last);
     if let Some(trouble) = &status.trouble {
-        told(ui, Mark::Bad, trouble, theme);
+        told(ui, Mark::Bad, trouble);
     }
 }
 
 /// Draws the last event of a connection.
-fn client(ui: &mut Ui, event: &ClientEvent, theme: &Theme) {
+fn client(ui: &mut Ui, event: &ClientEvent) {
     let peer = event.peer.to_string();
     let name = text!("robot-last-client");
     match &event.news {
         ClientNews::Connected => {
             let connected = text!("robot-client-connected", peer = peer);
-            row(ui, theme, &name, &connected);
+            row(ui, &name, &connected);
         }
         ClientNews::Left => {
             let left = text!("robot-client-left", peer = peer);
-            row(ui, theme, &name, &left);
+            row(ui, &name, &left);
         }
         ClientNews::TurnedAway => {
             let full = UserError {
                 what: text!("robot-client-turned-away", peer = peer),
                 advice: text!("robot-client-turned-away-advice"),
             };
-            told(ui, Mark::Look, &full, theme);
+            told(ui, Mark::Look, &full);
         }
         ClientNews::BadRequest(why) => {
             let bad = UserError {
                 what: format!("{peer}: {why}"),
                 advice: why.advice(),
             };
-            told(ui, Mark::Look, &bad, theme);
+            told(ui, Mark::Look, &bad);
         }
         // Only HTTP has tokens.
         ClientNews::WrongToken => {}
@@ -270,17 +255,17 @@ fn clock(at: Timestamp) -> String {
 }
 
 /// Draws the numbers by which robots know the parts.
-fn numbers(ui: &mut Ui, session: &Session, theme: &Theme) {
+fn numbers(ui: &mut Ui, session: &Session) {
     let Some(library) = &session.library else {
         return;
     };
-    heading(ui, theme, &text!("robot-part-numbers"));
+    heading(ui, &text!("robot-part-numbers"));
     let parts = library.parts.iter().map(|part| {
         let number = library.numbers.of(&part.name);
         let number = number.map_or_else(|| "–".into(), |number| number.to_string());
         format!("{number} {}", part.name)
     });
     let parts: Vec<String> = parts.collect();
-    let small = RichText::new(parts.join(" · ")).font(font::small());
-    ui.add(Label::new(small.color(theme.text)).wrap());
+    let small = RichText::new(parts.join(" · ")).small();
+    ui.add(Label::new(small).wrap());
 }

@@ -10,29 +10,21 @@ use super::{
 use crate::{
     app::{
         language::text,
-        ui::{
-            theme::{Theme, font, space},
-            widgets::Mark,
-        },
+        ui::{theme::space, widgets::Mark},
         user_error::UserError,
     },
     robot::{Convention, calibration::CameraPlace},
 };
 
-pub(super) fn ui(
-    ui: &mut Ui,
-    dialog: &mut RobotDialog,
-    theme: &Theme,
-    caused: &mut Vec<RobotAction>,
-) {
+pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAction>) {
     mounts(ui, dialog);
     ui.add_space(space::SMALL);
     ui.horizontal(|ui| {
         ui.label(text!("robot-numbers-of"));
         convention(ui, &mut dialog.convention);
     });
-    let small = |text: &str| RichText::new(text.to_owned()).font(font::small());
-    ui.label(small(dialog.convention.meaning()).color(theme.weak_text));
+    let small = |text: &str| RichText::new(text.to_owned()).small();
+    ui.label(small(dialog.convention.meaning()).weak());
     ui.add_space(space::SMALL);
     let transform = dialog.mount.camera_transform();
     let label = ui.label(text!("robot-where-camera-stands", transform = transform));
@@ -53,18 +45,18 @@ pub(super) fn ui(
     match &typed {
         Ok(written) => {
             // Show it as a matrix, which reveals a wrong order or sign.
-            pose(ui, transform, &written.pose, Convention::Matrix, theme);
+            pose(ui, transform, &written.pose, Convention::Matrix);
             if let Some(doubt) = CameraPlace::on(dialog.mount, written.pose).unit_doubt() {
-                told(ui, Mark::Look, &UserError::of(&doubt), theme);
+                told(ui, Mark::Look, &UserError::of(&doubt));
             }
         }
         Err(_) if dialog.numbers.trim().is_empty() => {}
-        Err(error) => told(ui, Mark::Bad, &UserError::of(error), theme),
+        Err(error) => told(ui, Mark::Bad, &UserError::of(error)),
     }
     ui.add_space(space::SMALL);
     name(ui, dialog);
     ui.add_space(space::SMALL);
-    if use_it(ui, typed.is_ok(), theme) {
+    if use_it(ui, typed.is_ok()) {
         caused.push(RobotAction::UseTyped);
     }
 }

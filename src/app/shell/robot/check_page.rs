@@ -1,6 +1,6 @@
 //! The page about whether camera and cell still stand where they stood.
 
-use egui::{Button, DragValue, Grid, Label, RichText, Role, ScrollArea, Ui, WidgetInfo, vec2};
+use egui::{DragValue, Grid, Label, RichText, Role, ScrollArea, Ui, WidgetInfo, vec2};
 use jiff::{Timestamp, Zoned, tz::TimeZone};
 
 use super::{
@@ -18,8 +18,8 @@ use crate::{
         shell::{session::Session, source_menu},
         ui::{
             plot::over_time,
-            theme::{Theme, font, space},
-            widgets::{self, Mark, heading, labelled, row, sentence},
+            theme::{Theme, space},
+            widgets::{self, Mark, heading, row, sentence, text_button},
         },
         user_error::UserError,
     },
@@ -41,49 +41,47 @@ pub(super) fn ui(
     robot: &RobotCell,
     session: &Session,
     dialog: &mut RobotDialog,
-    theme: &Theme,
     caused: &mut Vec<RobotAction>,
 ) {
     let checks = robot.checks();
-    let says = RichText::new(text!("robot-check-says")).font(font::small());
-    ui.label(says.color(theme.weak_text));
+    let says = RichText::new(text!("robot-check-says")).small();
+    ui.label(says.weak());
     ui.add_space(space::SMALL);
     if !checks.has_folder() {
         let nowhere = UserError {
             what: text!("robot-check-no-folder"),
             advice: text!("robot-check-no-folder-advice"),
         };
-        return told(ui, Mark::Look, &nowhere, theme);
+        return told(ui, Mark::Look, &nowhere);
     }
     let content = checks.content();
     let units = session.units;
-    baseline(ui, content, units, theme);
+    baseline(ui, content, units);
     for trouble in &content.trouble {
-        told(ui, Mark::Bad, trouble, theme);
+        told(ui, Mark::Bad, trouble);
     }
     let source = source_menu::now(&session.source);
-    row(ui, theme, &text!("robot-frames-from"), &source);
+    row(ui, &text!("robot-frames-from"), &source);
     ui.add_space(space::SMALL);
     if dialog.is_replacing {
-        question(ui, dialog, theme, caused);
+        question(ui, dialog, caused);
     } else {
         limits(ui, &mut dialog.limits);
-        buttons(ui, checks, theme, caused);
+        buttons(ui, checks, caused);
     }
-    progress(ui, checks, theme, caused);
+    progress(ui, checks, caused);
     if let Some(trouble) = &dialog.trouble {
-        told(ui, Mark::Bad, trouble, theme);
+        told(ui, Mark::Bad, trouble);
     }
     if let (Some(check), Some(baseline)) = (checks.latest(), &content.baseline) {
-        finding(ui, check, baseline.limits, units, theme);
+        finding(ui, check, baseline.limits, units);
     }
     if !content.checks.is_empty() {
-        former(ui, content, units, theme);
+        former(ui, content, units);
         ui.add_space(space::SMALL);
         let is_idle = checks.running().is_none();
         ui.add_enabled_ui(is_idle, |ui| {
-            let export = text!("robot-export-checks");
-            if labelled(ui, Button::new(&*export), &export).clicked() {
+            if text_button(ui, &text!("robot-export-checks")).clicked() {
                 caused.push(RobotAction::Ask(RobotFile::Checks));
             }
         });
@@ -91,28 +89,28 @@ pub(super) fn ui(
 }
 
 /// Draws the baseline and its limits.
-fn baseline(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem, theme: &Theme) {
+fn baseline(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem) {
     let Some(baseline) = &content.baseline else {
         if !content.has_baseline {
-            told(ui, Mark::Open, &no_baseline(), theme);
+            told(ui, Mark::Open, &no_baseline());
         }
         return;
     };
     let taken = taken(baseline.made_at, baseline.num_frames, baseline.is_simulated);
-    row(ui, theme, &text!("robot-baseline"), &taken);
+    row(ui, &text!("robot-baseline"), &taken);
     let CellLimits { shift, turn } = baseline.limits;
     let allowed = text!(
         "robot-allowed-are",
         shift = units.length(shift.0),
         turn = units.angle(turn.0)
     );
-    row(ui, theme, &text!("robot-allowed"), &allowed);
+    row(ui, &text!("robot-allowed"), &allowed);
     if baseline.num_planes() == 0 {
         let no_wall = UserError {
             what: text!("robot-no-wall"),
             advice: text!("robot-no-wall-advice"),
         };
-        told(ui, Mark::Look, &no_wall, theme);
+        told(ui, Mark::Look, &no_wall);
     }
 }
 
@@ -154,25 +152,24 @@ fn number(ui: &mut Ui, field: DragValue<'_>, label: &str) -> bool {
     response.changed()
 }
 
-fn buttons(ui: &mut Ui, checks: &CellChecks, theme: &Theme, caused: &mut Vec<RobotAction>) {
+fn buttons(ui: &mut Ui, checks: &CellChecks, caused: &mut Vec<RobotAction>) {
     let is_idle = checks.running().is_none();
     let content = checks.content();
     let mut act = |action| caused.push(RobotAction::Check(action));
     ui.horizontal(|ui| {
         if !content.has_baseline {
             let take = text!("robot-take-baseline");
-            if widgets::default_button(ui, &take, is_idle, theme) {
+            if widgets::default_button(ui, &take, is_idle) {
                 act(CheckAction::TakeBaseline);
             }
             return;
         }
         let can_check = is_idle && content.baseline.is_some();
-        if widgets::default_button(ui, &text!("robot-check-now"), can_check, theme) {
+        if widgets::default_button(ui, &text!("robot-check-now"), can_check) {
             act(CheckAction::Check);
         }
         ui.add_enabled_ui(is_idle, |ui| {
-            let take = text!("robot-take-new-baseline");
-            if labelled(ui, Button::new(&*take), &take).clicked() {
+            if text_button(ui, &text!("robot-take-new-baseline")).clicked() {
                 act(CheckAction::TakeBaseline);
             }
         });
@@ -180,21 +177,21 @@ fn buttons(ui: &mut Ui, checks: &CellChecks, theme: &Theme, caused: &mut Vec<Rob
 }
 
 /// Asks before a baseline is replaced.
-fn question(ui: &mut Ui, dialog: &mut RobotDialog, theme: &Theme, caused: &mut Vec<RobotAction>) {
-    ui.label(RichText::new(text!("robot-replace-says")).color(theme.text));
+fn question(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAction>) {
+    ui.label(text!("robot-replace-says"));
     ui.horizontal(|ui| {
-        if widgets::default_button(ui, &text!("robot-keep-baseline"), true, theme) {
+        if widgets::default_button(ui, &text!("robot-keep-baseline"), true) {
             dialog.is_replacing = false;
         }
-        let replace = text!("robot-replace-baseline");
-        if labelled(ui, Button::new(&*replace), &replace).clicked() {
+        if text_button(ui, &text!("robot-replace-baseline")).clicked() {
             caused.push(RobotAction::Check(CheckAction::TakeBaseline));
         }
     });
 }
 
 /// Draws the running work and the button that cancels it.
-fn progress(ui: &mut Ui, checks: &CellChecks, theme: &Theme, caused: &mut Vec<RobotAction>) {
+fn progress(ui: &mut Ui, checks: &CellChecks, caused: &mut Vec<RobotAction>) {
+    let theme = Theme::of(ui);
     let Some(running) = checks.running() else {
         return;
     };
@@ -209,17 +206,16 @@ fn progress(ui: &mut Ui, checks: &CellChecks, theme: &Theme, caused: &mut Vec<Ro
             ),
             None => running.title.clone(),
         };
-        ui.label(RichText::new(words).color(theme.weak_text));
-        let cancel = text!("shell-cancel");
-        if labelled(ui, Button::new(&*cancel), &cancel).clicked() {
+        ui.weak(words);
+        if text_button(ui, &text!("shell-cancel")).clicked() {
             caused.push(RobotAction::Check(CheckAction::Cancel));
         }
     });
 }
 
 /// Draws the last check, its figures beside the limits.
-fn finding(ui: &mut Ui, check: &CellCheck, limits: CellLimits, units: UnitSystem, theme: &Theme) {
-    heading(ui, theme, &text!("robot-last-check"));
+fn finding(ui: &mut Ui, check: &CellCheck, limits: CellLimits, units: UnitSystem) {
+    heading(ui, &text!("robot-last-check"));
     let sign = match check.finding {
         CellFinding::InPlace => Mark::Good,
         CellFinding::PartMoved | CellFinding::Noisier => Mark::Look,
@@ -229,8 +225,8 @@ fn finding(ui: &mut Ui, check: &CellCheck, limits: CellLimits, units: UnitSystem
         what: marked(cell_finding(check.finding), check.is_simulated),
         advice: cell_finding_advice(check.finding),
     };
-    told(ui, sign, &found, theme);
-    let mut figure = |name: String, value: String| row(ui, theme, &name, &value);
+    told(ui, sign, &found);
+    let mut figure = |name: String, value: String| row(ui, &name, &value);
     let taken = taken(check.at, check.num_frames, false);
     figure(text!("robot-checked"), taken);
     let of_shift = |shift: f64| {
@@ -261,15 +257,15 @@ fn finding(ui: &mut Ui, check: &CellCheck, limits: CellLimits, units: UnitSystem
 }
 
 /// Draws the last checks: those against the baseline in use as curves, and all in a list, newest first.
-fn former(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem, theme: &Theme) {
+fn former(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem) {
     let checks = &content.checks;
     let shown = checks.len().min(MOST_SHOWN);
     let title = text!("robot-checks-shown", shown = shown, count = checks.len());
-    heading(ui, theme, &title);
+    heading(ui, &title);
     if let Some(baseline) = &content.baseline {
-        drift(ui, checks, baseline, units, theme);
+        drift(ui, checks, baseline, units);
     }
-    let small = |text: String| RichText::new(text).font(font::small());
+    let small = |text: String| RichText::new(text).small();
     ScrollArea::vertical()
         .id_salt("checks")
         .max_height(TABLE)
@@ -285,7 +281,7 @@ fn former(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem, theme: &
                     text!("robot-check-turn"),
                     text!("robot-check-finding"),
                 ] {
-                    ui.label(small(title).color(theme.weak_text));
+                    ui.label(small(title).weak());
                 }
                 ui.end_row();
                 for check in checks.iter().rev().take(shown) {
@@ -295,9 +291,9 @@ fn former(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem, theme: &
                         units.length(check.shift().0),
                         units.angle(check.turn_rad),
                     ] {
-                        ui.label(small(figure).color(theme.text));
+                        ui.label(small(figure));
                     }
-                    ui.add(Label::new(small(sentence(&found)).color(theme.text)).wrap());
+                    ui.add(Label::new(small(sentence(&found))).wrap());
                     ui.end_row();
                 }
             });
@@ -305,13 +301,8 @@ fn former(ui: &mut Ui, content: &CheckFolderContent, units: UnitSystem, theme: &
 }
 
 /// Plots the shift of the part against the baseline, over the checks.
-fn drift(
-    ui: &mut Ui,
-    checks: &[CellCheck],
-    baseline: &CellBaseline,
-    units: UnitSystem,
-    theme: &Theme,
-) {
+fn drift(ui: &mut Ui, checks: &[CellCheck], baseline: &CellBaseline, units: UnitSystem) {
+    let theme = Theme::of(ui);
     let newest = checks.iter().rev();
     let newest = newest.filter(|check| check.baseline == baseline.made_at);
     let mut drawn: Vec<&CellCheck> = newest.take(MOST_SHOWN).collect();

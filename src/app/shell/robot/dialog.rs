@@ -1,6 +1,6 @@
 //! The frame of the dialog: its pages, and the last error.
 
-use egui::{Button, Context, RichText, ScrollArea, Ui, vec2};
+use egui::{Button, Context, ScrollArea, Ui, vec2};
 
 use super::{
     answer_page, by_hand, check_page, from_pairs, in_use,
@@ -11,8 +11,8 @@ use crate::{
         language::text,
         shell::session::Session,
         ui::{
-            theme::{Theme, font, space},
-            widgets::{self, Mark, labelled, mark, sentence},
+            theme::space,
+            widgets::{self, Mark, line_mark, sentence, text_button},
         },
         user_error::UserError,
     },
@@ -27,12 +27,7 @@ const MARGIN: f32 = 220.0;
 
 impl RobotCell {
     /// Draws the dialog while it is open; returns the user's actions.
-    pub(in crate::app) fn ui(
-        &self,
-        ctx: &Context,
-        session: &Session,
-        theme: &Theme,
-    ) -> Vec<RobotAction> {
+    pub(in crate::app) fn ui(&self, ctx: &Context, session: &Session) -> Vec<RobotAction> {
         let Some(known) = self.dialog() else {
             return Vec::new();
         };
@@ -40,8 +35,7 @@ impl RobotCell {
         let mut caused = Vec::new();
         let modal = widgets::dialog(ctx, "robot", |ui| {
             ui.set_width(WIDTH.min(ctx.content_rect().width() - 80.0));
-            let title = RichText::new(text!("robot-title")).font(font::verdict());
-            ui.label(title.color(theme.text));
+            ui.heading(text!("robot-title"));
             ui.add_space(space::SMALL);
             ui.horizontal_wrapped(|ui| {
                 for page in RobotPage::ALL {
@@ -55,11 +49,10 @@ impl RobotCell {
                 .min_scrolled_height(room)
                 .auto_shrink([false, true])
                 .show(ui, |ui| {
-                    self.page(ui, session, &mut dialog, theme, &mut caused);
+                    self.page(ui, session, &mut dialog, &mut caused);
                 });
             ui.separator();
-            let close = text!("shell-close");
-            if labelled(ui, Button::new(&*close), &close).clicked() {
+            if text_button(ui, &text!("shell-close")).clicked() {
                 caused.push(RobotAction::Close);
             }
         });
@@ -78,22 +71,21 @@ impl RobotCell {
         ui: &mut Ui,
         session: &Session,
         dialog: &mut RobotDialog,
-        theme: &Theme,
         caused: &mut Vec<RobotAction>,
     ) {
         match dialog.page {
-            RobotPage::InUse => in_use::ui(ui, self, session, dialog, theme, caused),
-            RobotPage::ByHand => by_hand::ui(ui, dialog, theme, caused),
+            RobotPage::InUse => in_use::ui(ui, self, session, dialog, caused),
+            RobotPage::ByHand => by_hand::ui(ui, dialog, caused),
             RobotPage::FromPairs => {
-                from_pairs::ui(ui, self, session.convention, dialog, theme, caused);
+                from_pairs::ui(ui, self, session.convention, dialog, caused);
             }
             // This page shows the error itself, above its list.
-            RobotPage::Check => return check_page::ui(ui, self, session, dialog, theme, caused),
-            RobotPage::Answer => answer_page::ui(ui, self, session, dialog, theme, caused),
+            RobotPage::Check => return check_page::ui(ui, self, session, dialog, caused),
+            RobotPage::Answer => answer_page::ui(ui, self, session, dialog, caused),
         }
         if let Some(trouble) = &dialog.trouble {
             ui.add_space(space::SMALL);
-            told(ui, Mark::Bad, trouble, theme);
+            told(ui, Mark::Bad, trouble);
         }
     }
 }
@@ -131,18 +123,17 @@ pub(super) fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
 }
 
 /// Draws the button that uses the calibration of the page.
-pub(super) fn use_it(ui: &mut Ui, is_there: bool, theme: &Theme) -> bool {
-    widgets::default_button(ui, &text!("robot-use-it"), is_there, theme)
+pub(super) fn use_it(ui: &mut Ui, is_there: bool) -> bool {
+    widgets::default_button(ui, &text!("robot-use-it"), is_there)
 }
 
 /// Draws an error or a doubt, with a sign before it and the advice below.
-pub(super) fn told(ui: &mut Ui, sign: Mark, trouble: &UserError, theme: &Theme) {
+pub(super) fn told(ui: &mut Ui, sign: Mark, trouble: &UserError) {
     ui.horizontal_top(|ui| {
-        let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(18.0), egui::Sense::hover());
-        mark(ui.painter(), rect.center(), 7.0, sign, theme);
+        line_mark(ui, 18.0, 7.0, sign);
         ui.vertical(|ui| {
-            ui.label(RichText::new(sentence(&trouble.what)).color(theme.text));
-            ui.label(RichText::new(&trouble.advice).color(theme.weak_text));
+            ui.label(sentence(&trouble.what));
+            ui.weak(&trouble.advice);
         });
     });
 }

@@ -1,6 +1,6 @@
 //! The page that calculates the camera's pose from pairs of robot and camera poses.
 
-use egui::{Button, Checkbox, Grid, RichText, ScrollArea, Ui, vec2};
+use egui::{Checkbox, Grid, RichText, ScrollArea, Ui, vec2};
 
 use super::{
     dialog::{mounts, name, told, use_it},
@@ -13,8 +13,8 @@ use crate::{
         inspection::source::file_name,
         language::text,
         ui::{
-            theme::{Theme, font, space},
-            widgets::{Mark, labelled, row},
+            theme::{Theme, space},
+            widgets::{Mark, row, text_button},
         },
         user_error::UserError,
     },
@@ -31,21 +31,18 @@ pub(super) fn ui(
     robot: &RobotCell,
     shown: Convention,
     dialog: &mut RobotDialog,
-    theme: &Theme,
     caused: &mut Vec<RobotAction>,
 ) {
+    let theme = Theme::of(ui);
     mounts(ui, dialog);
     ui.add_space(space::SMALL);
     ui.horizontal(|ui| {
-        let choose = text!("robot-choose-pairs");
-        if labelled(ui, Button::new(&*choose), &choose).clicked() {
+        if text_button(ui, &text!("robot-choose-pairs")).clicked() {
             caused.push(RobotAction::Ask(RobotFile::Pairs));
         }
         match &dialog.pairs {
-            Some(path) => ui.label(RichText::new(file_name(path)).color(theme.text)),
-            None => {
-                ui.label(RichText::new(text!("robot-choose-pairs-says")).color(theme.weak_text))
-            }
+            Some(path) => ui.label(file_name(path)),
+            None => ui.weak(text!("robot-choose-pairs-says")),
         };
         if !robot.is_idle() {
             ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
@@ -54,20 +51,16 @@ pub(super) fn ui(
     let Some(found) = dialog.solved.clone() else {
         if dialog.pairs.is_none() {
             let text = text!("robot-pairs-format");
-            ui.label(
-                RichText::new(text)
-                    .font(font::small())
-                    .color(theme.weak_text),
-            );
+            ui.label(RichText::new(text).small().weak());
         }
         return;
     };
     ui.add_space(space::SMALL);
-    residuals(ui, &found, dialog, theme);
+    residuals(ui, &found, dialog);
     ui.scope(|ui| {
         // Nothing here can be pressed, so rows may be lower.
         ui.spacing_mut().interact_size.y = ROW;
-        figures(ui, &found, theme);
+        figures(ui, &found);
     });
     for doubt in &found.solved.doubts {
         let sign = if doubt.is_grave() {
@@ -75,7 +68,7 @@ pub(super) fn ui(
         } else {
             Mark::Look
         };
-        told(ui, sign, &UserError::of(doubt), theme);
+        told(ui, sign, &UserError::of(doubt));
     }
     let solved = &found.solved;
     pose(
@@ -83,7 +76,6 @@ pub(super) fn ui(
         solved.mount.camera_transform(),
         &solved.mount_from_camera,
         shown,
-        theme,
     );
     ui.add_space(space::SMALL);
     name(ui, dialog);
@@ -92,15 +84,15 @@ pub(super) fn ui(
         ui.add(Checkbox::new(&mut dialog.insists, text));
     }
     ui.add_space(space::SMALL);
-    if use_it(ui, dialog.usable().is_some(), theme) {
+    if use_it(ui, dialog.usable().is_some()) {
         caused.push(RobotAction::UseSolved);
     }
 }
 
 /// Draws the residual of each pair; an unticked pair does not count.
-fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog, theme: &Theme) {
+fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog) {
     let solved = &found.solved;
-    let weak = |text: String| RichText::new(text).color(theme.weak_text);
+    let weak = |text: String| RichText::new(text).weak();
     ScrollArea::vertical()
         .id_salt("residuals")
         .max_height(TABLE)
@@ -146,7 +138,7 @@ fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog, theme: 
         });
 }
 
-fn figures(ui: &mut Ui, found: &SolvedPairs, theme: &Theme) {
+fn figures(ui: &mut Ui, found: &SolvedPairs) {
     let solved = &found.solved;
     let rms = &solved.residuals.rms;
     let text = text!(
@@ -154,7 +146,7 @@ fn figures(ui: &mut Ui, found: &SolvedPairs, theme: &Theme) {
         mm = format!("{:.2}", rms.shift.mm()),
         degrees = format!("{:.3}", rms.rotation.degrees())
     );
-    row(ui, theme, &text!("robot-rms"), &text);
+    row(ui, &text!("robot-rms"), &text);
     let bounds = &solved.bounds;
     let text = if bounds.shift.0.is_finite() {
         text!(
@@ -165,7 +157,7 @@ fn figures(ui: &mut Ui, found: &SolvedPairs, theme: &Theme) {
     } else {
         text!("robot-not-determined")
     };
-    row(ui, theme, &text!("robot-uncertainty"), &text);
+    row(ui, &text!("robot-uncertainty"), &text);
     let span = &solved.span;
     let text = text!(
         "robot-span",
@@ -173,12 +165,12 @@ fn figures(ui: &mut Ui, found: &SolvedPairs, theme: &Theme) {
         other = format!("{:.0}", span.other_turn.degrees()),
         travel = format!("{:.0}", span.travel.mm())
     );
-    row(ui, theme, &text!("robot-flange-turned"), &text);
+    row(ui, &text!("robot-flange-turned"), &text);
     let [robot, camera] = found.conventions;
     let text = text!(
         "robot-conventions-are",
         robot = robot.title(),
         camera = camera.title()
     );
-    row(ui, theme, &text!("robot-read-as"), &text);
+    row(ui, &text!("robot-read-as"), &text);
 }

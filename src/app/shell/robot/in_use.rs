@@ -1,6 +1,6 @@
 //! The page about the calibration in use.
 
-use egui::{Button, RichText, Ui};
+use egui::{RichText, Ui};
 
 use super::{
     dialog::told,
@@ -11,8 +11,8 @@ use crate::{
         language::text,
         shell::session::Session,
         ui::{
-            theme::{Theme, font, space},
-            widgets::{Mark, heading, labelled, row, sentence},
+            theme::{Theme, space},
+            widgets::{Mark, heading, row, sentence, text_button},
         },
         user_error::UserError,
     },
@@ -29,29 +29,23 @@ pub(super) fn ui(
     robot: &RobotCell,
     session: &Session,
     dialog: &mut RobotDialog,
-    theme: &Theme,
     caused: &mut Vec<RobotAction>,
 ) {
     let in_use = robot.in_use();
     match in_use {
         None => {
             let text = text!("robot-not-calibrated");
-            ui.label(RichText::new(text).color(theme.text));
+            ui.label(text);
         }
         Some(in_use) => {
-            figures(ui, &in_use.calibration, theme);
-            row(
-                ui,
-                theme,
-                &text!("robot-file"),
-                &in_use.path.display().to_string(),
-            );
+            figures(ui, &in_use.calibration);
+            row(ui, &text!("robot-file"), &in_use.path.display().to_string());
             if in_use.is_edited {
                 let edited = UserError {
                     what: text!("robot-edited"),
                     advice: text!("robot-edited-advice"),
                 };
-                told(ui, Mark::Look, &edited, theme);
+                told(ui, Mark::Look, &edited);
             }
             let calibration = &in_use.calibration;
             let name = calibration.camera.mount().camera_transform();
@@ -60,7 +54,6 @@ pub(super) fn ui(
                 name,
                 calibration.camera.mount_from_camera(),
                 session.convention,
-                theme,
             );
             if let CameraPlace::OnFlange { capture_pose, .. } = &calibration.camera {
                 arm(
@@ -68,7 +61,6 @@ pub(super) fn ui(
                     capture_pose.as_ref(),
                     session.convention,
                     dialog,
-                    theme,
                     caused,
                 );
             }
@@ -76,27 +68,20 @@ pub(super) fn ui(
     }
     ui.add_space(space::MEDIUM);
     ui.horizontal(|ui| {
-        let load = text!("robot-load");
-        if labelled(ui, Button::new(&*load), &load).clicked() {
+        if text_button(ui, &text!("robot-load")).clicked() {
             caused.push(RobotAction::Ask(RobotFile::Calibration));
         }
-        let forget = text!("robot-forget");
-        if in_use.is_some() && labelled(ui, Button::new(&*forget), &forget).clicked() {
+        if in_use.is_some() && text_button(ui, &text!("robot-forget")).clicked() {
             caused.push(RobotAction::Forget);
         }
     });
 }
 
-fn figures(ui: &mut Ui, calibration: &CellCalibration, theme: &Theme) {
+fn figures(ui: &mut Ui, calibration: &CellCalibration) {
+    let theme = Theme::of(ui);
+    row(ui, &text!("robot-cell"), &calibration.shown_with_identity());
     row(
         ui,
-        theme,
-        &text!("robot-cell"),
-        &calibration.shown_with_identity(),
-    );
-    row(
-        ui,
-        theme,
         &text!("robot-camera"),
         &sentence(&mount(calibration.camera.mount())),
     );
@@ -104,21 +89,16 @@ fn figures(ui: &mut Ui, calibration: &CellCalibration, theme: &Theme) {
         .made_at
         .strftime("%Y-%m-%d %H:%M UTC")
         .to_string();
-    row(ui, theme, &text!("robot-made"), &made);
+    row(ui, &text!("robot-made"), &made);
     match &calibration.origin {
-        Origin::ByHand => row(
-            ui,
-            theme,
-            &text!("robot-from"),
-            &text!("robot-entered-by-hand"),
-        ),
+        Origin::ByHand => row(ui, &text!("robot-from"), &text!("robot-entered-by-hand")),
         Origin::HandEye(fit) => {
             let from = text!(
                 "robot-pairs-of",
                 num = fit.num_pairs,
                 file = &fit.pairs_file
             );
-            row(ui, theme, &text!("robot-from"), &from);
+            row(ui, &text!("robot-from"), &from);
             let rms = text!(
                 "robot-residuals-are",
                 mm = format!("{:.2}", fit.rms_mm),
@@ -126,14 +106,14 @@ fn figures(ui: &mut Ui, calibration: &CellCalibration, theme: &Theme) {
                 worst = format!("{:.2}", fit.worst_mm),
                 pair = &fit.worst_pair
             );
-            row(ui, theme, &text!("robot-residuals"), &rms);
+            row(ui, &text!("robot-residuals"), &rms);
             if let (Some(mm), Some(degrees)) = (fit.bound_mm, fit.bound_degrees) {
                 let bounds = text!(
                     "robot-mm-and-degrees",
                     mm = format!("{mm:.2}"),
                     degrees = format!("{degrees:.3}")
                 );
-                row(ui, theme, &text!("robot-uncertainty"), &bounds);
+                row(ui, &text!("robot-uncertainty"), &bounds);
             }
             for doubt in &fit.doubts {
                 ui.label(RichText::new(sentence(doubt)).color(theme.warning));
@@ -151,29 +131,20 @@ fn mount(mount: Mount) -> String {
 }
 
 /// Draws a transform in the robot's convention, with the meaning of the numbers.
-pub(super) fn pose(
-    ui: &mut Ui,
-    name: &str,
-    transform: &RigidTransform,
-    convention: Convention,
-    theme: &Theme,
-) {
+pub(super) fn pose(ui: &mut Ui, name: &str, transform: &RigidTransform, convention: Convention) {
+    let theme = Theme::of(ui);
     let written: RobotPose = convention.write(transform);
-    heading(ui, theme, &format!("{name} · {}", convention.title()));
+    heading(ui, &format!("{name} · {}", convention.title()));
     if convention == Convention::Matrix {
         for numbers in written.values.chunks(4) {
             let cells: Vec<String> = numbers.iter().map(|v| format!("{:9.5}", v.value)).collect();
-            ui.label(
-                RichText::new(cells.join("  "))
-                    .monospace()
-                    .color(theme.text),
-            );
+            ui.label(RichText::new(cells.join("  ")).monospace());
         }
     } else {
-        ui.label(RichText::new(written.line()).color(theme.text));
+        ui.label(written.line());
     }
-    let small = |text: &str| RichText::new(text.to_owned()).font(font::small());
-    ui.label(small(written.meaning).color(theme.weak_text));
+    let small = |text: &str| RichText::new(text.to_owned()).small();
+    ui.label(small(written.meaning).weak());
     if let Some(note) = &written.gimbal_note {
         ui.label(small(note).color(theme.warning));
     }
@@ -185,18 +156,17 @@ fn arm(
     stored: Option<&RigidTransform>,
     convention: Convention,
     dialog: &mut RobotDialog,
-    theme: &Theme,
     caused: &mut Vec<RobotAction>,
 ) {
     if let Some(stored) = stored {
         let name = text!("robot-flange-at-every");
-        pose(ui, &name, stored, convention, theme);
+        pose(ui, &name, stored, convention);
     } else {
         let unknown = UserError {
             what: text!("robot-flange-unknown"),
             advice: text!("robot-flange-unknown-advice"),
         };
-        told(ui, Mark::Look, &unknown, theme);
+        told(ui, Mark::Look, &unknown);
     }
     ui.horizontal(|ui| {
         let label = ui.label(text!("robot-flange-at"));
@@ -209,8 +179,7 @@ fn arm(
         .labelled_by(label.id);
         let is_pose = dialog.typed_arm().is_ok();
         ui.add_enabled_ui(is_pose, |ui| {
-            let store = text!("robot-store");
-            if labelled(ui, Button::new(&*store), &store).clicked() {
+            if text_button(ui, &text!("robot-store")).clicked() {
                 caused.push(RobotAction::StoreArm);
             }
         });

@@ -7,12 +7,16 @@ use egui::{
 use super::{LOCK_AFTER, RoleAction, UserRole};
 use crate::app::{
     language::text,
-    shell::{action::Action, rail, state::State, top_bar::focus_ring},
-    ui::theme::{Theme, font, space},
+    shell::{action::Action, rail, state::State},
+    ui::{
+        theme::{Theme, font, space},
+        widgets::focus_ring,
+    },
 };
 
 /// Draws the button with its menu.
-pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+pub(in crate::app) fn chip(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ui);
     let role = state.session.role;
     ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
         let size = vec2(ui.available_width(), space::RAIL);
@@ -26,7 +30,7 @@ pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &
         let stroke = Stroke::new(1.6, colour);
         lock(painter, rect.center() - vec2(0.0, 9.0), role, stroke);
         rail::label(painter, rect, &role.title(), colour);
-        focus_ring(ui, rect, &response, theme);
+        focus_ring(ui, rect, &response);
         let says = match role {
             UserRole::Operator => text!("shell-operators-view"),
             UserRole::Engineer => text!("shell-engineers-view"),
@@ -39,13 +43,13 @@ pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &
                 }
             }
             UserRole::Engineer => {
-                Popup::menu(&response).show(|ui| menu(ui, state, theme, actions));
+                Popup::menu(&response).show(|ui| menu(ui, state, actions));
             }
         }
     });
 }
 
-fn menu(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+fn menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     ui.set_min_width(250.0);
     let mut entry = |ui: &mut Ui, text: String, action: RoleAction| {
         if ui.button(text).clicked() {
@@ -58,11 +62,7 @@ fn menu(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     if state.roles.pin.is_none() {
         entry(ui, text!("shell-set-pin"), RoleAction::SetPin);
         let says = text!("shell-set-pin-says");
-        ui.label(
-            RichText::new(says)
-                .font(font::small())
-                .color(theme.weak_text),
-        );
+        ui.label(RichText::new(says).small().weak());
         return;
     }
     entry(ui, text!("shell-change-pin"), RoleAction::SetPin);

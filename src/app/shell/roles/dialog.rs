@@ -5,10 +5,10 @@ use egui::{Button, Context, Event, Key, RichText, Ui, vec2};
 use super::{RoleAction, RoleQuestion, pin::MOST_DIGITS};
 use crate::app::{
     language::text,
-    shell::{action::Action, state::State, top_bar::labelled},
+    shell::{action::Action, state::State},
     ui::{
         theme::{Theme, font, space},
-        widgets,
+        widgets::{self, text_button},
     },
 };
 
@@ -16,12 +16,8 @@ use crate::app::{
 const DIGIT: [f32; 2] = [76.0, 52.0];
 
 /// Draws the dialog while something is asked.
-pub(in crate::app) fn dialog(
-    ctx: &Context,
-    state: &State,
-    theme: &Theme,
-    actions: &mut Vec<Action>,
-) {
+pub(in crate::app) fn dialog(ctx: &Context, state: &State, actions: &mut Vec<Action>) {
+    let theme = Theme::of(ctx);
     let Some(asked) = &state.roles.asked else {
         return;
     };
@@ -50,11 +46,10 @@ pub(in crate::app) fn dialog(
     };
     let modal = widgets::dialog(ctx, "role", |ui| {
         ui.set_max_width(3.0 * DIGIT[0] + 2.0 * ui.spacing().item_spacing.x);
-        let title = RichText::new(title).font(font::verdict());
-        ui.label(title.color(theme.text));
-        ui.label(RichText::new(says).color(theme.weak_text));
+        ui.heading(title);
+        ui.weak(says);
         if asks_pin {
-            pad(ui, &asked.digits, theme, actions);
+            pad(ui, &asked.digits, actions);
         }
         ui.add_space(space::SMALL);
         if let Some(wrong) = &asked.wrong {
@@ -62,20 +57,15 @@ pub(in crate::app) fn dialog(
             ui.label(text.color(theme.warning));
             if state.roles.pin.is_some() {
                 let forgotten = text!("shell-pin-forgotten");
-                ui.label(
-                    RichText::new(forgotten)
-                        .font(font::small())
-                        .color(theme.weak_text),
-                );
+                ui.label(RichText::new(forgotten).small().weak());
             }
             ui.add_space(space::SMALL);
         }
         ui.horizontal(|ui| {
-            if widgets::default_button(ui, &done, true, theme) {
+            if widgets::default_button(ui, &done, true) {
                 actions.push(Action::Role(RoleAction::Enter));
             }
-            let later = text!("shell-not-now");
-            if labelled(ui, Button::new(&*later), &later).clicked() {
+            if text_button(ui, &text!("shell-not-now")).clicked() {
                 actions.push(Action::Role(RoleAction::Close));
             }
         });
@@ -89,10 +79,10 @@ pub(in crate::app) fn dialog(
 }
 
 /// Draws the digits typed so far as dots, and the keypad.
-fn pad(ui: &mut Ui, digits: &str, theme: &Theme, actions: &mut Vec<Action>) {
+fn pad(ui: &mut Ui, digits: &str, actions: &mut Vec<Action>) {
     ui.add_space(space::MEDIUM);
     let dots = "●".repeat(digits.len()) + &"·".repeat(MOST_DIGITS - digits.len());
-    let shown = ui.label(RichText::new(dots).font(font::title()).color(theme.text));
+    let shown = ui.label(RichText::new(dots).font(font::title()));
     shown.widget_info(|| {
         let says = text!("shell-num-digits", num = digits.len());
         egui::WidgetInfo::labeled(egui::Role::Label, true, says)

@@ -18,7 +18,7 @@ use crate::app::{
     ui::{
         theme::{Theme, font, space},
         viewport::StandardView,
-        widgets::{labelled, shortened},
+        widgets::{labelled, shortened, text_button},
     },
 };
 
@@ -43,13 +43,12 @@ pub(super) fn ui(
     ui: &mut Ui,
     align: &AlignState,
     session: &Session,
-    theme: &Theme,
     actions: &mut Vec<AlignAction>,
 ) -> Option<ViewDirection> {
     let mut look = None;
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            run(ui, align, session, theme, actions);
+            run(ui, align, session, actions);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 for pairing in Pairing::ALL {
                     let is_chosen = align.pairing == pairing;
@@ -69,8 +68,8 @@ pub(super) fn ui(
             look = look_menu(ui);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 match align.pairing {
-                    Pairing::MovedCopy => starts(ui, align, theme, actions),
-                    Pairing::Scene => scene(ui, align, session, theme),
+                    Pairing::MovedCopy => starts(ui, align, actions),
+                    Pairing::Scene => scene(ui, align, session),
                     Pairing::Files => files(ui, align, actions),
                 }
             });
@@ -78,7 +77,7 @@ pub(super) fn ui(
     });
     let is_writing = align.custom.form == Form::Open;
     if align.pairing == Pairing::MovedCopy && is_writing {
-        custom(ui, align, theme, actions);
+        custom(ui, align, actions);
     }
     look
 }
@@ -118,17 +117,12 @@ fn choice(ui: &mut Ui, is_chosen: bool, text: &str) -> Response {
     ui.add(button.min_size(Vec2::splat(space::TARGET)))
 }
 
-fn run(
-    ui: &mut Ui,
-    align: &AlignState,
-    session: &Session,
-    theme: &Theme,
-    actions: &mut Vec<AlignAction>,
-) {
+fn run(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<AlignAction>) {
+    let theme = Theme::of(ui);
     let missing = align.choice(session).err();
     let label = text!("align-run");
     let text = RichText::new(&label).font(font::body_strong());
-    let key = RichText::new("R").font(font::small());
+    let key = RichText::new("R").small();
     let button = Button::new(text.color(theme.on_accent))
         .shortcut_text(key.color(theme.on_accent))
         .fill(theme.accent);
@@ -178,9 +172,9 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
 }
 
 /// Draws the starts of a moved copy.
-fn starts(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
+fn starts(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
     let start = align.start;
-    ui.label(RichText::new(text!("align-start")).color(theme.weak_text));
+    ui.weak(text!("align-start"));
     for place in 0..Start::NUM_PAPER {
         let paper = Start::Paper(place);
         let button = choice(ui, start == paper, &paper.title());
@@ -237,7 +231,8 @@ fn numbers(start: Start) -> String {
 }
 
 /// Draws the form of a custom start.
-fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
+fn custom(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
+    let theme = Theme::of(ui);
     let custom = &align.custom;
     ui.horizontal(|ui| {
         let mut text = custom.text.clone();
@@ -255,8 +250,7 @@ fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
         }
         let use_it = ui
             .add_enabled_ui(custom.is_start(), |ui| {
-                let label = text!("align-use-start");
-                labelled(ui, Button::new(&label), &label)
+                text_button(ui, &text!("align-use-start"))
             })
             .inner;
         if use_it.clicked() || is_entered {
@@ -267,7 +261,7 @@ fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
     ui.spacing_mut().interact_size.y = REMARK;
     let mut line = |text: &str, colour| {
         ui.horizontal(|ui| {
-            let text = RichText::new(text).font(font::small()).color(colour);
+            let text = RichText::new(text).small().color(colour);
             ui.add(Label::new(text).truncate());
         });
     };
@@ -280,7 +274,7 @@ fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<Alig
 }
 
 /// Draws which scene is aligned.
-fn scene(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
+fn scene(ui: &mut Ui, align: &AlignState, session: &Session) {
     ui.set_min_height(space::TARGET);
     let text = match (&session.shown, align.choice(session)) {
         (Some(shown), Ok(_)) => {
@@ -292,7 +286,7 @@ fn scene(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
         (_, Err(missing)) => missing,
         (None, Ok(_)) => String::new(),
     };
-    ui.label(RichText::new(text).color(theme.weak_text));
+    ui.weak(text);
 }
 
 /// Draws which files are aligned.

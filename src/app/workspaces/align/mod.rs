@@ -45,7 +45,10 @@ use crate::app::{
         workspace::Workspace,
     },
     task::{Running, TaskRunner},
-    ui::viewport::{ViewError, ViewportGpu},
+    ui::{
+        theme::Theme,
+        viewport::{ViewError, ViewportGpu},
+    },
 };
 
 /// Width of the panel on the right in a wide and in a narrow window, logical pixels.
@@ -120,7 +123,7 @@ impl Workspace for AlignWorkspace {
 
     fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
         let Self { state, views, side } = self;
-        let (session, theme) = (cx.session, cx.theme);
+        let (session, theme) = (cx.session, Theme::of(ui));
         let mut actions = Vec::new();
         let size = ui.available_size();
         let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
@@ -128,14 +131,12 @@ impl Workspace for AlignWorkspace {
             .exact_size(if size.x > 1100.0 { SIDE[0] } else { SIDE[1] })
             .resizable(false)
             .frame(panel(Margin::symmetric(18, 14)))
-            .show(ui, |ui| side.ui(ui, state, session, theme, &mut actions));
+            .show(ui, |ui| side.ui(ui, state, session, &mut actions));
         let look = Panel::top("alignment")
             .exact_size(choosing::height(state) + 16.0)
             .resizable(false)
             .frame(panel(Margin::symmetric(12, 8)))
-            .show(ui, |ui| {
-                choosing::ui(ui, state, session, theme, &mut actions)
-            });
+            .show(ui, |ui| choosing::ui(ui, state, session, &mut actions));
         if let Some(look) = look.inner {
             views.look(look);
         }
@@ -143,8 +144,8 @@ impl Workspace for AlignWorkspace {
             .exact_size(if size.y > 760.0 { PLOT[0] } else { PLOT[1] })
             .resizable(false)
             .frame(panel(Margin::symmetric(14, 8)))
-            .show(ui, |ui| scrubber::ui(ui, state, theme, &mut actions));
-        views.ui(ui, state, session, theme);
+            .show(ui, |ui| scrubber::ui(ui, state, &mut actions));
+        views.ui(ui, state, session);
         for action in actions {
             state.apply(action, cx);
         }

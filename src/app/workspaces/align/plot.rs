@@ -22,13 +22,8 @@ const GOAL: f64 = -6.0;
 const HELD: f32 = 0.5;
 
 /// Draws axes, goal, searches, curves and the scrubber at `place`.
-pub(super) fn show(
-    ui: &mut Ui,
-    rect: Rect,
-    shown: &MethodComparison,
-    place: f32,
-    theme: &Theme,
-) -> PlotTransform {
+pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &MethodComparison, place: f32) -> PlotTransform {
+    let theme = Theme::of(ui);
     let [low, high] = range_of(shown.tracks().flat_map(|(_, track)| &track.log_e));
     let (low, high) = (low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil());
     let last = shown.last_place();
@@ -41,7 +36,7 @@ pub(super) fn show(
         read: None,
     };
     let rect = rect.with_max_y(rect.bottom() - 2.0);
-    let drawn = axes.show(ui, rect, theme, |plot| {
+    let drawn = axes.show(ui, rect, |plot| {
         for search in shown.tracks().flat_map(|(_, track)| &track.searches) {
             let stretch = search.start as f64..=search.end as f64;
             plot.span(Span::new("", stretch).fill(theme.control));

@@ -12,7 +12,7 @@ use crate::app::{
     language::text,
     ui::{
         scrubber::{Scrubber, ScrubberInput},
-        theme::{Theme, font, space},
+        theme::{font, space},
         widgets::{focus_ring, labelled},
     },
 };
@@ -21,9 +21,9 @@ use crate::app::{
 const PAGE: f32 = 10.0;
 
 /// Draws heading and plot.
-pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
+pub(super) fn ui(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
     let Some(shown) = align.shown.as_ref().filter(|shown| shown.last_place() > 0) else {
-        none(ui, align, theme);
+        none(ui, align);
         return;
     };
     if align.playback == Playback::Playing {
@@ -31,7 +31,7 @@ pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut V
         actions.push(AlignAction::Advance(seconds));
         ui.request_repaint();
     }
-    heading(ui, shown, align, theme, actions);
+    heading(ui, shown, align, actions);
     if align.is_pair_at_work() && align.coming.is_some() {
         ui.multiply_opacity(0.55);
     }
@@ -40,7 +40,7 @@ pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut V
     let sense = Sense::click_and_drag() | Sense::FOCUSABLE;
     let response = ui.interact(rect, id, sense);
     ui.allocate_rect(rect, Sense::hover());
-    let drawn = plot::show(ui, rect, shown, align.place, theme);
+    let drawn = plot::show(ui, rect, shown, align.place);
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
@@ -66,31 +66,26 @@ pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut V
             ScrubberInput::TogglePlay => AlignAction::TogglePlay,
         });
     }
-    focus_ring(ui, rect, &response, theme);
+    focus_ring(ui, rect, &response);
 }
 
 fn heading(
     ui: &mut Ui,
     shown: &MethodComparison,
     align: &AlignState,
-    theme: &Theme,
     actions: &mut Vec<AlignAction>,
 ) {
     ui.horizontal(|ui| {
-        ui.label(
-            RichText::new("E(R, t), m²")
-                .font(font::body_strong())
-                .color(theme.text),
-        );
-        let title = RichText::new(&shown.pair.title).font(font::small());
-        ui.label(title.color(theme.weak_text));
+        ui.label(RichText::new("E(R, t), m²").font(font::body_strong()));
+        let title = RichText::new(&shown.pair.title).small();
+        ui.label(title.weak());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let text = match align.playback {
                 Playback::Paused => text!("align-play"),
                 Playback::Playing => text!("align-pause"),
             };
-            let key = RichText::new("P").font(font::small());
-            let button = Button::new(&text).shortcut_text(key.color(theme.weak_text));
+            let key = RichText::new("P").small();
+            let button = Button::new(&text).shortcut_text(key.weak());
             if labelled(ui, button, &text).clicked() {
                 actions.push(AlignAction::TogglePlay);
             }
@@ -100,19 +95,15 @@ fn heading(
             } else {
                 text!("align-iteration", place = place, last = last)
             };
-            let text = RichText::new(text).font(font::small());
-            ui.label(text.color(theme.weak_text));
+            let text = RichText::new(text).small();
+            ui.label(text.weak());
         });
     });
 }
 
 /// Draws the panel before there is a curve.
-fn none(ui: &mut Ui, align: &AlignState, theme: &Theme) {
-    ui.label(
-        RichText::new("E(R, t), m²")
-            .font(font::body_strong())
-            .color(theme.text),
-    );
+fn none(ui: &mut Ui, align: &AlignState) {
+    ui.label(RichText::new("E(R, t), m²").font(font::body_strong()));
     let text = match &align.shown {
         Some(_) => text!("align-no-way"),
         None => text!("align-way"),
@@ -121,7 +112,7 @@ fn none(ui: &mut Ui, align: &AlignState, theme: &Theme) {
     ui.add_space(middle.max(0.0));
     ui.vertical_centered(|ui| {
         ui.set_max_width(ui.available_width().min(520.0));
-        ui.label(RichText::new(text).color(theme.weak_text));
+        ui.weak(text);
         ui.allocate_space(vec2(0.0, 0.0));
     });
 }

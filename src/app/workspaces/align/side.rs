@@ -39,41 +39,36 @@ impl SidePanel {
         ui: &mut Ui,
         align: &AlignState,
         session: &Session,
-        theme: &Theme,
         actions: &mut Vec<AlignAction>,
     ) {
         let table = &align.table;
-        ui.label(
-            RichText::new(text!("align-table"))
-                .font(font::verdict())
-                .color(theme.text),
-        );
+        ui.heading(text!("align-table"));
         let is_at_work = align.is_table_at_work();
-        progress(ui, align, session, theme, actions);
+        progress(ui, align, session, actions);
         egui::Panel::bottom("true error")
             .resizable(false)
             .show_separator_line(false)
             .frame(egui::Frame::new())
             .show(ui, |ui| {
-                true_error(ui, align, session, theme);
+                true_error(ui, align, session);
                 if !table.rows.is_empty() {
                     ui.add_space(space::MEDIUM);
-                    export(ui, theme, actions);
+                    export(ui, actions);
                 }
             });
         if table.rows.is_empty() {
             let text = text!("align-table-says");
             ui.add_space(space::MEDIUM);
-            ui.label(RichText::new(text).color(theme.weak_text));
+            ui.weak(text);
             self.num_seen = 0;
             return;
         }
-        header(ui, theme);
+        header(ui);
         let has_new = table.rows.len() != self.num_seen;
         self.num_seen = table.rows.len();
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            rows(ui, align, session, theme, actions);
+            rows(ui, align, session, actions);
             if is_at_work && has_new {
                 ui.scroll_to_cursor(Some(Align::BOTTOM));
             }
@@ -82,13 +77,8 @@ impl SidePanel {
 }
 
 /// Draws the progress of the table, and the buttons to start, continue or cancel it.
-fn progress(
-    ui: &mut Ui,
-    align: &AlignState,
-    session: &Session,
-    theme: &Theme,
-    actions: &mut Vec<AlignAction>,
-) {
+fn progress(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<AlignAction>) {
+    let theme = Theme::of(ui);
     let table = &align.table;
     let num_parts = session
         .library
@@ -103,11 +93,7 @@ fn progress(
         standing(num, total)
     };
     ui.horizontal(|ui| {
-        ui.label(
-            RichText::new(said)
-                .font(font::small())
-                .color(theme.weak_text),
-        );
+        ui.label(RichText::new(said).small().weak());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if is_at_work {
                 let label = text!("align-cancel-table");
@@ -189,7 +175,8 @@ fn columns(rect: Rect) -> impl Iterator<Item = (usize, f32)> {
     })
 }
 
-fn header(ui: &mut Ui, theme: &Theme) {
+fn header(ui: &mut Ui) {
+    let theme = Theme::of(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
     let painter = ui.painter();
     let write = |x: f32, anchor: Align2, text: &str| {
@@ -210,13 +197,8 @@ fn header(ui: &mut Ui, theme: &Theme) {
     }
 }
 
-fn rows(
-    ui: &mut Ui,
-    align: &AlignState,
-    session: &Session,
-    theme: &Theme,
-    actions: &mut Vec<AlignAction>,
-) {
+fn rows(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<AlignAction>) {
+    let theme = Theme::of(ui);
     let mut part = "";
     for (place, row) in align.table.rows.iter().enumerate() {
         if row.part != part {
@@ -244,7 +226,7 @@ fn rows(
             ui.painter().rect_filled(rect, ROUNDING, theme.control);
         }
         paint_row(ui.painter(), rect, row, theme);
-        focus_ring(ui, rect, &response, theme);
+        focus_ring(ui, rect, &response);
         if response.clicked() {
             actions.push(AlignAction::OpenRow(place));
         }
@@ -310,7 +292,8 @@ fn spoken(row: &TableRow) -> String {
 }
 
 /// Draws the errors of the shown methods, or their bounds where the truth is not known.
-fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
+fn true_error(ui: &mut Ui, align: &AlignState, session: &Session) {
+    let theme = Theme::of(ui);
     let Some(shown) = &align.shown else {
         return;
     };
@@ -320,7 +303,7 @@ fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme)
     } else {
         text!("align-uncertainty")
     };
-    heading(ui, theme, &title);
+    heading(ui, &title);
     ui.spacing_mut().interact_size.y = 20.0;
     let line = |ui: &mut Ui, name: RichText, turn: RichText, shift: RichText| {
         ui.horizontal(|ui| {
@@ -336,11 +319,7 @@ fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme)
             });
         });
     };
-    let weak = |text: String| {
-        RichText::new(text)
-            .font(font::small())
-            .color(theme.weak_text)
-    };
+    let weak = |text: String| RichText::new(text).small().weak();
     let names = [
         text!("align-method"),
         text!("align-rotation"),
@@ -363,12 +342,13 @@ fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme)
             Ok(None) => (text!("align-unconstrained"), String::new()),
             Err(_) => (text!("align-no-pose"), String::new()),
         };
-        let text = |text: String| RichText::new(text).color(theme.text);
+        let text = |text: String| RichText::new(text);
         line(ui, name, text(turn), text(shift));
     }
 }
 
-fn export(ui: &mut Ui, theme: &Theme, actions: &mut Vec<AlignAction>) {
+fn export(ui: &mut Ui, actions: &mut Vec<AlignAction>) {
+    let theme = Theme::of(ui);
     ui.horizontal(|ui| {
         let width = ui.available_width() - 90.0;
         let text = RichText::new(text!("align-export-csv")).font(font::body_strong());

@@ -86,10 +86,11 @@ impl LinkedViews {
         self.has_focus
     }
 
-    pub(super) fn ui(&mut self, ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
+    pub(super) fn ui(&mut self, ui: &mut Ui, align: &AlignState, session: &Session) {
+        let theme = Theme::of(ui);
         self.has_focus = false;
         let Some(shown) = &align.shown else {
-            empty(ui, align, session, theme);
+            empty(ui, align, session);
             return;
         };
         if self.styled != Some(session.theme) {
@@ -109,7 +110,7 @@ impl LinkedViews {
             let builder = UiBuilder::new().max_rect(cell).id_salt(place);
             ui.scope_builder(builder, |ui| {
                 ui.set_clip_rect(cell.intersect(ui.clip_rect()));
-                self.has_focus |= view.ui(ui, shown, &mut self.camera, align, session, theme);
+                self.has_focus |= view.ui(ui, shown, &mut self.camera, align, session);
             });
             if place > 0 {
                 ui.painter().vline(left, all.y_range(), theme.edge_stroke());
@@ -171,8 +172,8 @@ impl View {
         camera: &mut ViewCamera,
         align: &AlignState,
         session: &Session,
-        theme: &Theme,
     ) -> bool {
+        let theme = Theme::of(ui);
         let run = shown.runs.iter().find(|run| run.method == self.method);
         let all = ui.available_rect_before_wrap();
         let split = all.top() + head(all.width());
@@ -185,9 +186,9 @@ impl View {
             let title = RichText::new(series::title(self.method)).font(font::body_strong());
             ui.label(title.color(series::colour(self.method, theme)));
             match run {
-                Some(run) => heading(ui, run, session, theme),
-                None if align.is_pair_at_work() => weak(ui, &text!("align-at-work"), theme),
-                None => weak(ui, &text!("align-not-run"), theme),
+                Some(run) => heading(ui, run, session),
+                None if align.is_pair_at_work() => weak(ui, &text!("align-at-work")),
+                None => weak(ui, &text!("align-not-run")),
             }
         });
         let body = Rect::from_min_max(pos2(all.left(), split), all.max);
@@ -209,7 +210,7 @@ impl View {
                     source.world_from_set = mat4(&track.pose_at(place));
                 }
                 let has_focus = self.view(ui, body, camera);
-                below(ui, body, track, place, theme);
+                below(ui, body, track, place);
                 has_focus
             }
             None => {
@@ -251,7 +252,7 @@ fn style(method: PoseMethod, choice: ThemeChoice) -> ViewStyle {
     };
     // The source has the colour of its method's curve.
     colours.roles[Role::Moving as usize] = RoleColour {
-        colour: series::colour(method, Theme::of(choice)),
+        colour: series::colour(method, choice.colours()),
         weight: SOURCE_WEIGHT,
     };
     ViewStyle {
@@ -260,23 +261,20 @@ fn style(method: PoseMethod, choice: ThemeChoice) -> ViewStyle {
     }
 }
 
-fn weak(ui: &mut Ui, text: &str, theme: &Theme) {
-    ui.label(
-        RichText::new(text)
-            .font(font::small())
-            .color(theme.weak_text),
-    );
+fn weak(ui: &mut Ui, text: &str) {
+    ui.label(RichText::new(text).small().weak());
 }
 
 /// Draws how a method stopped, and its figures.
-fn heading(ui: &mut Ui, run: &MethodRun, session: &Session, theme: &Theme) {
+fn heading(ui: &mut Ui, run: &MethodRun, session: &Session) {
+    let theme = Theme::of(ui);
     let ms = format!("{:.0}", run.time.as_secs_f64() * 1000.0);
     match &run.track {
         Ok(track) => {
             let ending = track.ending();
-            let ending = RichText::new(&ending).font(font::small());
+            let ending = RichText::new(&ending).small();
             match &track.doubt {
-                None => ui.label(ending.color(theme.text)),
+                None => ui.label(ending),
                 Some(doubt) => ui
                     .label(ending.color(theme.warning))
                     .on_hover_text(format!("{}\n{}", doubt.what, doubt.advice)),
@@ -291,14 +289,15 @@ fn heading(ui: &mut Ui, run: &MethodRun, session: &Session, theme: &Theme) {
                 overlap = overlap,
                 time = ms,
             );
-            weak(ui, &figures, theme);
+            weak(ui, &figures);
         }
-        Err(_) => weak(ui, &text!("align-no-pose-figures", time = ms), theme),
+        Err(_) => weak(ui, &text!("align-no-pose-figures", time = ms)),
     }
 }
 
 /// Draws over the view which iteration is shown, and doubts about the final pose.
-fn below(ui: &Ui, rect: Rect, track: &Track, place: usize, theme: &Theme) {
+fn below(ui: &Ui, rect: Rect, track: &Track, place: usize) {
+    let theme = Theme::of(ui);
     let last = track.poses.len().saturating_sub(1);
     let place = place.min(last);
     let painter = ui.painter_at(rect);
@@ -333,7 +332,8 @@ fn below(ui: &Ui, rect: Rect, track: &Track, place: usize, theme: &Theme) {
 }
 
 /// Draws the area before the first result.
-fn empty(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
+fn empty(ui: &mut Ui, align: &AlignState, session: &Session) {
+    let theme = Theme::of(ui);
     let rect = ui.available_rect_before_wrap();
     ui.painter().rect_filled(rect, 0.0, theme.canvas);
     let choice = align.choice(session);

@@ -1,6 +1,6 @@
 //! The bar of the case in front: its verdict, its truth, and the part that it is compared with.
 
-use egui::{Button, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2, WidgetInfo};
+use egui::{Button, RichText, ScrollArea, TextEdit, Ui, Vec2, WidgetInfo};
 
 use super::{CompareAction, CompareState, Front};
 use crate::{
@@ -12,7 +12,7 @@ use crate::{
         },
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, labelled, mark, shortened},
+            widgets::{Mark, labelled, line_mark, shortened, text_button},
         },
     },
     cases::{CaseAnswer, CaseOutcome, Truth},
@@ -25,7 +25,6 @@ pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,
     session: &Session,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
     let remark = if ui.available_width() > WIDE {
@@ -35,14 +34,14 @@ pub(super) fn ui(
     };
     ui.horizontal_wrapped(|ui| {
         case_menu(ui, compare, session, acts);
-        verdict(ui, compare, session, theme);
+        verdict(ui, compare, session);
         truth_menu(ui, compare, session, acts);
     });
     ui.horizontal_wrapped(|ui| {
-        ui.label(RichText::new(text!("compare-against")).color(theme.weak_text));
+        ui.weak(text!("compare-against"));
         against_menu(ui, compare, session, acts);
         ui.add_space(space::MEDIUM);
-        case_buttons(ui, compare, remark, theme, acts);
+        case_buttons(ui, compare, remark, acts);
     });
 }
 
@@ -96,18 +95,14 @@ fn case_menu(
 
 /// Draws a verdict such as "taken for Front door, left, accepted, and it is"; the menu of truths beside it ends the
 /// sentence.
-fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme) {
-    let weak = |text: &str| RichText::new(text).color(theme.weak_text);
+fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session) {
+    let weak = |text: &str| RichText::new(text).weak();
     let Some(study) = &compare.study else {
         ui.label(weak(&text!("compare-asked")));
         return;
     };
     let found = &study.found;
-    let strong = |text: &str| {
-        RichText::new(text)
-            .font(font::body_strong())
-            .color(theme.text)
-    };
+    let strong = |text: &str| RichText::new(text).font(font::body_strong());
     let (verb, part) = match (&found.part, found.accepted) {
         (Some(_), true) => (text!("compare-taken-for"), study.found_title.clone()),
         (Some(_), false) => (text!("compare-nearest-to"), study.found_title.clone()),
@@ -122,8 +117,7 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme
     } else {
         Mark::Bad
     };
-    let (rect, _) = ui.allocate_exact_size(Vec2::splat(18.0), Sense::hover());
-    mark(ui.painter(), rect.center(), 8.0, sign, theme);
+    line_mark(ui, 18.0, 8.0, sign);
     let is_wrong = |outcome| matches!(outcome, CaseOutcome::WrongAccepted | CaseOutcome::Refused);
     let asked = match (found.accepted, judgement.map(is_wrong)) {
         (true, None) => text!("compare-accepted-asked"),
@@ -215,10 +209,10 @@ fn case_buttons(
     ui: &mut Ui,
     compare: &CompareState,
     remark_width: f32,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
-    let key = |text: &str| RichText::new(text).font(font::small());
+    let theme = Theme::of(ui);
+    let key = |text: &str| RichText::new(text).small();
     match &compare.front {
         Front::Scene => {
             let mut remark = compare.remark.clone();
@@ -238,7 +232,7 @@ fn case_buttons(
                 acts.push(CompareAction::Remark(remark));
             }
             let label = text!("compare-keep-case");
-            let keep = Button::new(&label).shortcut_text(key("K").color(theme.weak_text));
+            let keep = Button::new(&label).shortcut_text(key("K").weak());
             let hover = if compare.truth.is_some() {
                 text!("compare-keep-case-hint")
             } else {
@@ -253,9 +247,8 @@ fn case_buttons(
                 "" => text!("compare-kept-case"),
                 remark => shortened(remark, 40),
             };
-            ui.label(RichText::new(remark).color(theme.weak_text));
-            let label = text!("compare-remove-case");
-            if labelled(ui, Button::new(&label), &label).clicked() {
+            ui.weak(remark);
+            if text_button(ui, &text!("compare-remove-case")).clicked() {
                 acts.push(CompareAction::Remove(case.name.clone()));
             }
         }
@@ -271,7 +264,7 @@ fn case_buttons(
     }
     if let Some(undo) = &compare.undo {
         let title = undo.title();
-        let button = Button::new(&title).shortcut_text(key(&keys("Ctrl Z")).color(theme.weak_text));
+        let button = Button::new(&title).shortcut_text(key(&keys("Ctrl Z")).weak());
         if labelled(ui, button, &title).clicked() {
             acts.push(CompareAction::Undo);
         }

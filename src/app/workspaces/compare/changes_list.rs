@@ -16,9 +16,9 @@ pub(super) fn ui(
     ui: &mut Ui,
     changes: &RunChanges,
     shown: &LibraryView,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
+    let theme = Theme::of(ui);
     let RunChanges { file, changes } = changes;
     ui.horizontal_wrapped(|ui| {
         let worse = match changes.regressions.len() {
@@ -41,7 +41,7 @@ pub(super) fn ui(
         }
         rest.push(text!("compare-against-file", file = file));
         let text = format!("· {}", rest.join(" · "));
-        ui.label(RichText::new(text).color(theme.text));
+        ui.label(text);
     });
     let rows: Vec<(String, &CaseChange)> = [
         (text!("compare-worse"), &changes.regressions),
@@ -53,14 +53,14 @@ pub(super) fn ui(
     .collect();
     if rows.is_empty() {
         let text = text!("compare-no-changes");
-        ui.label(RichText::new(text).color(theme.weak_text));
+        ui.weak(text);
     }
     ScrollArea::vertical()
         .id_salt("changes")
         .auto_shrink(false)
         .show(ui, |ui| {
             for (word, change) in rows {
-                case_row(ui, &change.name, &words(&word, change, shown), theme, acts);
+                case_row(ui, &change.name, &words(&word, change, shown), acts);
             }
         });
 }

@@ -30,30 +30,26 @@ pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,
     session: &Session,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
+    let theme = Theme::of(ui);
     if compare.is_study_old() {
         ui.multiply_opacity(0.55);
     }
     ui.spacing_mut().item_spacing.y = 2.0;
-    ui.label(
-        RichText::new(text!("compare-distances"))
-            .font(font::body_strong())
-            .color(theme.text),
-    );
+    ui.label(RichText::new(text!("compare-distances")).font(font::body_strong()));
     let Some(study) = compare
         .study
         .as_ref()
         .filter(|study| !study.distances.is_empty())
     else {
-        ui.label(RichText::new(text!("compare-distances-none")).color(theme.weak_text));
+        ui.weak(text!("compare-distances-none"));
         return;
     };
     ui.spacing_mut().interact_size.y = 0.0;
     ui.vertical(|ui| {
         let chosen = study.recipe.rank.matcher;
-        let small = |text: &str, colour| RichText::new(text).font(font::small()).color(colour);
+        let small = |text: &str, colour| RichText::new(text).small().color(colour);
         let with_sign = |name: String, matcher| {
             if matcher == chosen {
                 text!("compare-distance-in-use", name = name)
@@ -72,7 +68,7 @@ pub(super) fn ui(
         .auto_shrink(false)
         .show(ui, |ui| {
             for distance in &study.distances {
-                if row(ui, study, distance, session.units, theme) {
+                if row(ui, study, distance, session.units) {
                     acts.push(CompareAction::Against(Some(distance.part.clone())));
                 }
             }
@@ -80,13 +76,8 @@ pub(super) fn ui(
 }
 
 /// Draws a row; returns true if it was clicked.
-fn row(
-    ui: &mut Ui,
-    study: &CaseStudy,
-    distance: &PartDistance,
-    units: UnitSystem,
-    theme: &Theme,
-) -> bool {
+fn row(ui: &mut Ui, study: &CaseStudy, distance: &PartDistance, units: UnitSystem) -> bool {
+    let theme = Theme::of(ui);
     let is_against = study.against.as_deref() == Some(&distance.part);
     let width = ui.available_width() - space::MEDIUM;
     // In a narrow row the figures are below the name.
@@ -149,7 +140,7 @@ fn row(
         let filled = vec2(inner.width() * share.clamp(0.0, 1.0), 5.0);
         painter.rect_filled(Rect::from_min_size(track.min, filled), 2.0, colour);
     }
-    focus_ring(ui, rect, &response, theme);
+    focus_ring(ui, rect, &response);
     let hover = text!(
         "compare-distance-hint",
         outline = outline,

@@ -18,7 +18,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::{focus_ring, labelled, shortened},
+            widgets::{focus_ring, labelled, shortened, text_button},
         },
     },
     cases::{CaseAnswer, CaseOutcome, KeptCase},
@@ -37,10 +37,9 @@ pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,
     session: &Session,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
-    header(ui, compare, session, theme, acts);
+    header(ui, compare, session, acts);
     let cases = compare.cases.as_ref().map(|cases| &*cases.list);
     let Some(cases) = cases.filter(|cases| !cases.is_empty()) else {
         let text = match (cases, compare.folder.as_deref()) {
@@ -50,76 +49,58 @@ pub(super) fn ui(
             }
             (Some(_), None) => text!("compare-no-cases"),
         };
-        ui.label(
-            RichText::new(text)
-                .font(font::verdict())
-                .color(theme.weak_text),
-        );
+        ui.label(RichText::new(text).font(font::verdict()).weak());
         let what = text!("compare-no-cases-advice");
-        ui.label(RichText::new(what).color(theme.weak_text));
+        ui.weak(what);
         return;
     };
     let cell = compare.cell.as_ref();
     let Some(run) = &compare.run else {
-        list(ui, compare, session, cases, theme, acts);
+        list(ui, compare, session, cases, acts);
         return;
     };
     if let (Some(changes), Some(shown)) = (&compare.changes, &session.library) {
-        changes_list::ui(ui, changes, shown, theme, acts);
+        changes_list::ui(ui, changes, shown, acts);
         return;
     }
     ScrollArea::both()
         .id_salt("cases")
         .auto_shrink(false)
         .show(ui, |ui| match cell.and_then(|cell| run.matrix.cell(cell)) {
-            Some(cell) => of_cell(ui, session, run, cell, theme, acts),
-            None => matrix_and_calibration(ui, run, theme, acts),
+            Some(cell) => of_cell(ui, session, run, cell, acts),
+            None => matrix_and_calibration(ui, run, acts),
         });
 }
 
 /// Draws matrix and score plots side by side, or one below the other in a narrow window.
-fn matrix_and_calibration(
-    ui: &mut Ui,
-    run: &CaseRun,
-    theme: &Theme,
-    acts: &mut Vec<CompareAction>,
-) {
+fn matrix_and_calibration(ui: &mut Ui, run: &CaseRun, acts: &mut Vec<CompareAction>) {
     let num_columns = run.matrix.columns.len() as f32;
     let beside = ui.available_width() - score_plots::WIDTH - space::LARGE;
     if beside >= NAMES + 16.0 + NARROWEST * num_columns {
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
                 ui.set_max_width(beside);
-                matrix(ui, &run.matrix, theme, acts);
+                matrix(ui, &run.matrix, acts);
             });
             ui.add_space(space::MEDIUM);
-            ui.vertical(|ui| plots(ui, run, theme));
+            ui.vertical(|ui| plots(ui, run));
         });
     } else {
-        matrix(ui, &run.matrix, theme, acts);
+        matrix(ui, &run.matrix, acts);
         ui.add_space(space::MEDIUM);
-        ui.horizontal_wrapped(|ui| plots(ui, run, theme));
+        ui.horizontal_wrapped(|ui| plots(ui, run));
     }
 }
 
-fn plots(ui: &mut Ui, run: &CaseRun, theme: &Theme) {
-    score_plots::calibration(ui, &run.calibration, theme);
-    score_plots::trade_off(ui, &run.trade_off, run.recipe.accept.min_score, theme);
+fn plots(ui: &mut Ui, run: &CaseRun) {
+    score_plots::calibration(ui, &run.calibration);
+    score_plots::trade_off(ui, &run.trade_off, run.recipe.accept.min_score);
 }
 
-fn header(
-    ui: &mut Ui,
-    compare: &CompareState,
-    session: &Session,
-    theme: &Theme,
-    acts: &mut Vec<CompareAction>,
-) {
+fn header(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<CompareAction>) {
+    let theme = Theme::of(ui);
     ui.horizontal(|ui| {
-        ui.label(
-            RichText::new(text!("compare-all-cases"))
-                .font(font::body_strong())
-                .color(theme.text),
-        );
+        ui.label(RichText::new(text!("compare-all-cases")).font(font::body_strong()));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let folder = compare.cases.as_ref().map(|cases| cases.folder.path());
             let hover = folder.map_or_else(String::new, |path| path.display().to_string());
@@ -129,11 +110,8 @@ fn header(
                 acts.push(CompareAction::Ask(CompareFile::Cases));
             }
             let is_matrix = compare.cell.is_none() && compare.changes.is_none();
-            if !is_matrix {
-                let back = text!("compare-back");
-                if labelled(ui, Button::new(&back), &back).clicked() {
-                    acts.push(CompareAction::ShowCell(None));
-                }
+            if !is_matrix && text_button(ui, &text!("compare-back")).clicked() {
+                acts.push(CompareAction::ShowCell(None));
             }
             if let Some(run) = &compare.run
                 && let Some(ended) = run.ended
@@ -150,7 +128,7 @@ fn header(
                 let at = ended.to_zoned(jiff::tz::TimeZone::system());
                 let time = at.strftime("%H:%M").to_string();
                 let at = text!("compare-ran-at", time = time);
-                ui.label(RichText::new(at).font(font::small()).color(theme.weak_text));
+                ui.label(RichText::new(at).small().weak());
             }
         });
     });
@@ -186,7 +164,7 @@ fn header(
             });
         }
         let rest = format!("· {}", rest.join(" · "));
-        ui.label(RichText::new(rest).color(theme.text));
+        ui.label(rest);
         if *run.recipe != **compare.tried_recipe(session) {
             let text = format!("· {}", text!("compare-other-recipe"));
             ui.label(RichText::new(text).color(theme.warning));
@@ -201,7 +179,6 @@ fn list(
     compare: &CompareState,
     session: &Session,
     cases: &[KeptCase],
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
     let hint = if compare.is_running_cases() {
@@ -209,7 +186,7 @@ fn list(
     } else {
         text!("compare-run-hint")
     };
-    ui.label(RichText::new(hint).color(theme.weak_text));
+    ui.weak(hint);
     let height = space::TARGET;
     ScrollArea::vertical()
         .id_salt("list of cases")
@@ -221,7 +198,7 @@ fn list(
                 let truth = truth.map_or_else(String::new, |shown| row_title(&about.truth, shown));
                 let what = text!("compare-it-is", part = truth)
                     + &difficulty_words(about.difficulty.as_deref());
-                case_row(ui, &case.name, &what, theme, acts);
+                case_row(ui, &case.name, &what, acts);
             }
         });
 }
@@ -232,7 +209,6 @@ fn of_cell(
     session: &Session,
     run: &CaseRun,
     cell: &MatrixCell,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
     let Some(shown) = &session.library else {
@@ -241,7 +217,7 @@ fn of_cell(
     let (truth, answer) = &cell.cell;
     let (truth, title) = (row_title(truth, shown), column_title(answer, shown));
     let text = cell_text(answer, truth, title, cell.results.len());
-    ui.label(RichText::new(text).color(theme.weak_text));
+    ui.weak(text);
     for result in cell
         .results
         .iter()
@@ -257,7 +233,7 @@ fn of_cell(
             (_, _, reason) => reason.clone().unwrap_or_default(),
         };
         let what = format!("{what}{}", difficulty_words(result.difficulty.as_deref()));
-        case_row(ui, &result.name, &what, theme, acts);
+        case_row(ui, &result.name, &what, acts);
     }
 }
 
@@ -279,13 +255,7 @@ fn difficulty_words(difficulty: Option<&str>) -> String {
     difficulty.map_or_else(String::new, |words| format!(" · {words}"))
 }
 
-pub(super) fn case_row(
-    ui: &mut Ui,
-    name: &str,
-    what: &str,
-    theme: &Theme,
-    acts: &mut Vec<CompareAction>,
-) {
+pub(super) fn case_row(ui: &mut Ui, name: &str, what: &str, acts: &mut Vec<CompareAction>) {
     ui.horizontal(|ui| {
         let text = RichText::new(shortened(name, 34)).font(font::body_strong());
         let size = vec2(190.0, space::TARGET);
@@ -303,13 +273,13 @@ pub(super) fn case_row(
         if remove.clicked() {
             acts.push(CompareAction::Remove(name.to_owned()));
         }
-        ui.label(RichText::new(shortened(what, 60)).color(theme.weak_text))
-            .on_hover_text(what);
+        ui.weak(shortened(what, 60)).on_hover_text(what);
     });
 }
 
 /// Draws the matrix: truths from top to bottom, answers from left to right.
-fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAction>) {
+fn matrix(ui: &mut Ui, matrix: &Matrix, acts: &mut Vec<CompareAction>) {
+    let theme = Theme::of(ui);
     let num_columns = matrix.columns.len().max(1);
     let room = ui.available_width() - NAMES - 16.0;
     let width = (room / num_columns as f32).clamp(NARROWEST, 140.0);
@@ -383,18 +353,14 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAct
             font::body_strong(),
             theme.text,
         );
-        focus_ring(ui, rect, &response, theme);
+        focus_ring(ui, rect, &response);
         if response.on_hover_text(label).clicked() {
             acts.push(CompareAction::ShowCell(Some(cell.cell.clone())));
         }
     }
     let text = text!("compare-matrix-hint");
     ui.add_space(space::SMALL);
-    ui.label(
-        RichText::new(text)
-            .font(font::small())
-            .color(theme.weak_text),
-    );
+    ui.label(RichText::new(text).small().weak());
 }
 
 fn rect_of(origin: egui::Pos2, [row, column]: [usize; 2], size: Vec2) -> Rect {

@@ -104,7 +104,7 @@ impl Workspace for CompareWorkspace {
     }
 
     fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
-        let (session, theme) = (cx.session, cx.theme);
+        let (session, theme) = (cx.session, Theme::of(ui));
         let state = &self.state;
         let mut acts = Vec::new();
         if state.is_behind(session) {
@@ -117,15 +117,15 @@ impl Workspace for CompareWorkspace {
             .resizable(false)
             .frame(panel(Margin::ZERO))
             .show(ui, |ui| {
-                recipe_panel::ui(ui, state, session, theme, &mut acts);
+                recipe_panel::ui(ui, state, session, &mut acts);
             });
         Panel::top("case")
             .resizable(false)
             .frame(panel(Margin::symmetric(12, 8)))
             .show(ui, |ui| {
-                case_bar::ui(ui, state, session, theme, &mut acts);
+                case_bar::ui(ui, state, session, &mut acts);
             });
-        body(ui, state, session, theme, &mut acts);
+        body(ui, state, session, &mut acts);
         for action in acts {
             self.state.apply(action, cx);
         }
@@ -159,13 +159,8 @@ impl Workspace for CompareWorkspace {
 }
 
 /// Draws three pictures above; the distances and the kept cases below.
-fn body(
-    ui: &mut Ui,
-    state: &CompareState,
-    session: &Session,
-    theme: &Theme,
-    acts: &mut Vec<CompareAction>,
-) {
+fn body(ui: &mut Ui, state: &CompareState, session: &Session, acts: &mut Vec<CompareAction>) {
+    let theme = Theme::of(ui);
     let all = ui.available_rect_before_wrap();
     ui.painter().rect_filled(all, 0.0, theme.panel);
     let middle = all.top() + (all.height() * 0.46).round();
@@ -179,7 +174,7 @@ fn body(
         cell([left, all.top()], [third(0.66), middle]),
         cell([third(0.66), all.top()], [all.right(), middle]),
     ];
-    pictures::ui(ui, above, state, session, theme);
+    pictures::ui(ui, above, state, session);
     let below = [
         cell([all.left(), middle], [left, all.bottom()]),
         cell([left, middle], [all.right(), all.bottom()]),
@@ -191,10 +186,10 @@ fn body(
         });
     };
     within(ui, below[0], &mut |ui| {
-        distances::ui(ui, state, session, theme, acts);
+        distances::ui(ui, state, session, acts);
     });
     within(ui, below[1], &mut |ui| {
-        kept_cases::ui(ui, state, session, theme, acts);
+        kept_cases::ui(ui, state, session, acts);
     });
     let painter = ui.painter();
     painter.hline(all.x_range(), middle, theme.edge_stroke());

@@ -28,13 +28,8 @@ const TITLE: f32 = 19.0;
 /// Captions of a picture narrower than this have two lines.
 const NARROW: f32 = 270.0;
 
-pub(super) fn ui(
-    ui: &mut Ui,
-    rects: [Rect; 3],
-    compare: &CompareState,
-    session: &Session,
-    theme: &Theme,
-) {
+pub(super) fn ui(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState, session: &Session) {
+    let theme = Theme::of(ui);
     ui.scope(|ui| {
         if compare.is_study_old() {
             ui.multiply_opacity(0.55);
@@ -42,19 +37,19 @@ pub(super) fn ui(
         let study = compare.study.as_ref();
         let comparison = study.and_then(|study| study.comparison.as_ref());
         let Some(comparison) = comparison else {
-            empty(ui, rects, compare, theme);
+            empty(ui, rects, compare);
             return;
         };
         let units = session.units;
         let outlines = outline_captions(comparison, units);
-        let picture = Picture::new(ui, rects[0], theme, &text!("compare-contours"), &outlines);
+        let picture = Picture::new(ui, rects[0], &text!("compare-contours"), &outlines);
         picture.overlay(comparison, theme);
         let name = text!("compare-signatures");
         let caption = match comparison.matcher {
             Matcher::Default => text!("compare-signatures-default"),
             Matcher::Paper => text!("compare-signatures-paper"),
         };
-        let picture = Picture::new(ui, rects[1], theme, &name, &caption);
+        let picture = Picture::new(ui, rects[1], &name, &caption);
         for (trace, area) in comparison.traces.iter().zip(rows(picture.inner, 2)) {
             let unit = match trace.measure {
                 AxisQuantity::Length => units.length_axis(),
@@ -67,7 +62,7 @@ pub(super) fn ui(
                 scene: &trace.query,
                 part: Some(&trace.reference),
             };
-            curves.show(ui, area, theme);
+            curves.show(ui, area);
         }
         let name = text!("compare-correlations");
         let share = format!("{:.2}", comparison.relative_l1);
@@ -78,14 +73,14 @@ pub(super) fn ui(
                 text!("compare-correlations-paper", value = value, share = share)
             }
         };
-        let picture = Picture::new(ui, rects[2], theme, &name, &caption);
+        let picture = Picture::new(ui, rects[2], &name, &caption);
         let all = &comparison.correlations;
         if all.is_empty() {
             let (at, text) = (picture.inner.center(), text!("compare-no-lag"));
             picture.text(at, Align2::CENTER_CENTER, &text, theme.weak_text);
         }
         for (one, area) in all.iter().zip(rows(picture.inner, all.len())) {
-            correlation(ui, one, area, theme);
+            correlation(ui, one, area);
         }
     });
 }
@@ -113,7 +108,8 @@ fn angle(radians: f64, units: UnitSystem) -> String {
 }
 
 /// Draws what to do while there is no comparison.
-fn empty(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState, theme: &Theme) {
+fn empty(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState) {
+    let theme = Theme::of(ui);
     let text = match (&compare.study, compare.running()) {
         (Some(study), _) => {
             let reason = study.found.reason.clone();
@@ -146,7 +142,8 @@ struct Picture {
 }
 
 impl Picture {
-    fn new(ui: &Ui, rect: Rect, theme: &Theme, title: &str, caption: &str) -> Self {
+    fn new(ui: &Ui, rect: Rect, title: &str, caption: &str) -> Self {
+        let theme = Theme::of(ui);
         let painter = ui.painter_at(rect);
         painter.text(
             rect.min,
@@ -227,7 +224,8 @@ fn rows(rect: Rect, num: usize) -> impl Iterator<Item = Rect> {
     })
 }
 
-fn correlation(ui: &mut Ui, correlation: &Correlation, area: Rect, theme: &Theme) {
+fn correlation(ui: &mut Ui, correlation: &Correlation, area: Rect) {
+    let theme = Theme::of(ui);
     let Correlation { auto, cross, .. } = correlation;
     let range = range_of(auto.iter().chain(cross));
     let decimals = if range[1] < 10.0 { 3 } else { 0 };
@@ -271,7 +269,7 @@ fn correlation(ui: &mut Ui, correlation: &Correlation, area: Rect, theme: &Theme
         font: font::small(),
         read: Some(Box::new(read)),
     };
-    axes.show(ui, area, theme, |plot| {
+    axes.show(ui, area, |plot| {
         let ends = auto.iter().zip(cross).enumerate();
         let ends: Vec<[f64; 3]> = ends
             .map(|(place, (a, c))| [place as f64, f64::from(*a), f64::from(*c)])

@@ -12,8 +12,8 @@ use crate::{
         language::{parameters, text},
         shell::session::Session,
         ui::{
-            theme::{Theme, font, space},
-            widgets::{button_width, labelled, shortened},
+            theme::{Theme, space},
+            widgets::{button_width, labelled, shortened, text_button},
         },
     },
     error::Advice as _,
@@ -34,31 +34,21 @@ pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,
     session: &Session,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
     ui.horizontal(|ui| {
-        ui.label(
-            RichText::new(text!("compare-recipe"))
-                .font(font::verdict())
-                .color(theme.text),
-        );
-        menu(ui, compare, session, theme, acts);
+        ui.heading(text!("compare-recipe"));
+        menu(ui, compare, session, acts);
     });
     if let Some(naming) = &compare.recipes.naming {
         let current = &compare.tried_recipe(session).label.name;
-        name_ui(ui, compare, naming, current, theme, acts);
+        name_ui(ui, compare, naming, current, acts);
     }
-    changes(ui, compare, compare.tried_recipe(session), theme, acts);
+    changes(ui, compare, compare.tried_recipe(session), acts);
 }
 
-fn menu(
-    ui: &mut Ui,
-    compare: &CompareState,
-    session: &Session,
-    theme: &Theme,
-    acts: &mut Vec<CompareAction>,
-) {
+fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<CompareAction>) {
+    let theme = Theme::of(ui);
     let label = &compare.tried_recipe(session).label;
     let name = shortened(&label.name, MAX_LETTERS);
     let mut text = RichText::new(format!("{name} ▼"));
@@ -161,9 +151,9 @@ fn name_ui(
     compare: &CompareState,
     naming: &Naming,
     current: &str,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
+    let theme = Theme::of(ui);
     let mut act = |action| acts.push(CompareAction::Recipe(action));
     let mut text = naming.text.clone();
     let checked = PartName::new(text.trim());
@@ -221,9 +211,7 @@ fn name_ui(
         _ => None,
     };
     if let Some(complaint) = complaint {
-        let text = RichText::new(complaint)
-            .font(font::small())
-            .color(theme.warning);
+        let text = RichText::new(complaint).small().color(theme.warning);
         ui.add(egui::Label::new(text).wrap());
     }
     if text != naming.text {
@@ -232,17 +220,12 @@ fn name_ui(
 }
 
 /// Draws the number of parameters that differ from their defaults and, unfolded, their list.
-fn changes(
-    ui: &mut Ui,
-    compare: &CompareState,
-    recipe: &Recipe,
-    theme: &Theme,
-    acts: &mut Vec<CompareAction>,
-) {
+fn changes(ui: &mut Ui, compare: &CompareState, recipe: &Recipe, acts: &mut Vec<CompareAction>) {
+    let theme = Theme::of(ui);
     let num = num_changed(recipe);
     let text = text!("compare-num-changed", count = num);
     if num == 0 {
-        ui.label(RichText::new(text).color(theme.weak_text));
+        ui.weak(text);
         return;
     }
     let is_open = compare.recipes.is_listing_changes;
@@ -259,9 +242,7 @@ fn changes(
         {
             acts.push(CompareAction::Recipe(RecipeAction::ListChanges));
         }
-        let reset = text!("compare-reset-all");
-        let reset = labelled(ui, Button::new(&reset), &reset);
-        if reset
+        if text_button(ui, &text!("compare-reset-all"))
             .on_hover_text(text!("compare-reset-all-hint"))
             .clicked()
         {
@@ -284,7 +265,7 @@ fn changes(
                     value = parameters::value(parameter, recipe),
                     default = parameters::value(parameter, &default),
                 );
-                let text = RichText::new(text).font(font::small()).color(theme.text);
+                let text = RichText::new(text).small();
                 ui.add(egui::Label::new(text).wrap())
                     .on_hover_text(parameter.key);
             }

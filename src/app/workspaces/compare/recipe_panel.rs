@@ -1,8 +1,6 @@
 //! The recipe on trial: a control for every parameter of the table, and the verdict on the case in front.
 
-use egui::{
-    Button, Color32, Frame, Margin, Panel, RichText, ScrollArea, Sense, Ui, Vec2, WidgetInfo, vec2,
-};
+use egui::{Button, Color32, Frame, Margin, Panel, RichText, ScrollArea, Ui, WidgetInfo, vec2};
 
 use super::{CompareAction, CompareState, case_bar::judged, recipe_menu, scaling_plot};
 use crate::{
@@ -12,7 +10,7 @@ use crate::{
         ui::{
             parameter_control::{self, ParameterChange, fold},
             theme::{Theme, font, space},
-            widgets::{Mark, mark},
+            widgets::{Mark, line_mark},
         },
     },
     cases::CaseOutcome,
@@ -26,9 +24,9 @@ pub(super) fn ui(
     ui: &mut Ui,
     compare: &CompareState,
     session: &Session,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
+    let theme = Theme::of(ui);
     let frame = |top, bottom| {
         Frame::new().fill(theme.panel).inner_margin(Margin {
             left: 16,
@@ -40,12 +38,12 @@ pub(super) fn ui(
     Panel::bottom("recipe verdict")
         .resizable(false)
         .frame(frame(8, 12))
-        .show(ui, |ui| outcome(ui, compare, session, theme, acts));
+        .show(ui, |ui| outcome(ui, compare, session, acts));
     let (recipe, default) = (compare.tried_recipe(session), Recipe::default());
     Panel::top("recipe head")
         .resizable(false)
         .frame(frame(8, 4))
-        .show(ui, |ui| recipe_menu::ui(ui, compare, session, theme, acts));
+        .show(ui, |ui| recipe_menu::ui(ui, compare, session, acts));
     egui::CentralPanel::default()
         .frame(frame(0, 4))
         .show(ui, |ui| {
@@ -55,12 +53,12 @@ pub(super) fn ui(
                 .show(ui, |ui| {
                     ui.set_max_width(ui.available_width() - 8.0);
                     for group in Group::ALL {
-                        group_ui(ui, group, recipe, &default, theme, acts);
+                        group_ui(ui, group, recipe, &default, acts);
                     }
                     ui.add_space(space::SMALL);
                     fold(ui, text!("compare-scaling"), Color32::PLACEHOLDER)
                         .id_salt("scaling")
-                        .show(ui, |ui| scaling_plot::ui(ui, compare, theme, acts));
+                        .show(ui, |ui| scaling_plot::ui(ui, compare, acts));
                 });
         });
 }
@@ -70,9 +68,9 @@ fn group_ui(
     group: Group,
     recipe: &Recipe,
     default: &Recipe,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
+    let theme = Theme::of(ui);
     let of = |place: Place| {
         let all = PARAMETERS.iter();
         all.filter(move |p| p.group == group && p.place == place)
@@ -81,10 +79,10 @@ fn group_ui(
     ui.label(
         RichText::new(parameters::group(group))
             .font(font::heading())
-            .color(theme.weak_text),
+            .weak(),
     );
     for parameter in of(Place::Front) {
-        control(ui, parameter, recipe, default, theme, acts);
+        control(ui, parameter, recipe, default, acts);
     }
     let num = of(Place::Fold).count();
     if num == 0 {
@@ -107,7 +105,7 @@ fn group_ui(
         .id_salt(group.title())
         .show_unindented(ui, |ui| {
             for parameter in of(Place::Fold) {
-                control(ui, parameter, recipe, default, theme, acts);
+                control(ui, parameter, recipe, default, acts);
             }
         });
 }
@@ -117,7 +115,6 @@ fn control(
     parameter: &Parameter,
     recipe: &Recipe,
     default: &Recipe,
-    theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
     let mut changed = |change: ParameterChange| {
@@ -126,17 +123,12 @@ fn control(
             ParameterChange::Reset => CompareAction::Reset(parameter.key),
         });
     };
-    parameter_control::control(ui, parameter, recipe, default, theme, &mut changed);
+    parameter_control::control(ui, parameter, recipe, default, &mut changed);
 }
 
 /// Draws the verdict on the case in front, and the button that uses the recipe.
-fn outcome(
-    ui: &mut Ui,
-    compare: &CompareState,
-    session: &Session,
-    theme: &Theme,
-    acts: &mut Vec<CompareAction>,
-) {
+fn outcome(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<CompareAction>) {
+    let theme = Theme::of(ui);
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 0.0;
         let head = if compare.is_study_old() {
@@ -144,7 +136,7 @@ fn outcome(
         } else {
             text!("compare-case-is")
         };
-        ui.label(RichText::new(head).color(theme.weak_text));
+        ui.weak(head);
         if compare.is_study_old() {
             ui.multiply_opacity(0.55);
         }
@@ -170,8 +162,7 @@ fn outcome(
                 (_, true) => (Mark::Good, theme.accepted),
             };
             ui.horizontal_top(|ui| {
-                let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
-                mark(ui.painter(), rect.center(), 9.0, sign, theme);
+                line_mark(ui, 20.0, 9.0, sign);
                 let text = RichText::new(title).font(font::verdict()).color(colour);
                 ui.add(egui::Label::new(text).wrap());
             });
@@ -194,7 +185,7 @@ fn outcome(
             let word = format!("{word} · {:.0} ms", study.time_ms);
             ui.label(RichText::new(word).color(colour));
             if let Some(refusal) = study.refusal(session.units) {
-                let text = RichText::new(refusal).font(font::small()).color(theme.text);
+                let text = RichText::new(refusal).small();
                 ui.label(text).on_hover_text(&study.advice);
             }
         }

@@ -26,17 +26,8 @@ const STYLES: [LineStyle; 4] = [
     LineStyle::Dashed { length: 2.0 },
 ];
 
-pub(super) fn ui(
-    ui: &mut Ui,
-    compare: &CompareState,
-    theme: &Theme,
-    acts: &mut Vec<CompareAction>,
-) {
-    let weak = |text: String| {
-        RichText::new(text)
-            .font(font::small())
-            .color(theme.weak_text)
-    };
+pub(super) fn ui(ui: &mut Ui, compare: &CompareState, acts: &mut Vec<CompareAction>) {
+    let weak = |text: String| RichText::new(text).small().weak();
     ui.label(weak(text!("compare-scaling-says")));
     let label = text!("compare-measure-label");
     if labelled(ui, Button::new(text!("compare-measure")), &label).clicked() {
@@ -45,7 +36,7 @@ pub(super) fn ui(
     let Some(scaling) = &compare.scaling else {
         return;
     };
-    plot(ui, scaling, theme);
+    plot(ui, scaling);
     ui.label(weak(words(scaling)));
 }
 
@@ -66,7 +57,8 @@ fn words(scaling: &Scaling) -> String {
     }
 }
 
-fn plot(ui: &mut Ui, scaling: &Scaling, theme: &Theme) {
+fn plot(ui: &mut Ui, scaling: &Scaling) {
+    let theme = Theme::of(ui);
     let (all, response) =
         ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     let name = text!("compare-scaling-plot", words = words(scaling));
@@ -96,7 +88,7 @@ fn plot(ui: &mut Ui, scaling: &Scaling, theme: &Theme) {
         theme.second_series,
         theme.reference_series,
     ];
-    let shown = axes.show(ui, all.shrink(8.0), theme, |plot| {
+    let shown = axes.show(ui, all.shrink(8.0), |plot| {
         for (place, (colour, style)) in colours.into_iter().zip(STYLES).enumerate() {
             let times = rows.iter().map(|row| log(row.least_ms[place]));
             let points = sizes.iter().zip(times);

@@ -24,9 +24,9 @@ const REFUSED: LineStyle = LineStyle::Dashed { length: 6.0 };
 fn square<'a>(
     ui: &mut Ui,
     said: PlotText,
-    theme: &Theme,
     draw: impl FnOnce(&mut PlotUi<'a>) + 'a,
 ) -> PlotTransform {
+    let theme = Theme::of(ui);
     let (all, response) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &said.words));
     response.on_hover_text(said.help);
@@ -47,7 +47,7 @@ fn square<'a>(
         font: font::small(),
         read: None,
     };
-    let shown = axes.show(ui, canvas.shrink(6.0), theme, draw);
+    let shown = axes.show(ui, canvas.shrink(6.0), draw);
     ui.add_space(space::SMALL);
     shown
 }
@@ -62,7 +62,8 @@ struct PlotText {
 }
 
 /// Draws the share of right guesses over the score. On the diagonal the score is the probability that a guess is right.
-pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration, theme: &Theme) {
+pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration) {
+    let theme = Theme::of(ui);
     let said = PlotText {
         title: text!("compare-calibration"),
         caption: match calibration.expected_error {
@@ -79,7 +80,7 @@ pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration, theme: &Theme)
     let bins = bins.filter_map(|bin| Some((bin.num, [bin.mean_score, bin.share_right()?])));
     let bins: Vec<(usize, [f64; 2])> = bins.collect();
     let places: Vec<[f64; 2]> = bins.iter().map(|(_, at)| *at).collect();
-    let shown = square(ui, said, theme, |plot| {
+    let shown = square(ui, said, |plot| {
         let diagonal = Line::new("", vec![[0.0, 0.0], [1.0, 1.0]]);
         plot.line(diagonal.color(theme.weak_text).width(1.0));
         let colour = theme.first_series;
@@ -96,7 +97,8 @@ pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration, theme: &Theme)
 }
 
 /// Draws the shares of false accepts and of refusals over the threshold on the score.
-pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme: &Theme) {
+pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64) {
+    let theme = Theme::of(ui);
     let TradeOff {
         num_cases,
         num_enrolled,
@@ -128,7 +130,7 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme
     };
     let wrong = curve(&|step| share(step.num_wrong_accepted, *num_cases));
     let refused = curve(&|step| share(step.num_refused, *num_enrolled));
-    let shown = square(ui, said, theme, |plot| {
+    let shown = square(ui, said, |plot| {
         plot.line(refused.color(theme.first_series).style(REFUSED));
         plot.line(wrong.color(theme.rejected));
         plot.vline(VLine::new("", threshold).color(theme.text));

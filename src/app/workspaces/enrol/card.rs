@@ -13,7 +13,7 @@ use crate::{
         language::text,
         shell::session::Session,
         ui::{
-            theme::{ROUNDING, Theme, font, space},
+            theme::{ROUNDING, Theme, space},
             widgets::{fitted, grouped},
         },
     },
@@ -27,9 +27,9 @@ pub(super) fn ui(
     enrol: &EnrolState,
     session: &Session,
     thumbnails: &Thumbnails,
-    theme: &Theme,
     actions: &mut Vec<EnrolAction>,
 ) {
+    let theme = Theme::of(ui);
     let library = session.library.as_deref();
     let place = library.and_then(|library| library.place_of(open.name.as_str()));
     let part = library
@@ -39,7 +39,7 @@ pub(super) fn ui(
     let can_change = can_change && !enrol.is_changing_library();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let title = part.map_or(open.name.as_str(), PartMeta::shown_title);
-        ui.label(RichText::new(title).font(font::verdict()).color(theme.text));
+        ui.heading(title);
         let button = |ui: &mut Ui, text: String| {
             let button = Button::new(text).min_size(vec2(ui.available_width(), space::TARGET));
             ui.add(button).clicked()
@@ -55,13 +55,13 @@ pub(super) fn ui(
                 painter.image(texture.id(), at, whole, egui::Color32::WHITE);
             }
             let number = library.and_then(|library| library.numbers.of(&part.name));
-            origin(ui, part, number, theme);
+            origin(ui, part, number);
             ui.add_space(space::SMALL);
             ui.add_enabled_ui(can_change, |ui| {
-                if let Some(field) = fields::ui(ui, &open.form, theme) {
+                if let Some(field) = fields::ui(ui, &open.form) {
                     actions.push(EnrolAction::WriteOpen(field));
                 }
-                super::form::shared_title(ui, &open.form, session, theme);
+                super::form::shared_title(ui, &open.form, session);
                 let words = open.form.words();
                 let has_changed = words.is_ok_and(|words| words != part.words());
                 ui.add_enabled_ui(has_changed, |ui| {
@@ -85,7 +85,7 @@ pub(super) fn ui(
         } else {
             let mut damaged = library.iter().flat_map(|library| &library.damaged);
             if let Some(damaged) = damaged.find(|d| d.entry == open.name.as_str()) {
-                complaint(ui, &damaged.trouble.what, &damaged.trouble.advice, theme);
+                complaint(ui, &damaged.trouble.what, &damaged.trouble.advice);
             }
         }
         ui.add_enabled_ui(can_change, |ui| {
@@ -97,12 +97,12 @@ pub(super) fn ui(
         if button(ui, text!("enrol-close")) {
             actions.push(EnrolAction::Close);
         }
-        super::form::fixed(ui, session, theme);
+        super::form::fixed(ui, session);
     });
 }
 
 /// Draws where the part came from, and the number by which robots know it.
-fn origin(ui: &mut Ui, part: &PartMeta, number: Option<u32>, theme: &Theme) {
+fn origin(ui: &mut Ui, part: &PartMeta, number: Option<u32>) {
     let at = part.enrolled.at.to_zoned(jiff::tz::TimeZone::system());
     let seen = if part.simulated {
         text!("enrol-origin-simulated")
@@ -126,11 +126,7 @@ fn origin(ui: &mut Ui, part: &PartMeta, number: Option<u32>, theme: &Theme) {
     if let Some(number) = number {
         facts.push(text!("enrol-origin-number", number = number));
     }
-    ui.label(
-        RichText::new(facts.join(" · "))
-            .font(font::small())
-            .color(theme.weak_text),
-    );
+    ui.label(RichText::new(facts.join(" · ")).small().weak());
 }
 
 /// Describes what the part was enrolled from.

@@ -62,25 +62,21 @@ impl Catalogue {
         enrol: &EnrolState,
         library: Option<&Arc<LibraryView>>,
         thumbnails: &Thumbnails,
-        theme: &Theme,
         actions: &mut Vec<EnrolAction>,
     ) {
+        let theme = Theme::of(ui);
         let Some(library) = library else {
-            ui.label(RichText::new(text!("enrol-library-loading")).color(theme.weak_text));
+            ui.weak(text!("enrol-library-loading"));
             return;
         };
         if let Some(trouble) = &library.unloaded {
             ui.label(RichText::new(&trouble.what).color(theme.warning));
-            ui.label(RichText::new(&trouble.advice).color(theme.weak_text));
+            ui.weak(&trouble.advice);
             return;
         }
         self.sort(library);
         let text = text!("enrol-num-parts", count = library.parts.len());
-        ui.label(
-            RichText::new(text)
-                .font(font::heading())
-                .color(theme.weak_text),
-        );
+        ui.label(RichText::new(text).font(font::heading()).weak());
         let order = self.sorted.as_ref().map_or(&[][..], |(_, order)| order);
         let wants_more = self.followed == enrol.num_changes;
         // The vertical wheel scrolls it as well.
@@ -96,7 +92,7 @@ impl Catalogue {
                         is_damaged: true,
                         latest: None,
                     };
-                    card(ui, &shown, enrol, theme, actions);
+                    card(ui, &shown, enrol, actions);
                 }
                 let parts = order
                     .iter()
@@ -112,7 +108,7 @@ impl Catalogue {
                         is_damaged: false,
                         latest: latest.map(|latest| latest.what.as_str()),
                     };
-                    let response = card(ui, &shown, enrol, theme, actions);
+                    let response = card(ui, &shown, enrol, actions);
                     if latest.is_some() && !wants_more {
                         response.scroll_to_me(Some(Align::Center));
                     }
@@ -138,9 +134,9 @@ fn card(
     ui: &mut Ui,
     shown: &CardContent<'_>,
     enrol: &EnrolState,
-    theme: &Theme,
     actions: &mut Vec<EnrolAction>,
 ) -> Response {
+    let theme = Theme::of(ui);
     let (rect, response) = ui.allocate_exact_size(CARD.into(), Sense::click());
     let open = enrol.open.as_ref();
     let is_open = open.is_some_and(|open| open.name.as_str() == shown.name);
@@ -180,7 +176,7 @@ fn card(
         let drawn = painter.text(at, Align2::LEFT_TOP, text, font, colour);
         at.y = drawn.bottom() + 2.0;
     }
-    focus_ring(ui, rect, &response, theme);
+    focus_ring(ui, rect, &response);
     response.widget_info(|| {
         let label = text!("enrol-enrolled", part = shown.title);
         let mut info = egui::WidgetInfo::selected(egui::Role::Button, true, is_open, label);

@@ -7,23 +7,19 @@ use crate::{
     app::{
         language::text,
         ui::{
-            theme::{Theme, font, space},
-            widgets::{Mark, mark},
+            theme::{Theme, space},
+            widgets::{Mark, line_mark},
         },
     },
     error::Advice as _,
 };
 
 /// Draws the fields; returns the one that was edited.
-pub(super) fn ui(ui: &mut Ui, form: &Form, theme: &Theme) -> Option<Field> {
+pub(super) fn ui(ui: &mut Ui, form: &Form) -> Option<Field> {
     let mut written = None;
     let line = |ui: &mut Ui, label: String, hint: String, text: &str, rows: usize| {
         let mut text = text.to_owned();
-        let name = ui.label(
-            RichText::new(label)
-                .font(font::small())
-                .color(theme.weak_text),
-        );
+        let name = ui.label(RichText::new(label).small().weak());
         let edit = if rows == 1 {
             TextEdit::singleline(&mut text).align(egui::Align2::LEFT_CENTER)
         } else {
@@ -57,7 +53,7 @@ pub(super) fn ui(ui: &mut Ui, form: &Form, theme: &Theme) -> Option<Field> {
     if !(form.name.is_empty() && form.title.is_empty())
         && let Err(error) = form.words()
     {
-        complaint(ui, &error.to_string(), &error.advice(), theme);
+        complaint(ui, &error.to_string(), &error.advice());
     }
     if let Some(notes) = line(
         ui,
@@ -72,19 +68,19 @@ pub(super) fn ui(ui: &mut Ui, form: &Form, theme: &Theme) -> Option<Field> {
 }
 
 /// Draws what is wrong and what to do.
-pub(super) fn complaint(ui: &mut Ui, what: &str, advice: &str, theme: &Theme) {
-    said(ui, Mark::Look, what, theme);
+pub(super) fn complaint(ui: &mut Ui, what: &str, advice: &str) {
+    let theme = Theme::of(ui);
+    said(ui, Mark::Look, what);
     ui.label(RichText::new(advice).color(theme.warning));
 }
 
 /// Draws a mark and a sentence.
-pub(super) fn said(ui: &mut Ui, sign: Mark, text: &str, theme: &Theme) {
+pub(super) fn said(ui: &mut Ui, sign: Mark, text: &str) {
     ui.horizontal_top(|ui| {
-        let (rect, _) = ui.allocate_exact_size(vec2(18.0, 18.0), egui::Sense::hover());
-        mark(ui.painter(), rect.center(), 8.0, sign, theme);
+        line_mark(ui, 18.0, 8.0, sign);
         let mut letters = text.chars();
         let first = letters.next().into_iter().flat_map(char::to_uppercase);
         let text: String = first.chain(letters).collect();
-        ui.add(egui::Label::new(RichText::new(text).color(theme.text)).wrap());
+        ui.add(egui::Label::new(text).wrap());
     });
 }

@@ -18,7 +18,7 @@ use crate::{
         shots::summary,
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::{Mark, fitted, grouped, labelled, shortened},
+            widgets::{Mark, fitted, grouped, shortened, text_button},
         },
     },
     library::PartName,
@@ -31,12 +31,12 @@ pub(super) fn ui(
     enrol: &EnrolState,
     session: &Session,
     thumbnails: &Thumbnails,
-    theme: &Theme,
     actions: &mut Vec<EnrolAction>,
 ) {
+    let theme = Theme::of(ui);
     let Some(draft) = &enrol.draft else {
         let title = what_save_does(enrol, session);
-        ui.label(RichText::new(title).font(font::title()).color(theme.text));
+        ui.label(RichText::new(title).font(font::title()));
         let steps = [
             text!("enrol-step-capture"),
             text!("enrol-step-correct"),
@@ -45,9 +45,9 @@ pub(super) fn ui(
         ];
         ui.add_space(space::SMALL);
         for step in steps {
-            ui.label(RichText::new(step).color(theme.weak_text));
+            ui.weak(step);
         }
-        fixed(ui, session, theme);
+        fixed(ui, session);
         return;
     };
     Panel::bottom("save the draft")
@@ -57,29 +57,29 @@ pub(super) fn ui(
             top: 8,
             ..Margin::ZERO
         }))
-        .show(ui, |ui| buttons(ui, draft, enrol, session, theme, actions));
+        .show(ui, |ui| buttons(ui, draft, enrol, session, actions));
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let title = what_save_does(enrol, session);
-        ui.label(RichText::new(title).font(font::verdict()).color(theme.text));
+        ui.heading(title);
         if enrol.is_taking_another() {
             let text = RichText::new(text!("enrol-previous-draft"));
             ui.label(text.font(font::body_strong()).color(theme.warning));
         }
-        stored(ui, draft, enrol, session, thumbnails, theme, actions);
-        if let Some(field) = fields::ui(ui, &draft.form, theme) {
+        stored(ui, draft, enrol, session, thumbnails, actions);
+        if let Some(field) = fields::ui(ui, &draft.form) {
             actions.push(EnrolAction::Write(field));
         }
-        reference_menu(ui, draft, session, theme, actions);
-        namesake(ui, draft, enrol, session, theme);
-        shared_title(ui, &draft.form, session, theme);
+        reference_menu(ui, draft, session, actions);
+        namesake(ui, draft, enrol, session);
+        shared_title(ui, &draft.form, session);
         if let Some(fused) = draft.subject.scan() {
-            summary(ui, fused, session.units, theme);
+            summary(ui, fused, session.units);
         }
-        likeness(ui, draft, session, theme, actions);
+        likeness(ui, draft, session, actions);
         for warning in draft.ready().map_or(&[][..], |checked| &checked.warnings) {
-            complaint(ui, &warning.what, &warning.advice, theme);
+            complaint(ui, &warning.what, &warning.advice);
         }
-        fixed(ui, session, theme);
+        fixed(ui, session);
     });
 }
 
@@ -93,8 +93,7 @@ fn what_save_does(enrol: &EnrolState, session: &Session) -> String {
 
 /// Draws the button that stops replacing a part.
 pub(super) fn as_new(ui: &mut Ui, actions: &mut Vec<EnrolAction>) {
-    let text = text!("enrol-as-new");
-    if labelled(ui, Button::new(&text), &text).clicked() {
+    if text_button(ui, &text!("enrol-as-new")).clicked() {
         actions.push(EnrolAction::ReplaceNone);
     }
 }
@@ -118,9 +117,9 @@ fn stored(
     enrol: &EnrolState,
     session: &Session,
     thumbnails: &Thumbnails,
-    theme: &Theme,
     actions: &mut Vec<EnrolAction>,
 ) {
+    let theme = Theme::of(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 116.0), egui::Sense::hover());
     let picture = Rect::from_min_size(rect.min, vec2(150.0, rect.height()));
     ui.painter().rect_filled(picture, ROUNDING, theme.canvas);
@@ -141,9 +140,7 @@ fn stored(
         let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(beside));
         ui.spacing_mut().item_spacing.y = 2.0;
         let small = |ui: &mut Ui, text: String| {
-            let text = RichText::new(text)
-                .font(font::small())
-                .color(theme.weak_text);
+            let text = RichText::new(text).small().weak();
             ui.add(egui::Label::new(text).wrap());
         };
         small(ui, shortened(&draft.subject.origin.shown_title(), 40));
@@ -164,11 +161,10 @@ fn stored(
         }
     }
     match &draft.checked {
-        Some(Err(trouble)) => complaint(ui, &trouble.what, &trouble.advice, theme),
+        Some(Err(trouble)) => complaint(ui, &trouble.what, &trouble.advice),
         None if !is_working => {
-            said(ui, Mark::Look, &text!("enrol-stored-unknown"), theme);
-            let again = text!("enrol-look-again");
-            if labelled(ui, Button::new(&again), &again).clicked() {
+            said(ui, Mark::Look, &text!("enrol-stored-unknown"));
+            if text_button(ui, &text!("enrol-look-again")).clicked() {
                 actions.push(EnrolAction::LookAgain);
             }
         }
@@ -185,19 +181,13 @@ fn seen_from(coverage: Coverage) -> String {
 }
 
 /// Draws the menu of parts of which the draft may become another reference; default is a part of its own.
-fn reference_menu(
-    ui: &mut Ui,
-    draft: &Draft,
-    session: &Session,
-    theme: &Theme,
-    actions: &mut Vec<EnrolAction>,
-) {
+fn reference_menu(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut Vec<EnrolAction>) {
     let Some(library) = session.library.as_ref().filter(|all| !all.parts.is_empty()) else {
         return;
     };
     let chosen = draft.form.reference_of.as_ref();
-    let name = RichText::new(text!("enrol-reference-of")).font(font::small());
-    ui.label(name.color(theme.weak_text));
+    let name = RichText::new(text!("enrol-reference-of")).small();
+    ui.label(name.weak());
     let title = |of: Option<&PartName>| match of {
         Some(of) => library.title_of(of.as_str()).to_owned(),
         None => text!("enrol-reference-of-none"),
@@ -231,34 +221,28 @@ fn reference_menu(
 }
 
 /// Warns if another part has this title.
-pub(super) fn shared_title(ui: &mut Ui, form: &Form, session: &Session, theme: &Theme) {
+pub(super) fn shared_title(ui: &mut Ui, form: &Form, session: &Session) {
     let library = session.library.as_deref();
     if let Some(shared) = library.and_then(|library| form.shared_title(library)) {
         let part = shared.other.as_str();
         let what = text!("enrol-shared-title", part = part, title = shared.title);
-        complaint(ui, &what, &text!("enrol-shared-title-advice"), theme);
+        complaint(ui, &what, &text!("enrol-shared-title-advice"));
     }
 }
 
 /// Warns if a part of this name exists already.
-fn namesake(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, session: &Session, theme: &Theme) {
+fn namesake(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, session: &Session) {
     let library = session.library.as_deref();
     let namesake = library.and_then(|library| draft.form.namesake(library));
     let is_chosen = enrol.replacing.as_ref().map(PartName::as_str) == Some(&draft.form.name);
     if let Some(title) = namesake.filter(|_| !is_chosen) {
         let what = text!("enrol-namesake", part = title);
-        complaint(ui, &what, &text!("enrol-namesake-advice"), theme);
+        complaint(ui, &what, &text!("enrol-namesake-advice"));
     }
 }
 
 /// Draws which enrolled part is hardest to tell from the draft.
-fn likeness(
-    ui: &mut Ui,
-    draft: &Draft,
-    session: &Session,
-    theme: &Theme,
-    actions: &mut Vec<EnrolAction>,
-) {
+fn likeness(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut Vec<EnrolAction>) {
     let Some(likeness) = draft.hardest() else {
         return;
     };
@@ -278,30 +262,29 @@ fn likeness(
         text!("enrol-most-similar", part = title, percent = percent)
     };
     ui.add_space(space::MEDIUM);
-    ui.label(RichText::new(text).color(theme.text));
+    ui.label(text);
     if likeness.is_distinguishable() {
-        said(ui, Mark::Good, &text!("enrol-distinguishable"), theme);
+        said(ui, Mark::Good, &text!("enrol-distinguishable"));
         return;
     }
     let what = text!("enrol-indistinguishable");
-    complaint(ui, &what, &text!("enrol-indistinguishable-advice"), theme);
-    if let Ok(name) = PartName::new(&likeness.other) {
-        let text = text!("enrol-replace", part = shortened(title, 26));
-        if labelled(ui, Button::new(&text), &text).clicked() {
-            actions.push(EnrolAction::Replace(name));
-        }
+    complaint(ui, &what, &text!("enrol-indistinguishable-advice"));
+    if let Ok(name) = PartName::new(&likeness.other)
+        && text_button(ui, &text!("enrol-replace", part = shortened(title, 26))).clicked()
+    {
+        actions.push(EnrolAction::Replace(name));
     }
 }
 
 /// Warns if nothing can be saved in this library.
-pub(super) fn fixed(ui: &mut Ui, session: &Session, theme: &Theme) {
+pub(super) fn fixed(ui: &mut Ui, session: &Session) {
     let fixed = session
         .library
         .as_ref()
         .and_then(|library| library.is_fixed.as_ref());
     if let Some(trouble) = fixed {
         ui.add_space(space::MEDIUM);
-        complaint(ui, &trouble.what, &trouble.advice, theme);
+        complaint(ui, &trouble.what, &trouble.advice);
     }
 }
 
@@ -310,9 +293,9 @@ fn buttons(
     draft: &Draft,
     enrol: &EnrolState,
     session: &Session,
-    theme: &Theme,
     actions: &mut Vec<EnrolAction>,
 ) {
+    let theme = Theme::of(ui);
     let unready = unready(draft);
     let is_replacing = enrol.replaced_title(session).is_some();
     if is_replacing && enrol.replacing.is_some() {
@@ -321,8 +304,7 @@ fn buttons(
     let size = vec2(ui.available_width(), 44.0);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.set_min_height(44.0);
-        let discard = text!("enrol-discard");
-        if labelled(ui, Button::new(&discard), &discard).clicked() {
+        if text_button(ui, &text!("enrol-discard")).clicked() {
             actions.push(EnrolAction::Discard);
         }
         let text = match (enrol.is_changing_library(), is_replacing) {
@@ -331,7 +313,7 @@ fn buttons(
             (false, false) => text!("enrol-save"),
         };
         ui.add_enabled_ui(unready.is_none() && !enrol.is_changing_library(), |ui| {
-            let key = RichText::new(keys("Ctrl S")).font(font::small());
+            let key = RichText::new(keys("Ctrl S")).small();
             let save = RichText::new(&text).font(font::body_strong());
             let button = Button::new(save.color(theme.on_accent))
                 .shortcut_text(key.color(theme.on_accent))

@@ -60,7 +60,7 @@ use crate::app::{
     ui::{
         theme::{Theme, font, space},
         viewport::{ViewError, ViewportGpu},
-        widgets::labelled,
+        widgets::text_button,
     },
 };
 
@@ -163,8 +163,7 @@ impl Workspace for EnrolWorkspace {
 
     fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
         let mut actions = Vec::new();
-        self.panes
-            .ui(ui, &self.state, cx.session, cx.theme, &mut actions);
+        self.panes.ui(ui, &self.state, cx.session, &mut actions);
         for action in actions {
             self.state.apply(action, cx);
         }
@@ -236,9 +235,9 @@ impl Panes {
         ui: &mut Ui,
         enrol: &EnrolState,
         session: &Session,
-        theme: &Theme,
         actions: &mut Vec<EnrolAction>,
     ) {
+        let theme = Theme::of(ui);
         let size = ui.available_size();
         let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
         let library = session.library.as_ref();
@@ -250,11 +249,11 @@ impl Panes {
             .frame(panel(Margin::symmetric(16, 12)))
             .show(ui, |ui| match &enrol.open {
                 Some(open) => {
-                    card::ui(ui, open, enrol, session, &self.thumbnails, theme, actions);
+                    card::ui(ui, open, enrol, session, &self.thumbnails, actions);
                 }
-                None => form::ui(ui, enrol, session, &self.thumbnails, theme, actions),
+                None => form::ui(ui, enrol, session, &self.thumbnails, actions),
             });
-        let scan = shown_scan(enrol, session, theme);
+        let scan = shown_scan(enrol, session);
         Panel::bottom("enrolled parts")
             .exact_size(strip_height(scan.map(|scan| scan.shots)))
             .resizable(false)
@@ -273,11 +272,11 @@ impl Panes {
                     }
                 }
                 self.catalogue
-                    .ui(ui, enrol, library, &self.thumbnails, theme, actions);
+                    .ui(ui, enrol, library, &self.thumbnails, actions);
             });
         match &enrol.draft {
-            Some(draft) => self.draft(ui, draft, enrol, session, theme, actions),
-            None => empty(ui, enrol, session, theme, actions),
+            Some(draft) => self.draft(ui, draft, enrol, session, actions),
+            None => empty(ui, enrol, session, actions),
         }
     }
 
@@ -288,9 +287,9 @@ impl Panes {
         draft: &Draft,
         enrol: &EnrolState,
         session: &Session,
-        theme: &Theme,
         actions: &mut Vec<EnrolAction>,
     ) {
+        let theme = Theme::of(ui);
         Panel::top("enrol tools")
             .resizable(false)
             .frame(
@@ -299,7 +298,7 @@ impl Panes {
                     .inner_margin(Margin::same(10)),
             )
             .show(ui, |ui| {
-                tools::ui(ui, draft, enrol, theme, actions);
+                tools::ui(ui, draft, enrol, actions);
                 tools::segments(ui, draft, actions);
             });
         if enrol.is_taking_another() {
@@ -320,7 +319,7 @@ impl Panes {
         };
         if let Some(rect) = picture {
             inside(rect.shrink(space::SMALL), &mut |ui| {
-                self.picture.ui(ui, draft, enrol, theme, actions);
+                self.picture.ui(ui, draft, enrol, actions);
             });
         }
         if let Some(rect) = view {
@@ -334,18 +333,13 @@ impl Panes {
 }
 
 /// The shots of the draft, if it is a scan.
-fn shown_scan<'a>(
-    enrol: &'a EnrolState,
-    session: &'a Session,
-    theme: &'a Theme,
-) -> Option<ShownShots<'a>> {
+fn shown_scan<'a>(enrol: &'a EnrolState, session: &'a Session) -> Option<ShownShots<'a>> {
     let fused = enrol.draft.as_ref()?.subject.scan()?;
     Some(ShownShots {
         fused,
         choice: enrol.shot_choice()?,
         shots: &enrol.shots,
         session,
-        theme,
     })
 }
 
@@ -358,13 +352,8 @@ fn strip_height(shots: Option<&ShotsState>) -> f32 {
 }
 
 /// Draws the area without a draft: where one comes from.
-fn empty(
-    ui: &mut Ui,
-    enrol: &EnrolState,
-    session: &Session,
-    theme: &Theme,
-    actions: &mut Vec<EnrolAction>,
-) {
+fn empty(ui: &mut Ui, enrol: &EnrolState, session: &Session, actions: &mut Vec<EnrolAction>) {
+    let theme = Theme::of(ui);
     let height = ui.available_height();
     let layout = Layout::top_down(Align::Center);
     ui.with_layout(layout, |ui| {
@@ -372,7 +361,7 @@ fn empty(
         if let Some(running) = enrol.running() {
             ui.add(egui::Spinner::new().size(28.0).color(theme.accent));
             let text = RichText::new(format!("{}…", running.title));
-            ui.label(text.font(font::verdict()).color(theme.weak_text));
+            ui.label(text.font(font::verdict()).weak());
             return;
         }
         let replaced = enrol.replaced_title(session);
@@ -380,8 +369,8 @@ fn empty(
             Some(title) => text!("enrol-capture-replacement", part = title),
             None => text!("enrol-show-part"),
         };
-        ui.label(RichText::new(title).font(font::title()).color(theme.text));
-        let how = RichText::new(text!("enrol-how")).color(theme.weak_text);
+        ui.label(RichText::new(title).font(font::title()));
+        let how = RichText::new(text!("enrol-how")).weak();
         ui.scope(|ui| {
             ui.set_max_width(460.0);
             ui.label(how);
@@ -398,8 +387,7 @@ fn empty(
                 actions.push(EnrolAction::TakeShown);
             }
         }
-        let open = text!("enrol-open-scan");
-        let open = labelled(ui, Button::new(&open), &open);
+        let open = text_button(ui, &text!("enrol-open-scan"));
         if open.on_hover_text(text!("enrol-open-scan-hint")).clicked() {
             actions.push(EnrolAction::OpenScan);
         }

@@ -44,9 +44,9 @@ impl PicturePane {
         ui: &mut Ui,
         draft: &Draft,
         enrol: &EnrolState,
-        theme: &Theme,
         actions: &mut Vec<EnrolAction>,
     ) {
+        let theme = Theme::of(ui);
         self.make(ui.ctx(), &draft.selection);
         let Some((_, texture)) = &self.made else {
             return;
@@ -103,7 +103,7 @@ impl PicturePane {
         }
         // The picture has the same colours in every theme, so the outline on it does, too.
         drawing::outline(&painter, &corners, &mode.title(), &ViewColours::dark());
-        focus_ring(ui, place, &response, theme);
+        focus_ring(ui, place, &response);
         if let Some(edit) = mended {
             actions.push(EnrolAction::Correct(edit));
         }

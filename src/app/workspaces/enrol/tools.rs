@@ -13,7 +13,6 @@ use super::{
 use crate::app::{
     language::text,
     ui::{
-        theme::{Theme, font},
         tool_row::{Tool, choice, tool_row},
         viewport::DrawnShape,
         widgets::grouped,
@@ -21,13 +20,7 @@ use crate::app::{
 };
 
 /// Draws the tools.
-pub(super) fn ui(
-    ui: &mut Ui,
-    draft: &Draft,
-    enrol: &EnrolState,
-    theme: &Theme,
-    actions: &mut Vec<EnrolAction>,
-) {
+pub(super) fn ui(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, actions: &mut Vec<EnrolAction>) {
     let can_correct = draft.subject.can_be_corrected();
     let sets = vec![
         vec![initial(draft)],
@@ -38,11 +31,7 @@ pub(super) fn ui(
     tool_row(ui, sets, actions);
     if !can_correct {
         let text = text!("enrol-mesh-is-whole");
-        ui.label(
-            RichText::new(text)
-                .font(font::small())
-                .color(theme.weak_text),
-        );
+        ui.label(RichText::new(text).small().weak());
     }
 }
 

@@ -16,7 +16,7 @@ use crate::{
         language::text,
         shots::{Overlay, POINT_SIZE},
         ui::{
-            theme::{ROUNDING, Theme, ThemeChoice, font, space},
+            theme::{ROUNDING, Theme, ThemeChoice, space},
             viewport::{
                 DrawnShape, FitRequest, PointSize, StandardView, ViewCamera, ViewColours,
                 ViewError, ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
@@ -130,7 +130,7 @@ impl DraftView {
         if let Some(overlay) = overlay(draft, looked_at) {
             let painter = ui.painter_at(rect);
             let corner = rect.left_bottom() + vec2(space::MEDIUM, -space::MEDIUM);
-            overlay.legend(&painter, corner, &self.style.colours, Theme::of(theme));
+            overlay.legend(&painter, corner, &self.style.colours, Theme::of(ui));
         }
         let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
         let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);
@@ -183,7 +183,7 @@ impl DraftView {
 
     fn controls(&mut self, ui: &mut Ui) {
         let button = |ui: &mut Ui, text: String| {
-            let text = RichText::new(text).font(font::small());
+            let text = RichText::new(text).small();
             ui.add(Button::new(text).min_size(Vec2::splat(space::TARGET)))
         };
         if button(ui, text!("enrol-view-fit")).clicked() {
@@ -209,7 +209,7 @@ fn hint(ui: &mut Ui, place: Rect, shape: DrawnShape, mode: OutlineMode, colours:
         drag = drag_to_draw(shape),
         does = mode.explanation()
     );
-    let text = RichText::new(text).font(font::small()).color(colours.text);
+    let text = RichText::new(text).small().color(colours.text);
     let plate = Frame::new()
         .fill(colours.background.gamma_multiply(0.85))
         .corner_radius(ROUNDING)

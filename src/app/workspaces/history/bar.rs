@@ -12,7 +12,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, space},
-            widgets::{labelled, shortened},
+            widgets::{labelled, shortened, text_button},
         },
     },
     history::StoredVerdict,
@@ -23,7 +23,6 @@ pub(super) fn ui(
     ui: &mut Ui,
     history: &HistoryState,
     session: &Session,
-    theme: &Theme,
     actions: &mut Vec<HistoryAction>,
 ) {
     let known = &history.filter;
@@ -33,20 +32,18 @@ pub(super) fn ui(
         days(ui, &mut filter);
         verdicts(ui, &mut filter);
         parts(ui, session, &mut filter);
-        if *known != ListFilter::default() {
-            let all = text!("history-show-all");
-            if labelled(ui, Button::new(&all), &all).clicked() {
-                filter = ListFilter::default();
-            }
+        let is_filtered = *known != ListFilter::default();
+        if is_filtered && text_button(ui, &text!("history-show-all")).clicked() {
+            filter = ListFilter::default();
         }
     });
     if filter.days == DateRange::Typed {
-        ui.horizontal(|ui| typed(ui, &mut filter, theme));
+        ui.horizontal(|ui| typed(ui, &mut filter));
     }
     ui.horizontal(|ui| {
         let (matching, count) = (history.num_matching(), history.num_rows());
         let counted = text!("history-counted", matching = matching, count = count);
-        ui.label(RichText::new(&counted).color(theme.weak_text))
+        ui.weak(&counted)
             .widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &counted));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             action_buttons(ui, history, actions);
@@ -71,10 +68,7 @@ fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<History
         ),
     ];
     for (label, says, file) in ways {
-        if labelled(ui, Button::new(&label), &label)
-            .on_hover_text(says)
-            .clicked()
-        {
+        if text_button(ui, &label).on_hover_text(says).clicked() {
             actions.push(HistoryAction::Ask(file));
         }
     }
@@ -87,8 +81,7 @@ fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<History
     if shown.on_hover_text(says).clicked() {
         actions.push(HistoryAction::Statistics(!is_shown));
     }
-    let label = text!("history-frames-button");
-    let frames = labelled(ui, Button::new(&label), &label);
+    let frames = text_button(ui, &text!("history-frames-button"));
     let says = text!("history-frames-button-hint");
     if frames.on_hover_text(says).clicked() {
         let rule = history.kept.0;
@@ -161,13 +154,14 @@ fn parts(ui: &mut Ui, session: &Session, filter: &mut ListFilter) {
 }
 
 /// Draws the fields for the first and the last day.
-fn typed(ui: &mut Ui, filter: &mut ListFilter, theme: &Theme) {
+fn typed(ui: &mut Ui, filter: &mut ListFilter) {
+    let theme = Theme::of(ui);
     let fields = [
         (text!("history-from"), text!("history-first-day")),
         (text!("history-to"), text!("history-last-day")),
     ];
     for (text, (word, label)) in filter.typed.iter_mut().zip(fields) {
-        ui.label(RichText::new(word).color(theme.weak_text));
+        ui.weak(word);
         let field = TextEdit::singleline(text)
             .hint_text("2026-11-20")
             .desired_width(110.0)

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, Vec2, vec2};
+use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, vec2};
 
 use super::{
     HistoryAction, HistoryState, OpenedInspection, differences, label,
@@ -20,7 +20,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, fitted, heading, labelled, mark, row, shortened, texture},
+            widgets::{Mark, fitted, heading, labelled, line_mark, row, shortened, texture},
         },
     },
     history::{Differences, InspectionDetail, Record, StoredVerdict, Summary, Traceability},
@@ -46,39 +46,37 @@ impl Details {
         ui: &mut Ui,
         history: &HistoryState,
         session: &Session,
-        theme: &Theme,
         actions: &mut Vec<HistoryAction>,
     ) {
         let Some(past) = &history.record else {
             let text = text!("history-choose");
-            ui.label(RichText::new(text).color(theme.weak_text));
+            ui.weak(text);
             return;
         };
         self.make(ui, history, past);
         let record = &past.record;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            verdict(ui, record, session, theme);
+            verdict(ui, record, session);
             // Remark and label belong to the inspection that stands for the part.
             let of_part = past.part.first().unwrap_or(record);
-            self.remark
-                .ui(ui, &of_part.summary, session, theme, actions);
-            self.picture(ui, record, theme);
+            self.remark.ui(ui, &of_part.summary, session, actions);
+            self.picture(ui, record);
             ui.add_space(space::MEDIUM);
-            buttons(ui, history, record, theme, actions);
+            buttons(ui, history, record, actions);
             let differences = history.differences.as_ref();
             let number = record.summary.number;
             if let Some((_, found)) = differences.filter(|(of, _)| *of == number) {
-                differences::today(ui, found, session.units, theme);
+                differences::today(ui, found, session.units);
             }
-            part(ui, past, session.units, theme, actions);
+            part(ui, past, session.units, actions);
             let title = text!("history-inspection", number = number.abs());
-            heading(ui, theme, &title);
+            heading(ui, &title);
             ui.scope(|ui| {
                 // Lines of text need less height than controls.
                 ui.spacing_mut().interact_size.y = 22.0;
-                figures(ui, record, theme);
-                pose(ui, record, session.units, theme);
-                times(ui, record, theme);
+                figures(ui, record);
+                pose(ui, record, session.units);
+                times(ui, record);
             });
         });
     }
@@ -98,16 +96,12 @@ impl Details {
         self.picture = made.map(|made| (number, source, made));
     }
 
-    fn picture(&self, ui: &mut Ui, record: &Record, theme: &Theme) {
+    fn picture(&self, ui: &mut Ui, record: &Record) {
         let number = record.summary.number;
         let made = self.picture.as_ref().filter(|(of, ..)| *of == number);
         let Some((_, _, texture)) = made else {
             let text = text!("history-no-picture");
-            ui.label(
-                RichText::new(text)
-                    .font(font::small())
-                    .color(theme.weak_text),
-            );
+            ui.label(RichText::new(text).small().weak());
             return;
         };
         ui.add_space(space::MEDIUM);
@@ -123,10 +117,11 @@ impl Details {
     }
 }
 
-fn verdict(ui: &mut Ui, record: &Record, session: &Session, theme: &Theme) {
+fn verdict(ui: &mut Ui, record: &Record, session: &Session) {
+    let theme = Theme::of(ui);
     let summary = &record.summary;
     let title = RichText::new(stored_title(summary)).font(font::title());
-    ui.label(title.color(theme.text));
+    ui.label(title);
     let (sign, colour) = match summary.verdict {
         StoredVerdict::Accepted => (Mark::Good, theme.accepted),
         StoredVerdict::NotAccepted | StoredVerdict::Unknown | StoredVerdict::NoPart => {
@@ -134,8 +129,7 @@ fn verdict(ui: &mut Ui, record: &Record, session: &Session, theme: &Theme) {
         }
     };
     ui.horizontal(|ui| {
-        let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
-        mark(ui.painter(), rect.center(), 9.0, sign, theme);
+        line_mark(ui, 20.0, 9.0, sign);
         let word = match summary.verdict {
             StoredVerdict::Accepted => StoredVerdict::Accepted,
             _ => StoredVerdict::NotAccepted,
@@ -152,7 +146,7 @@ fn verdict(ui: &mut Ui, record: &Record, session: &Session, theme: &Theme) {
         None => name.to_owned(),
     };
     if let Some([reason, advice]) = stored_refusal(record, title_of) {
-        ui.label(RichText::new(reason).color(theme.text));
+        ui.label(reason);
         let advice = RichText::new(advice).font(font::body_strong());
         ui.label(advice.color(theme.warning));
     }
@@ -160,17 +154,12 @@ fn verdict(ui: &mut Ui, record: &Record, session: &Session, theme: &Theme) {
 
 /// Draws the inspections of the part if there are several, and the differences between the one that stands for the part
 /// and the selected one (the last, if the selected one stands for the part).
-fn part(
-    ui: &mut Ui,
-    past: &OpenedInspection,
-    units: UnitSystem,
-    theme: &Theme,
-    actions: &mut Vec<HistoryAction>,
-) {
+fn part(ui: &mut Ui, past: &OpenedInspection, units: UnitSystem, actions: &mut Vec<HistoryAction>) {
+    let theme = Theme::of(ui);
     let (Some(head), Some(last)) = (past.part.first(), past.part.last()) else {
         return;
     };
-    heading(ui, theme, &text!("history-of-part"));
+    heading(ui, &text!("history-of-part"));
     let number = past.record.summary.number;
     for record in &past.part {
         let row = &record.summary;
@@ -210,7 +199,7 @@ fn part(
     differences::table(ui, &found, &sentence, names, units, theme);
 }
 
-fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
+fn figures(ui: &mut Ui, record: &Record) {
     let Record { summary, detail } = record;
     let Summary {
         scene,
@@ -222,7 +211,7 @@ fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
         ..
     } = summary;
     let shown = |title: &str| stored_scene(title, *is_simulated);
-    let mut row = |name: String, value: &str| row(ui, theme, &name, &shortened(value, 32));
+    let mut row = |name: String, value: &str| row(ui, &name, &shortened(value, 32));
     row(text!("history-figure-scene"), &shown(scene));
     if source != scene {
         row(text!("history-figure-source"), &shown(source));
@@ -264,30 +253,30 @@ fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
     row(text!("history-figure-frame"), &frame);
 }
 
-fn pose(ui: &mut Ui, record: &Record, units: UnitSystem, theme: &Theme) {
+fn pose(ui: &mut Ui, record: &Record, units: UnitSystem) {
     let Some(pose) = &record.detail.camera_from_part else {
         return;
     };
-    heading(ui, theme, "camera_from_part");
+    heading(ui, "camera_from_part");
     let shift = pose.translation.vector;
     let (rx, ry, rz) = pose.rotation.euler_angles();
     for (name, metres) in ["x", "y", "z"].into_iter().zip(shift.iter()) {
-        row(ui, theme, name, &units.signed_length(*metres));
+        row(ui, name, &units.signed_length(*metres));
     }
     let last = text!("history-rz");
     for (name, radians) in [("rx", rx), ("ry", ry), (last.as_str(), rz)] {
-        row(ui, theme, name, &units.signed_angle(radians));
+        row(ui, name, &units.signed_angle(radians));
     }
 }
 
-fn times(ui: &mut Ui, record: &Record, theme: &Theme) {
+fn times(ui: &mut Ui, record: &Record) {
     let times = record.timings();
     if times.is_empty() {
         return;
     }
-    heading(ui, theme, &text!("history-times"));
+    heading(ui, &text!("history-times"));
     for (stage, ms) in times {
-        row(ui, theme, &stage_title(stage), &format!("{ms:.1} ms"));
+        row(ui, &stage_title(stage), &format!("{ms:.1} ms"));
     }
 }
 
@@ -316,13 +305,8 @@ fn recipe_text(detail: &InspectionDetail) -> String {
     }
 }
 
-fn buttons(
-    ui: &mut Ui,
-    history: &HistoryState,
-    record: &Record,
-    theme: &Theme,
-    actions: &mut Vec<HistoryAction>,
-) {
+fn buttons(ui: &mut Ui, history: &HistoryState, record: &Record, actions: &mut Vec<HistoryAction>) {
+    let theme = Theme::of(ui);
     let number = record.summary.number;
     let no_frame = history
         .why_no_scene(record)
@@ -330,7 +314,7 @@ fn buttons(
     ui.horizontal(|ui| {
         let label = text!("history-open");
         let open = RichText::new(&label).font(font::body_strong());
-        let key = RichText::new(keys("Enter")).font(font::small());
+        let key = RichText::new(keys("Enter")).small();
         let open = Button::new(open.color(theme.on_accent))
             .shortcut_text(key.color(theme.on_accent))
             .fill(theme.accent);
@@ -347,9 +331,9 @@ fn buttons(
         if press(open, &label, text!("history-open-hint")) {
             actions.push(HistoryAction::Open(number));
         }
-        let key = RichText::new("A").font(font::small());
+        let key = RichText::new("A").small();
         let label = text!("history-again");
-        let again = Button::new(&label).shortcut_text(key.color(theme.weak_text));
+        let again = Button::new(&label).shortcut_text(key.weak());
         if press(again, &label, text!("history-again-hint")) {
             actions.push(HistoryAction::InspectAgain(number));
         }

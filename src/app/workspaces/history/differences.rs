@@ -19,8 +19,9 @@ use crate::{
 type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
 
 /// Draws the differences from another inspection of the same scene made today.
-pub(super) fn today(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: &Theme) {
-    heading(ui, theme, &text!("history-differences"));
+pub(super) fn today(ui: &mut Ui, found: &Differences, units: UnitSystem) {
+    let theme = Theme::of(ui);
+    heading(ui, &text!("history-differences"));
     let sentence = if found.is_same() {
         text!("history-same-today")
     } else {
@@ -69,7 +70,7 @@ pub(super) fn table(
         .min_row_height(22.0)
         .show(ui, |ui| {
             for title in ["", names[0], names[1]] {
-                ui.label(RichText::new(title).color(theme.weak_text));
+                ui.weak(title);
             }
             ui.end_row();
             let both =
@@ -82,10 +83,10 @@ pub(super) fn table(
             });
             for (what, then, today) in rows.into_iter().map(both).chain(parameters) {
                 // Bold as well as colour marks a change.
-                let text = RichText::new(&today).color(theme.text);
+                let text = RichText::new(&today);
                 let is_same = then == today;
-                ui.label(RichText::new(what).color(theme.weak_text));
-                ui.label(RichText::new(&then).color(theme.text));
+                ui.weak(what);
+                ui.label(&then);
                 ui.label(if is_same {
                     text
                 } else {
@@ -100,6 +101,6 @@ pub(super) fn table(
             shift = units.length(off.shift.0),
             rotation = units.angle(off.rotation.0),
         );
-        ui.label(RichText::new(text).color(theme.text));
+        ui.label(text);
     }
 }

@@ -99,12 +99,9 @@ fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
 }
 
 /// Draws score, fit and position one below the other.
-pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem, theme: &Theme) {
-    heading(
-        ui,
-        theme,
-        &text!("history-drift", part = drift.title.as_str()),
-    );
+pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem) {
+    let theme = Theme::of(ui);
+    heading(ui, &text!("history-drift", part = drift.title.as_str()));
     let score = |value: f64| format!("{value:.2}");
     let length = |value: f64| units.length(value);
     let [x, y, z] = &drift.offset_m;

@@ -1,52 +1,45 @@
 //! The window of the retention rule: which frames are kept, and how long.
 
-use egui::{Button, Context, DragValue, Grid, RichText, Ui, WidgetInfo, vec2};
+use egui::{Button, Context, DragValue, Grid, Ui, WidgetInfo, vec2};
 
 use super::{HistoryAction, HistoryState};
 use crate::{
     app::{
         language::{results::keep_frames, text},
         ui::{
-            theme::{Theme, font, space},
-            widgets::{self, labelled},
+            theme::space,
+            widgets::{self, labelled, text_button},
         },
     },
     history::{KeepFrames, Retention, Usage},
 };
 
 /// Draws the window while it is open.
-pub(super) fn ui(
-    ctx: &Context,
-    history: &HistoryState,
-    theme: &Theme,
-    actions: &mut Vec<HistoryAction>,
-) {
+pub(super) fn ui(ctx: &Context, history: &HistoryState, actions: &mut Vec<HistoryAction>) {
     let Some(known) = history.rule else {
         return;
     };
     let mut rule = known;
     let modal = widgets::dialog(ctx, "frames that are kept", |ui| {
         ui.set_max_width(520.0);
-        let title = RichText::new(text!("history-keep-title")).font(font::verdict());
-        ui.label(title.color(theme.text));
+        ui.heading(text!("history-keep-title"));
         ui.add_space(space::SMALL);
         let why = text!("history-keep-why");
-        ui.label(RichText::new(why).color(theme.weak_text));
+        ui.weak(why);
         ui.add_space(space::SMALL);
         Grid::new("frames")
             .num_columns(2)
             .spacing(vec2(20.0, 8.0))
             .show(ui, |ui| rows(ui, &mut rule));
         ui.add_space(space::SMALL);
-        used(ui, history.kept.1, theme);
+        used(ui, history.kept.1);
         ui.add_space(space::MEDIUM);
         let mut closing = None;
         ui.horizontal(|ui| {
-            if widgets::default_button(ui, &text!("history-apply"), true, theme) {
+            if widgets::default_button(ui, &text!("history-apply"), true) {
                 closing = Some(true);
             }
-            let close = text!("history-close");
-            if labelled(ui, Button::new(&close), &close).clicked() {
+            if text_button(ui, &text!("history-close")).clicked() {
                 closing = Some(false);
             }
         });
@@ -95,17 +88,17 @@ fn number(ui: &mut Ui, value: DragValue<'_>, label: &str) {
     response.widget_info(|| WidgetInfo::labeled(egui::Role::SpinButton, true, label));
 }
 
-fn used(ui: &mut Ui, usage: Usage, theme: &Theme) {
+fn used(ui: &mut Ui, usage: Usage) {
     let gigabytes = |bytes: u64| format!("{:.2} GB", bytes as f64 / 1e9);
     let text = text!(
         "history-keep-used",
         count = usage.num_frames,
         size = gigabytes(usage.num_bytes),
     );
-    ui.label(RichText::new(text).color(theme.text));
+    ui.label(text);
     let text = text!(
         "history-keep-marked",
         size = gigabytes(usage.num_bytes_marked)
     );
-    ui.label(RichText::new(text).color(theme.weak_text));
+    ui.weak(text);
 }

@@ -12,7 +12,7 @@ use crate::{
             truth_menu::{truth_entries, truth_title},
         },
         ui::{
-            theme::{Theme, space},
+            theme::space,
             widgets::{heading, shortened},
         },
     },
@@ -33,12 +33,11 @@ impl Remark {
         ui: &mut Ui,
         row: &Summary,
         session: &Session,
-        theme: &Theme,
         actions: &mut Vec<HistoryAction>,
     ) {
-        heading(ui, theme, &text!("history-actual-part"));
+        heading(ui, &text!("history-actual-part"));
         truth_menu(ui, row, session, actions);
-        heading(ui, theme, &text!("history-remark"));
+        heading(ui, &text!("history-remark"));
         // Start anew for another inspection, or if the stored remark was changed elsewhere.
         let is_of_it = self
             .draft

@@ -46,10 +46,10 @@ impl List {
         ui: &mut Ui,
         history: &HistoryState,
         session: &Session,
-        theme: &Theme,
         actions: &mut Vec<HistoryAction>,
     ) {
-        bar::ui(ui, history, session, theme, actions);
+        let theme = Theme::of(ui);
+        bar::ui(ui, history, session, actions);
         if let Some(trouble) = &history.trouble {
             let text = text!("history-in-memory", reason = &trouble.what);
             ui.label(RichText::new(text).color(theme.warning));
@@ -61,12 +61,12 @@ impl List {
         }
         ui.add_space(space::SMALL);
         let layout = Layout::across(ui.available_width());
-        head(ui, &layout, theme);
+        head(ui, &layout);
         let num_rows = history.num_matching();
         if num_rows == 0 {
             ui.add_space(space::LARGE);
             let text = text!("history-none-listed");
-            ui.label(RichText::new(text).color(theme.weak_text));
+            ui.weak(text);
             // Fetches the next inspection together with its neighbours.
             see(history, 0..1, actions);
             return;
@@ -82,7 +82,7 @@ impl List {
             seen = visible.clone();
             for place in visible {
                 match history.row(place) {
-                    Some(past) => row(ui, past, listed, &layout, theme, actions),
+                    Some(past) => row(ui, past, listed, &layout, actions),
                     None => {
                         ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
                     }
@@ -258,7 +258,8 @@ impl Column {
     }
 }
 
-fn head(ui: &mut Ui, layout: &Layout, theme: &Theme) {
+fn head(ui: &mut Ui, layout: &Layout) {
+    let theme = Theme::of(ui);
     let size = vec2(ui.available_width(), 22.0);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     for (column, span) in layout.columns() {
@@ -272,9 +273,9 @@ fn row(
     past: &Summary,
     selected: Option<i64>,
     layout: &Layout,
-    theme: &Theme,
     actions: &mut Vec<HistoryAction>,
 ) {
+    let theme = Theme::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let is_selected = selected == Some(past.number);
     response.widget_info(|| {
@@ -294,7 +295,7 @@ fn row(
             painter.rect_filled(rect, ROUNDING, theme.control);
         }
         paint(painter, rect, past, layout, theme);
-        focus_ring(ui, rect, &response, theme);
+        focus_ring(ui, rect, &response);
     }
     if response.clicked() {
         actions.push(HistoryAction::Select(past.number));

@@ -17,7 +17,7 @@ mod work;
 
 use std::sync::Arc;
 
-use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, RichText, Ui};
+use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, Ui};
 
 pub use self::{
     apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
@@ -40,7 +40,7 @@ use crate::{
             workspace::Workspace,
         },
         task::{Running, TaskRunner},
-        ui::theme::{Theme, font, space},
+        ui::theme::{Theme, space},
     },
     history::{HistoryBuffer, Writer},
 };
@@ -143,9 +143,9 @@ impl Workspace for HistoryWorkspace {
             list,
             ..
         } = self;
-        let (session, theme) = (cx.session, cx.theme);
+        let (session, theme) = (cx.session, Theme::of(ui));
         if state.is_empty() && state.trouble.is_none() {
-            empty(ui, theme);
+            empty(ui);
             return;
         }
         let mut actions = Vec::new();
@@ -162,19 +162,19 @@ impl Workspace for HistoryWorkspace {
                     .fill(theme.panel)
                     .inner_margin(Margin::same(16)),
             )
-            .show(ui, |ui| details.ui(ui, state, session, theme, &mut actions));
+            .show(ui, |ui| details.ui(ui, state, session, &mut actions));
         CentralPanel::default()
             .frame(Frame::new().inner_margin(Margin::same(16)))
             .show(ui, |ui| {
                 if state.statistics.is_open() {
-                    bar::ui(ui, state, session, theme, &mut actions);
+                    bar::ui(ui, state, session, &mut actions);
                     ui.add_space(space::SMALL);
-                    statistics::ui(ui, &state.statistics, session.units, theme);
+                    statistics::ui(ui, &state.statistics, session.units);
                 } else {
-                    list.ui(ui, state, session, theme, &mut actions);
+                    list.ui(ui, state, session, &mut actions);
                 }
             });
-        keeping::ui(ui.ctx(), state, theme, &mut actions);
+        keeping::ui(ui.ctx(), state, &mut actions);
         for action in actions {
             self.apply(action, cx);
         }
@@ -237,16 +237,12 @@ impl Workspace for HistoryWorkspace {
 }
 
 /// Draws the area before the first inspection.
-fn empty(ui: &mut Ui, theme: &Theme) {
+fn empty(ui: &mut Ui) {
     ui.vertical_centered(|ui| {
         ui.add_space(ui.available_height() * 0.4);
-        ui.label(
-            RichText::new(text!("history-empty"))
-                .font(font::verdict())
-                .color(theme.text),
-        );
+        ui.heading(text!("history-empty"));
         ui.add_space(space::SMALL);
         let advice = text!("history-empty-advice");
-        ui.label(RichText::new(advice).color(theme.weak_text));
+        ui.weak(advice);
     });
 }

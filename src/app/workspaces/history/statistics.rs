@@ -203,21 +203,21 @@ fn without_figures(reason: &str, names: &[&str]) -> String {
 }
 
 /// Draws the statistics.
-pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem, theme: &Theme) {
+pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
     let StatisticsView::Counted(found) = view else {
-        ui.label(RichText::new(text!("history-counting")).color(theme.weak_text));
+        ui.weak(text!("history-counting"));
         return;
     };
     if found.shifts.is_empty() {
         let text = text!("history-none-counted");
-        ui.label(RichText::new(text).color(theme.weak_text));
+        ui.weak(text);
         return;
     }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         // Lines of text need less height than controls.
         ui.spacing_mut().interact_size.y = 22.0;
-        shifts(ui, &found.shifts, theme);
-        heading(ui, theme, &text!("history-by-part"));
+        shifts(ui, &found.shifts);
+        heading(ui, &text!("history-by-part"));
         Grid::new("by part")
             .num_columns(4)
             .spacing(vec2(24.0, 4.0))
@@ -228,11 +228,7 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem, theme: &
                     text!("history-not-ok"),
                     text!("history-ok-share"),
                 ] {
-                    ui.label(
-                        RichText::new(name)
-                            .font(font::small())
-                            .color(theme.weak_text),
-                    );
+                    ui.label(RichText::new(name).small().weak());
                 }
                 ui.end_row();
                 for (title, tally) in &found.parts {
@@ -245,26 +241,27 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem, theme: &
                         tally.share(),
                     ];
                     for text in cells {
-                        ui.label(RichText::new(text).color(theme.text));
+                        ui.label(text);
                     }
                     ui.end_row();
                 }
             });
         if !found.reasons.is_empty() {
-            heading(ui, theme, &text!("history-by-reason"));
+            heading(ui, &text!("history-by-reason"));
         }
         for (reason, num) in &found.reasons {
             let text = format!("{num} × {}", reason.title());
-            ui.add(egui::Label::new(RichText::new(text).color(theme.text)).wrap());
+            ui.add(egui::Label::new(text).wrap());
         }
         if let Some(drift) = &found.drift {
-            drift::ui(ui, drift, units, theme);
+            drift::ui(ui, drift, units);
         }
     });
 }
 
 /// A bar for each of the last shifts: accepted parts below, refused ones on top of them.
-fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
+fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)]) {
+    let theme = Theme::of(ui);
     let last = &all[all.len().saturating_sub(MAX_SHIFTS)..];
     let size = vec2(ui.available_width(), HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -312,7 +309,7 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
         })),
     };
     let colours = [theme.accepted, theme.rejected];
-    let shown = axes.show(ui, rect.shrink(space::MEDIUM), theme, move |plot| {
+    let shown = axes.show(ui, rect.shrink(space::MEDIUM), move |plot| {
         for (bars, colour) in [ok, not_ok].into_iter().zip(colours) {
             plot.bar_chart(BarChart::new("", bars).color(colour).allow_hover(false));
         }

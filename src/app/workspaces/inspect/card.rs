@@ -37,9 +37,9 @@ pub(super) fn ui(
     ui: &mut Ui,
     inspected: &Inspected,
     session: &Session,
-    theme: &Theme,
     actions: &mut Vec<InspectAction>,
 ) {
+    let theme = Theme::of(ui);
     if session.is_old() {
         ui.label(
             RichText::new(text!("inspect-previous-result"))
@@ -53,7 +53,7 @@ pub(super) fn ui(
         let text = RichText::new(text).font(font::body_strong());
         ui.label(text.color(theme.warning));
     }
-    if session.is_live() && live::card(ui, session, theme) {
+    if session.is_live() && live::card(ui, session) {
         actions.push(InspectAction::ToggleRecording);
     }
     let inspection = &inspected.inspection;
@@ -65,46 +65,42 @@ pub(super) fn ui(
         .resizable(false)
         .show_separator_line(false)
         .frame(Frame::new())
-        .show(ui, |ui| action_buttons(ui, pose_to_copy, theme, actions));
+        .show(ui, |ui| action_buttons(ui, pose_to_copy, actions));
     // Lines of text need less height than controls.
     ui.spacing_mut().interact_size.y = 20.0;
     ui.spacing_mut().item_spacing.y = 3.0;
     ui.spacing_mut().scroll = ScrollStyle::thin();
     // Keep the verdict visible when the rest is scrolled.
     let headline = Headline::of(inspected, session);
-    headline::ui(ui, &headline, theme);
+    headline::ui(ui, &headline);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if inspection.touches_edge() && inspected.scan.is_none() {
             let text = text!("inspect-touches-edge");
             ui.label(RichText::new(text).color(theme.warning));
         }
-        score(ui, inspected, &headline, theme);
+        score(ui, inspected, &headline);
         if let Some(pose) = pose {
-            offset(ui, inspected, pose, session.units, theme);
-            fit(ui, pose, session.units, theme);
+            offset(ui, inspected, pose, session.units);
+            fit(ui, pose, session.units);
             if inspection.verdict.is_approximate() {
                 let text = text!("inspect-approximate");
                 ui.label(RichText::new(text).color(theme.warning));
             }
-            stand_off::ui(ui, inspected, session.units, theme);
-            robot_numbers::ui(ui, inspected, session, theme, actions);
+            stand_off::ui(ui, inspected, session.units);
+            robot_numbers::ui(ui, inspected, session, actions);
         }
         if let Some(scan) = &inspected.scan {
-            summary(ui, &scan.fused, session.units, theme);
+            summary(ui, &scan.fused, session.units);
         }
-        footer(ui, inspected, session.role, theme);
+        footer(ui, inspected, session.role);
     });
 }
 
 /// Draws the buttons for what can be done with the result.
-fn action_buttons(
-    ui: &mut Ui,
-    pose: Option<&PoseEstimate>,
-    theme: &Theme,
-    actions: &mut Vec<InspectAction>,
-) {
+fn action_buttons(ui: &mut Ui, pose: Option<&PoseEstimate>, actions: &mut Vec<InspectAction>) {
     /// Left and right of a button's text, logical pixels.
     const PADDING: f32 = 4.0;
+    let theme = Theme::of(ui);
     let ways = [
         (
             text!("inspect-export"),
@@ -143,10 +139,10 @@ fn action_buttons(
             }
             let spare = (room - widths.iter().sum::<f32>()) / num as f32;
             for ((label, says, action), width) in ways.into_iter().zip(widths) {
-                let text = RichText::new(label).font(font::small());
+                let text = RichText::new(label).small();
                 let size = vec2(width + spare, space::TARGET);
                 let button = ui.add_sized(size, Button::new(text).truncate());
-                focus_ring(ui, button.rect, &button, theme);
+                focus_ring(ui, button.rect, &button);
                 if button.on_hover_text(says).clicked() {
                     actions.push(action);
                 }
@@ -156,12 +152,13 @@ fn action_buttons(
 }
 
 /// Draws the score as a bar against the threshold, and the margin.
-fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme) {
+fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
+    let theme = Theme::of(ui);
     let Verdict::Part { score, margin, .. } = inspected.inspection.verdict else {
         return;
     };
     ui.add_space(space::MEDIUM);
-    row(ui, theme, &text!("inspect-score"), &format!("{score:.2}"));
+    row(ui, &text!("inspect-score"), &format!("{score:.2}"));
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
     let painter = ui.painter();
     let bar = Rect::from_min_max(rect.min + vec2(0.0, 2.0), rect.max - vec2(0.0, 2.0));
@@ -185,11 +182,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
         pos2(tick + 1.0, rect.bottom()),
     );
     painter.rect_filled(tick, 0.0, theme.text);
-    let caption = |text: String| {
-        RichText::new(text)
-            .font(font::small())
-            .color(theme.weak_text)
-    };
+    let caption = |text: String| RichText::new(text).small().weak();
     ui.horizontal(|ui| {
         if let Some(next) = inspected.figures.candidates.get(1) {
             ui.label(caption(text!(
@@ -214,15 +207,9 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
 }
 
 /// Draws how far the part's middle is from its standard position, and how the part is rotated.
-fn offset(
-    ui: &mut Ui,
-    inspected: &Inspected,
-    pose: &PoseEstimate,
-    units: UnitSystem,
-    theme: &Theme,
-) {
+fn offset(ui: &mut Ui, inspected: &Inspected, pose: &PoseEstimate, units: UnitSystem) {
     let camera_from_part = pose.camera_from_part();
-    heading(ui, theme, &text!("inspect-offset"));
+    heading(ui, &text!("inspect-offset"));
     let middle = inspected.middle;
     let shift = middle.map(|middle| camera_from_part * middle - middle);
     let shifts = shift.map_or_else(Vec::new, |shift| {
@@ -233,7 +220,7 @@ fn offset(
     let turns = turns(&camera_from_part).map(|(axis, angle)| (axis, units.signed_angle(angle)));
     let rows = |ui: &mut Ui, rows: &[(&str, String)]| {
         for (axis, value) in rows {
-            row(ui, theme, axis, value);
+            row(ui, axis, value);
         }
     };
     if shifts.is_empty() {
@@ -251,14 +238,10 @@ fn offset(
     if let Some(other) = inspected.inspection.other_reference() {
         let other = inspected.library.title_of(other);
         let text = text!("inspect-measured-from", part = other);
-        ui.label(RichText::new(text).color(theme.weak_text));
+        ui.weak(text);
     }
     let note = text!("inspect-offset-note");
-    ui.label(
-        RichText::new(note)
-            .font(font::small())
-            .color(theme.weak_text),
-    );
+    ui.label(RichText::new(note).small().weak());
 }
 
 /// Rotation angles, radians; nalgebra's Euler angles are those of Rz·Ry·Rx.
@@ -267,17 +250,12 @@ fn turns(pose: &RigidTransform) -> [(&'static str, f64); 3] {
     [("rx", rx), ("ry", ry), ("rz", rz)]
 }
 
-fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
-    heading(ui, theme, &text!("inspect-fit"));
+fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem) {
+    let theme = Theme::of(ui);
+    heading(ui, &text!("inspect-fit"));
+    row(ui, &text!("inspect-rms"), &units.length(pose.fit.rms_m));
     row(
         ui,
-        theme,
-        &text!("inspect-rms"),
-        &units.length(pose.fit.rms_m),
-    );
-    row(
-        ui,
-        theme,
         &text!("inspect-overlap"),
         &format!("{:.0} %", pose.fit.overlap * 100.0),
     );
@@ -302,13 +280,12 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
             let room = ui.available_width() - width(&value) - 2.0 * space::SMALL;
             let fits = |name: &&String| width(name) <= room;
             let name = names.iter().find(fits).unwrap_or(&names[2]);
-            row(ui, theme, name, &value);
+            row(ui, name, &value);
         }
     }
     if let Some(runner_up) = pose.runner_up {
         row(
             ui,
-            theme,
             &text!("inspect-runner-up"),
             &text!(
                 "inspect-times-worse",
@@ -319,7 +296,6 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
     let by = format!("{} · {}", stopped(pose.stopped), pose.method.name());
     row(
         ui,
-        theme,
         &text!("inspect-iterations", num = pose.iterations.len()),
         &by,
     );
@@ -329,29 +305,19 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
     }
 }
 
-fn footer(ui: &mut Ui, inspected: &Inspected, role: UserRole, theme: &Theme) {
-    heading(ui, theme, &text!("inspect-inspection"));
+fn footer(ui: &mut Ui, inspected: &Inspected, role: UserRole) {
+    heading(ui, &text!("inspect-inspection"));
     let ms = inspected.inspection.timings.total.as_secs_f64() * 1000.0;
-    row(ui, theme, &text!("inspect-time"), &format!("{ms:.1} ms"));
-    row(
-        ui,
-        theme,
-        &text!("inspect-scene"),
-        &inspected.origin.shown_title(),
-    );
+    row(ui, &text!("inspect-time"), &format!("{ms:.1} ms"));
+    row(ui, &text!("inspect-scene"), &inspected.origin.shown_title());
     if inspected.origin.is_simulated() {
-        row(
-            ui,
-            theme,
-            &text!("inspect-camera"),
-            &text!("inspect-simulated"),
-        );
+        row(ui, &text!("inspect-camera"), &text!("inspect-simulated"));
     }
     for (name, text) in inspected.trace().known() {
-        row(ui, theme, &traced(name), &shortened(text, 28));
+        row(ui, &traced(name), &shortened(text, 28));
     }
     if role == UserRole::Engineer {
         let label = recipe_label(&inspected.recipe.label);
-        row(ui, theme, &text!("inspect-recipe"), &shortened(&label, 28));
+        row(ui, &text!("inspect-recipe"), &shortened(&label, 28));
     }
 }

@@ -12,7 +12,7 @@ use crate::app::{
     language::text,
     shell::session::Session,
     ui::{
-        theme::{font, space},
+        theme::space,
         viewport::{Colouring, FitRequest, StandardView, ViewTool},
     },
 };
@@ -130,7 +130,7 @@ fn is_there(session: &Session, inspected: &Inspected, part: ViewPart) -> bool {
 }
 
 fn small(text: impl Into<String>) -> RichText {
-    RichText::new(text).font(font::small())
+    RichText::new(text).small()
 }
 
 fn press(ui: &mut Ui, button: Button<'_>) -> Response {

@@ -1,6 +1,6 @@
 //! The headline of the verdict card: which part, accepted or not, and why.
 
-use egui::{FontId, RichText, Sense, Ui, Vec2};
+use egui::{FontId, RichText, Ui};
 
 use crate::{
     app::{
@@ -14,7 +14,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, mark, sentence, wrapped},
+            widgets::{Mark, line_mark, sentence, wrapped},
         },
     },
     history::StoredVerdict,
@@ -133,12 +133,14 @@ impl Headline {
 }
 
 /// Draws the headline, legible from three metres.
-pub(super) fn ui(ui: &mut Ui, headline: &Headline, theme: &Theme) {
-    ui.label(
-        RichText::new(&headline.title)
-            .font(fitting_font(ui, &headline.title, &font::far_names(), 2))
-            .color(theme.text),
-    );
+pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
+    let theme = Theme::of(ui);
+    ui.label(RichText::new(&headline.title).font(fitting_font(
+        ui,
+        &headline.title,
+        &font::far_names(),
+        2,
+    )));
     let (sign, word, colour) = if headline.is_accepted {
         (
             Mark::Good,
@@ -155,12 +157,11 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline, theme: &Theme) {
         )
     };
     ui.horizontal(|ui| {
-        let (rect, _) = ui.allocate_exact_size(Vec2::splat(32.0), Sense::hover());
-        mark(ui.painter(), rect.center(), 14.0, sign, theme);
+        line_mark(ui, 32.0, 14.0, sign);
         ui.label(RichText::new(word).font(font::far_verdict()).color(colour));
     });
     if let Some(nearest) = &headline.nearest {
-        ui.label(RichText::new(text!("inspect-nearest", part = nearest)).color(theme.weak_text));
+        ui.weak(text!("inspect-nearest", part = nearest));
     }
     if let Some((reason, advice)) = &headline.complaint {
         ui.add_space(space::SMALL);

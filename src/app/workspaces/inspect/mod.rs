@@ -167,15 +167,15 @@ impl InspectWorkspace {
         ui: &mut Ui,
         inspected: &Inspected,
         session: &Session,
-        theme: &Theme,
         actions: &mut Vec<InspectAction>,
     ) {
         if let Some(scan) = &inspected.scan
-            && self.shots_ui(ui, &scan.fused, session, theme, actions)
+            && self.shots_ui(ui, &scan.fused, session, actions)
         {
             return;
         }
-        strip::ui(ui, &self.pictures(inspected, session, theme), actions);
+        let pictures = self.pictures(inspected, session, Theme::of(ui));
+        strip::ui(ui, &pictures, actions);
     }
 
     /// Draws the strip of a scan: a row of tabs, and the list unless the stages are chosen; returns whether it drew the
@@ -185,7 +185,6 @@ impl InspectWorkspace {
         ui: &mut Ui,
         fused: &Arc<FusedShots>,
         session: &Session,
-        theme: &Theme,
         actions: &mut Vec<InspectAction>,
     ) -> bool {
         let scan = ShownShots {
@@ -193,7 +192,6 @@ impl InspectWorkspace {
             choice: self.state.shot_choice(session).unwrap_or(&fused.choice),
             shots: &self.state.shots,
             session,
-            theme,
         };
         let mut caused = Vec::new();
         let margin = Frame::new().inner_margin(Margin::symmetric(12, 6));
@@ -215,7 +213,7 @@ impl InspectWorkspace {
         &'a self,
         inspected: &'a Inspected,
         session: &'a Session,
-        theme: &'a Theme,
+        theme: &'static Theme,
     ) -> plots::Pictures<'a> {
         let made = self.made.as_ref();
         plots::Pictures {
@@ -256,12 +254,12 @@ impl Workspace for InspectWorkspace {
     }
 
     fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
-        let (session, theme) = (cx.session, cx.theme);
+        let (session, theme) = (cx.session, Theme::of(ui));
         if session.is_operator_view() {
             if let Some(shown) = &session.shown {
                 self.make(ui.ctx(), shown);
             }
-            operator::ui(ui, session, theme, |ui| {
+            operator::ui(ui, session, |ui| {
                 if let Some(shown) = &session.shown {
                     self.view.plain_ui(ui, session, &shown.inspected);
                 }
@@ -271,7 +269,7 @@ impl Workspace for InspectWorkspace {
         }
         let Some(shown) = &session.shown else {
             ui.painter().rect_filled(ui.max_rect(), 0.0, theme.canvas);
-            empty(ui, session, theme);
+            empty(ui, session);
             return;
         };
         self.make(ui.ctx(), shown);
@@ -284,14 +282,14 @@ impl Workspace for InspectWorkspace {
             .resizable(false)
             .frame(panel(Margin::symmetric(18, 14)))
             .show(ui, |ui| {
-                card::ui(ui, inspected, session, theme, &mut actions);
+                card::ui(ui, inspected, session, &mut actions);
             });
         Panel::bottom("stages")
             .exact_size(strip_height(&self.state, inspected, size.y))
             .resizable(false)
             .frame(panel(Margin::ZERO))
             .show(ui, |ui| {
-                self.strip(ui, inspected, session, theme, &mut actions);
+                self.strip(ui, inspected, session, &mut actions);
             });
         if self.state.enlarged.is_some() {
             let rest = ui.available_rect_before_wrap();
@@ -360,7 +358,8 @@ fn strip_height(state: &InspectState, inspected: &Inspected, height: f32) -> f32
 }
 
 /// Draws the area before the first result.
-fn empty(ui: &Ui, session: &Session, theme: &Theme) {
+fn empty(ui: &Ui, session: &Session) {
+    let theme = Theme::of(ui);
     let text = match &session.inspecting {
         Some(run) => format!("{}…", run.title),
         None => text!("inspect-nothing-yet"),

@@ -16,7 +16,7 @@ use crate::{
         shell::{current_trace, live::SourceState, session::Session},
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, mark, sentence, wrapped},
+            widgets::{Mark, line_mark, mark, sentence, wrapped},
         },
     },
     history::StoredVerdict,
@@ -238,7 +238,8 @@ impl Banner {
 }
 
 /// Draws the operator's view; `picture` draws the part once there is an inspection.
-pub(super) fn ui(ui: &mut Ui, session: &Session, theme: &Theme, picture: impl FnOnce(&mut Ui)) {
+pub(super) fn ui(ui: &mut Ui, session: &Session, picture: impl FnOnce(&mut Ui)) {
+    let theme = Theme::of(ui);
     let banner = Banner::of(session);
     let size = ui.available_size();
     let [_, back] = banner.tone.colours(theme);
@@ -250,7 +251,7 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, theme: &Theme, picture: impl Fn
                 .fill(back)
                 .inner_margin(Margin::symmetric(36, 0)),
         )
-        .show(ui, |ui| banner_ui(ui, &banner, theme));
+        .show(ui, |ui| banner_ui(ui, &banner));
     Panel::right("next step")
         .exact_size(if size.x > 1100.0 {
             COLUMN[0]
@@ -263,7 +264,7 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, theme: &Theme, picture: impl Fn
                 .fill(theme.panel)
                 .inner_margin(Margin::symmetric(24, 20)),
         )
-        .show(ui, |ui| column(ui, &banner, session, theme));
+        .show(ui, |ui| column(ui, &banner, session));
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         let rect = ui.max_rect();
         if session.shown.is_none() {
@@ -278,7 +279,8 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, theme: &Theme, picture: impl Fn
     });
 }
 
-fn banner_ui(ui: &mut Ui, banner: &Banner, theme: &Theme) {
+fn banner_ui(ui: &mut Ui, banner: &Banner) {
+    let theme = Theme::of(ui);
     let [colour, _] = banner.tone.colours(theme);
     let height = ui.available_height();
     ui.horizontal_centered(|ui| {
@@ -308,7 +310,7 @@ fn banner_ui(ui: &mut Ui, banner: &Banner, theme: &Theme) {
                 let name = fitting_font(ui, &banner.title, names, 1);
                 let (line, word_line) = (row_height(&name), row_height(&font::banner_word()));
                 ui.add_space(((height - line - word_line - 4.0) / 2.0).max(0.0));
-                let title = RichText::new(&banner.title).font(name).color(theme.text);
+                let title = RichText::new(&banner.title).font(name);
                 ui.add(Label::new(title).truncate());
                 ui.add_space(4.0);
                 ui.horizontal(|ui| {
@@ -335,11 +337,12 @@ fn banner_ui(ui: &mut Ui, banner: &Banner, theme: &Theme) {
 }
 
 /// Draws what to do next, and the last parts.
-fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
+fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
+    let theme = Theme::of(ui);
     let shift = &session.shift;
     ui.spacing_mut().interact_size.y = 0.0;
     let heading = |ui: &mut Ui, text: String| {
-        ui.label(RichText::new(text).color(theme.weak_text));
+        ui.weak(text);
     };
     heading(ui, text!("operator-next"));
     let is_long = banner.next.chars().count() > LONG;
@@ -350,7 +353,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
     };
     wrapped(ui, &banner.next, &next, theme.text);
     ui.add_space(space::MEDIUM);
-    current_trace::fields(ui, &session.trace, theme);
+    current_trace::fields(ui, &session.trace);
     ui.add_space(space::MEDIUM);
     heading(ui, text!("operator-last-parts"));
     ui.add_space(space::SMALL);
@@ -359,11 +362,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
             Some(_) => text!("operator-none-yet"),
             None => text!("operator-counting"),
         };
-        ui.label(
-            RichText::new(text)
-                .font(font::far_list())
-                .color(theme.weak_text),
-        );
+        ui.label(RichText::new(text).font(font::far_list()).weak());
         return;
     }
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -391,12 +390,11 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
             let at = at.strftime("%H:%M").to_string();
             let line = ui.horizontal(|ui| {
                 ui.set_min_height(LINE);
-                let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
-                mark(ui.painter(), rect.center(), 9.0, sign, theme);
+                line_mark(ui, 20.0, 9.0, sign);
                 ui.add_space(space::SMALL);
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     let at = RichText::new(at).font(font::far_list());
-                    ui.label(at.color(theme.weak_text));
+                    ui.label(at.weak());
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                         let name = RichText::new(name).font(font::far_list()).color(colour);
                         ui.add(Label::new(name).truncate());

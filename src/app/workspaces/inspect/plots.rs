@@ -28,7 +28,7 @@ pub(super) struct Pictures<'a> {
     pub(super) inspected: &'a Inspected,
     pub(super) state: &'a InspectState,
     pub(super) session: &'a Session,
-    pub(super) theme: &'a Theme,
+    pub(super) theme: &'static Theme,
     pub(super) segmentation: Option<&'a TextureHandle>,
     pub(super) binary: Option<&'a TextureHandle>,
 }
@@ -183,7 +183,7 @@ impl Pictures<'_> {
                 scene: &scene,
                 part: part.as_deref(),
             };
-            curves.show(ui, area, self.theme);
+            curves.show(ui, area);
         }
     }
 
@@ -216,7 +216,7 @@ impl Pictures<'_> {
             },
             read: None,
         };
-        axes.show(ui, rect, theme, |plot| {
+        axes.show(ui, rect, |plot| {
             let colour = theme.second_series;
             let goal = HLine::new("", GOAL).color(colour).width(1.4);
             plot.hline(goal.style(LineStyle::Dashed { length: 5.0 }));
@@ -225,7 +225,7 @@ impl Pictures<'_> {
             let end = Points::new("", end.unwrap_or_default()).radius(3.0);
             plot.points(end.color(theme.first_series));
             if is_large {
-                let text = RichText::new(text!("inspect-papers-goal")).font(font::small());
+                let text = RichText::new(text!("inspect-papers-goal")).small();
                 let above = GOAL + 0.01 * (up[1] - up[0]);
                 let at = PlotPoint::new(last.max(1.0), above);
                 let text = Text::new("", at, text).color(colour);

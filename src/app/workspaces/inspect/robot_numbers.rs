@@ -79,29 +79,21 @@ pub(super) fn ui(
     ui: &mut Ui,
     inspected: &Inspected,
     session: &Session,
-    theme: &Theme,
     actions: &mut Vec<InspectAction>,
 ) {
+    let theme = Theme::of(ui);
     let Some(numbered) = numbered(session, inspected) else {
         return;
     };
-    heading(ui, theme, &text!("inspect-pose"));
+    heading(ui, &text!("inspect-pose"));
     ui.scope(|ui| {
         // Text on the card is lower, but this is a control.
         ui.spacing_mut().interact_size.y = space::TARGET;
         choice(ui, session.convention, actions);
     });
     let NumberedPose { name, frame, pose } = &numbered;
-    let small = |text: &str| {
-        RichText::new(text.to_owned())
-            .font(font::small())
-            .color(theme.weak_text)
-    };
-    ui.label(
-        RichText::new(*name)
-            .font(font::body_strong())
-            .color(theme.text),
-    );
+    let small = |text: &str| RichText::new(text.to_owned()).small().weak();
+    ui.label(RichText::new(*name).font(font::body_strong()));
     // Warn: numbers in the wrong frame move a robot to the wrong place.
     let colour = if session.robot_of(inspected).is_some() {
         theme.weak_text
@@ -115,7 +107,7 @@ pub(super) fn ui(
                 column.with_layout(Layout::top_down(Align::Max), |ui| {
                     for value in pose.values.iter().skip(place).step_by(4) {
                         // As many digits as fit; the clipboard has more.
-                        ui.label(RichText::new(format!("{:.4}", value.value)).color(theme.text));
+                        ui.label(format!("{:.4}", value.value));
                     }
                 });
             }
@@ -127,7 +119,7 @@ pub(super) fn ui(
                 unit => format!(" {}", unit.symbol()),
             };
             let text = format!("{}{unit}", value.rounded());
-            row(ui, theme, value.name, text.trim_end());
+            row(ui, value.name, text.trim_end());
         }
     }
     ui.label(small(pose.meaning));

@@ -15,37 +15,30 @@ use crate::{
 };
 
 /// Draws the section; nothing without a stand-off.
-pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem, theme: &Theme) {
+pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem) {
     let Some(found) = &inspected.stand_off else {
         return;
     };
-    heading(ui, theme, &text!("inspect-stand-off"));
+    heading(ui, &text!("inspect-stand-off"));
     match found {
-        Ok(found) => figures(ui, found, &inspected.recipe.stand_off, units, theme),
+        Ok(found) => figures(ui, found, &inspected.recipe.stand_off, units),
         Err(error) => {
             let text = sentence(&stand_off_error(error));
-            ui.label(RichText::new(text).color(theme.weak_text));
+            ui.weak(text);
         }
     }
 }
 
-fn figures(
-    ui: &mut Ui,
-    found: &StandOff,
-    params: &StandOffParams,
-    units: UnitSystem,
-    theme: &Theme,
-) {
-    bar(ui, found, params, units, theme);
+fn figures(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem) {
+    bar(ui, found, params, units);
     let pair = text!(
         "inspect-worst-of",
         value = units.length(found.mean.0),
         worst = units.length(found.worst.distance.0)
     );
-    row(ui, theme, &text!("inspect-mean"), &pair);
+    row(ui, &text!("inspect-mean"), &pair);
     row(
         ui,
-        theme,
         &text!("inspect-in-band"),
         &format!("{:.0} %", found.in_band * 100.0),
     );
@@ -54,24 +47,21 @@ fn figures(
         value = units.angle(found.mean_angle.0),
         worst = units.angle(found.worst_angle.0)
     );
-    row(ui, theme, &text!("inspect-angle"), &pair);
+    row(ui, &text!("inspect-angle"), &pair);
     // Parts rarely hang as taught: that the path has to follow the pose is usual, and no fault of the part.
     let text = if found.keeps_the_band() {
         text!("inspect-path-fits")
     } else {
         text!("inspect-path-needs-pose")
     };
-    ui.label(
-        RichText::new(text)
-            .font(font::small())
-            .color(theme.weak_text),
-    );
+    ui.label(RichText::new(text).small().weak());
 }
 
 /// Draws a range of distances with the band in its middle third: a full tick for the mean, a short one for the worst.
-fn bar(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem, theme: &Theme) {
+fn bar(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem) {
     const BAR: f32 = 14.0;
     const NUMBERS: f32 = 15.0;
+    let theme = Theme::of(ui);
     let (near, far) = (params.nearest.0 as f32, params.farthest.0 as f32);
     let wide = (far - near).max(1e-3);
     let size = vec2(ui.available_width(), BAR + space::SMALL + NUMBERS);

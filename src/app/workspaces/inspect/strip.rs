@@ -80,7 +80,7 @@ pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Inspect
         };
         painter.text(at, anchor, time, font::small(), theme.weak_text);
         pictures.paint(panel, ui, picture, PlotDetail::Small);
-        focus_ring(ui, cell, &response, theme);
+        focus_ring(ui, cell, &response);
         if response.clicked() {
             actions.push(if is_enlarged {
                 InspectAction::CloseEnlarged
@@ -96,29 +96,23 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
     let Some(panel) = pictures.state.enlarged else {
         return;
     };
-    let theme = pictures.theme;
     if pictures.session.is_old() {
         ui.multiply_opacity(0.55);
     }
     Frame::new().inner_margin(Margin::same(14)).show(ui, |ui| {
         ui.horizontal(|ui| {
             ui.set_min_height(space::TARGET);
-            ui.label(
-                RichText::new(panel.title())
-                    .font(font::verdict())
-                    .color(theme.text),
-            );
+            ui.heading(panel.title());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let name = text!("shell-close");
-                let close =
-                    Button::new(&*name).shortcut_text(RichText::new("Esc").font(font::small()));
+                let close = Button::new(&*name).shortcut_text(RichText::new("Esc").small());
                 let close = ui.add(close.min_size(Vec2::splat(space::TARGET)));
                 close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
                 if close.clicked() {
                     actions.push(InspectAction::CloseEnlarged);
                 }
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    let text = RichText::new(explanation(panel)).color(theme.weak_text);
+                    let text = RichText::new(explanation(panel)).weak();
                     ui.add(Label::new(text).truncate());
                 });
             });

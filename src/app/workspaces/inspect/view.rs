@@ -154,7 +154,7 @@ impl SceneView {
         let overlay = overlay(state, inspected);
         self.place(&state.parts, overlay.as_ref(), session, inspected);
         self.restyle(session, inspected, self.colouring(state));
-        let theme = Theme::of(session.theme);
+        let theme = Theme::of(ui);
         let rect = ui.available_rect_before_wrap();
         self.size = rect.size();
         self.style.legend = if self.controls_width > rect.width() - LEGEND {
@@ -192,7 +192,7 @@ impl SceneView {
         self.paint(ui);
         if let Some(origin) = &self.origin {
             let corner = pos2(rect.left() + space::MEDIUM, rect.bottom() - space::MEDIUM);
-            let theme = Theme::of(session.theme);
+            let theme = Theme::of(ui);
             let anchor = egui::Align2::LEFT_BOTTOM;
             plate(&ui.painter_at(rect), corner, anchor, origin, theme);
         }

@@ -51,7 +51,7 @@ use crate::app::{
     },
     task::{Running, TaskRunner},
     ui::{
-        theme::space,
+        theme::{Theme, space},
         viewport::{DrawnShape, ViewError, ViewportGpu},
     },
 };
@@ -163,7 +163,7 @@ impl Workspace for PaintWorkspace {
 
     fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
         let Self { state, view, .. } = self;
-        let (session, theme) = (cx.session, cx.theme);
+        let (session, theme) = (cx.session, Theme::of(ui));
         let mut actions = Vec::new();
         let size = ui.available_size();
         let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
@@ -171,7 +171,7 @@ impl Workspace for PaintWorkspace {
             .exact_size(if size.x > 1100.0 { SIDE[0] } else { SIDE[1] })
             .resizable(false)
             .frame(panel(Margin::ZERO))
-            .show(ui, |ui| side::ui(ui, state, session, theme, &mut actions));
+            .show(ui, |ui| side::ui(ui, state, session, &mut actions));
         Panel::top("paint tools")
             .resizable(false)
             .frame(panel(Margin::symmetric(12, 8)))
@@ -180,7 +180,7 @@ impl Workspace for PaintWorkspace {
             .exact_size(TIMELINE)
             .resizable(false)
             .frame(panel(Margin::symmetric(14, 8)))
-            .show(ui, |ui| timeline::ui(ui, state, theme, &mut actions));
+            .show(ui, |ui| timeline::ui(ui, state, &mut actions));
         CentralPanel::default()
             .frame(Frame::new().fill(theme.canvas))
             .show(ui, |ui| view.ui(ui, state, session, &mut actions));

@@ -1,7 +1,7 @@
 //! The section on the robot: arm, nozzle and gun of its programs, what they stay clear of, and which points of the path the
 //! arm reaches.
 
-use egui::{Button, DragValue, Label, RichText, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{DragValue, Label, RichText, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::{
     action::{PaintAction, PaintFile},
@@ -16,7 +16,7 @@ use crate::{
         ui::{
             parameter_control::fold,
             theme::{Theme, space},
-            widgets::{grouped, heading, labelled, row, shortened},
+            widgets::{grouped, heading, row, shortened, text_button},
         },
     },
     robot::arm::{ARM_NAMES, Arm, PointProblem},
@@ -30,29 +30,29 @@ pub(super) fn ui(
     ui: &mut Ui,
     paint: &PaintState,
     session: &Session,
-    theme: &Theme,
     actions: &mut Vec<PaintAction>,
 ) {
-    heading(ui, theme, &text!("paint-robot"));
+    let theme = Theme::of(ui);
+    heading(ui, &text!("paint-robot"));
     let mut setup = session.program.clone();
     arm_ui(ui, &mut setup, actions);
     let label = text!("paint-nozzle");
-    field(ui, theme, &label, &mut setup.nozzle, "kuka 0 0 250 0 45 0")
+    field(ui, &label, &mut setup.nozzle, "kuka 0 0 250 0 45 0")
         .on_hover_text(text!("paint-nozzle-hint"));
     obstacles_ui(ui, &mut setup, actions);
     fold(ui, text!("paint-more-robot"), theme.weak_text)
         .id_salt("robot")
         .show_unindented(ui, |ui| {
             let label = text!("paint-rail");
-            field(ui, theme, &label, &mut setup.rail, "y,-2000,2000,1000")
+            field(ui, &label, &mut setup.rail, "y,-2000,2000,1000")
                 .on_hover_text(text!("paint-rail-hint"));
             let label = text!("paint-tool");
-            field(ui, theme, &label, &mut setup.tool, "1").on_hover_text(text!("paint-tool-hint"));
+            field(ui, &label, &mut setup.tool, "1").on_hover_text(text!("paint-tool-hint"));
             let mut number = |text: String, value: &mut f64, range, unit: &str| {
                 ui.horizontal(|ui| {
                     let drag = DragValue::new(value).range(range).max_decimals(1);
                     let response = ui.add(drag.suffix(format!(" {unit}")));
-                    let name = ui.label(RichText::new(text).color(theme.text));
+                    let name = ui.label(text);
                     response.labelled_by(name.id);
                 });
             };
@@ -99,7 +99,7 @@ pub(super) fn ui(
     }
     match paint.reach(session) {
         None => {}
-        Some(Ok(reach)) => reasons(ui, reach, theme, actions),
+        Some(Ok(reach)) => reasons(ui, reach, actions),
         Some(Err(error)) => {
             note(ui, &error.what, theme.rejected);
             note(ui, &error.advice, theme.text);
@@ -166,8 +166,8 @@ fn obstacles_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAc
 }
 
 /// Draws a text field below its label.
-fn field(ui: &mut Ui, theme: &Theme, label: &str, text: &mut String, hint: &str) -> egui::Response {
-    let name = ui.label(RichText::new(label).color(theme.text));
+fn field(ui: &mut Ui, label: &str, text: &mut String, hint: &str) -> egui::Response {
+    let name = ui.label(label);
     let edit = TextEdit::singleline(text)
         .hint_text(hint)
         .align(egui::Align2::LEFT_CENTER)
@@ -177,7 +177,8 @@ fn field(ui: &mut Ui, theme: &Theme, label: &str, text: &mut String, hint: &str)
 }
 
 /// Draws in one line how much of the path the arm reaches; nothing if unknown.
-pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session, theme: &Theme) {
+pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session) {
+    let theme = Theme::of(ui);
     let Some(Ok(reach)) = paint.reach(session) else {
         return;
     };
@@ -194,8 +195,9 @@ pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session, theme:
 }
 
 /// Draws why points are not reached, and positions that reach more.
-fn reasons(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAction>) {
-    collisions_ui(ui, reach, theme);
+fn reasons(ui: &mut Ui, reach: &Reach, actions: &mut Vec<PaintAction>) {
+    let theme = Theme::of(ui);
+    collisions_ui(ui, reach);
     if let Some(range) = reach.rail_range {
         let [from, to] = range.map(|at| format!("{:.0}", 1000.0 * at));
         let words = text!("paint-rail-moves", from = from, to = to);
@@ -216,8 +218,7 @@ fn reasons(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAct
     if problems.any(PointProblem::is_acceleration) {
         note(ui, &text!("paint-acceleration-advice"), theme.text);
     }
-    let next = text!("paint-show-unreached");
-    if labelled(ui, Button::new(&next), &next).clicked() {
+    if text_button(ui, &text!("paint-show-unreached")).clicked() {
         actions.push(PaintAction::ShowUnreached);
     }
     if let Some(place) = &reach.rail {
@@ -233,8 +234,8 @@ fn reasons(ui: &mut Ui, reach: &Reach, theme: &Theme, actions: &mut Vec<PaintAct
     }
 }
 
-fn collisions_ui(ui: &mut Ui, reach: &Reach, theme: &Theme) {
+fn collisions_ui(ui: &mut Ui, reach: &Reach) {
     let count = reach.check.num_collisions();
     let value = text!("paint-num-collisions", count = count);
-    row(ui, theme, &text!("paint-collisions"), &value);
+    row(ui, &text!("paint-collisions"), &value);
 }

@@ -19,7 +19,7 @@ use crate::{
             parameter_control::{self, fold},
             theme::{Theme, font, space},
             tool_row::choice,
-            widgets::{grouped, heading, labelled, row, shortened},
+            widgets::{grouped, heading, row, shortened, text_button},
         },
     },
     paint::{Coat, CoatGroup, FilmFigures},
@@ -37,9 +37,9 @@ pub(super) fn ui(
     ui: &mut Ui,
     paint: &PaintState,
     session: &Session,
-    theme: &Theme,
     actions: &mut Vec<PaintAction>,
 ) {
+    let theme = Theme::of(ui);
     let frame = |top, bottom| {
         Frame::new().fill(theme.panel).inner_margin(Margin {
             left: 16,
@@ -51,39 +51,34 @@ pub(super) fn ui(
     Panel::bottom("paint actions")
         .resizable(false)
         .frame(frame(8, 12))
-        .show(ui, |ui| buttons(ui, paint, session, theme, actions));
+        .show(ui, |ui| buttons(ui, paint, session, actions));
     Panel::top("paint head")
         .resizable(false)
         .frame(frame(12, 4))
-        .show(ui, |ui| head(ui, paint, session, theme, actions));
+        .show(ui, |ui| head(ui, paint, session, actions));
     CentralPanel::default().frame(frame(0, 4)).show(ui, |ui| {
         ScrollArea::vertical()
             .id_salt("coat")
             .auto_shrink(false)
             .show(ui, |ui| {
                 ui.set_max_width(ui.available_width() - 8.0);
-                coat(ui, paint, theme, actions);
+                coat(ui, paint, actions);
                 if let Some(planned) = &paint.planned {
                     ui.scope(|ui| {
                         if paint.is_old(session) {
                             ui.multiply_opacity(0.55);
                         }
-                        check(ui, planned, theme);
+                        check(ui, planned);
                     });
                 }
-                robot::ui(ui, paint, session, theme, actions);
+                robot::ui(ui, paint, session, actions);
             });
     });
 }
 
 /// Draws the part, and whether its film is good.
-fn head(
-    ui: &mut Ui,
-    paint: &PaintState,
-    session: &Session,
-    theme: &Theme,
-    actions: &mut Vec<PaintAction>,
-) {
+fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<PaintAction>) {
+    let theme = Theme::of(ui);
     let Some(library) = &session.library else {
         ui.label(text!("paint-library-loading"));
         return;
@@ -117,7 +112,7 @@ fn head(
     if let Some(failed) = &paint.failed {
         let text = RichText::new(&failed.what).color(theme.rejected);
         ui.add(Label::new(text).wrap());
-        let advice = RichText::new(&failed.advice).color(theme.text);
+        let advice = RichText::new(&failed.advice);
         ui.add(Label::new(advice).wrap());
         return;
     }
@@ -138,23 +133,21 @@ fn head(
         tolerance = micrometres(coat.target * coat.tolerance)
     );
     ui.label(RichText::new(text).font(font::body_strong()).color(colour));
-    robot::verdict(ui, paint, session, theme);
-    histogram(ui, figures, coat.tolerance, theme);
+    robot::verdict(ui, paint, session);
+    histogram(ui, figures, coat.tolerance);
     let scope = match planned.surface.coverage {
         Coverage::OneSide => text!("paint-scope-one-side"),
         Coverage::AllAround => text!("paint-scope-all-around"),
         Coverage::SeveralSides => text!("paint-scope-several-sides"),
     };
-    let scope = RichText::new(scope)
-        .font(font::small())
-        .color(theme.weak_text);
+    let scope = RichText::new(scope).small().weak();
     ui.add(Label::new(scope).wrap());
 }
 
 /// Draws the coat: its name and every parameter.
-fn coat(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut Vec<PaintAction>) {
+fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
     let design = &paint.design;
-    heading(ui, theme, &text!("paint-coat"));
+    heading(ui, &text!("paint-coat"));
     ui.horizontal(|ui| {
         let kept = design.kept.name.as_str();
         let name = if design.is_coat_changed() {
@@ -179,11 +172,8 @@ fn coat(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut Vec<PaintA
         let response = menu.response;
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
         response.on_hover_text(&design.kept.notes);
-        if design.is_coat_changed() {
-            let reset = text!("paint-reset-coat");
-            if labelled(ui, Button::new(&reset), &reset).clicked() {
-                actions.push(PaintAction::ResetCoat);
-            }
+        if design.is_coat_changed() && text_button(ui, &text!("paint-reset-coat")).clicked() {
+            actions.push(PaintAction::ResetCoat);
         }
     });
     if let Some(naming) = &paint.naming {
@@ -191,7 +181,7 @@ fn coat(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut Vec<PaintA
     }
     // Most frequently changed first.
     for group in [CoatGroup::Path, CoatGroup::Film, CoatGroup::Gun] {
-        parameters_of(ui, group, paint, theme, actions);
+        parameters_of(ui, group, paint, actions);
     }
 }
 
@@ -215,12 +205,10 @@ fn name_ui(ui: &mut Ui, naming: &str, actions: &mut Vec<PaintAction>) {
         if written != naming {
             actions.push(PaintAction::Name(Some(written.clone())));
         }
-        let save = text!("paint-save");
-        if labelled(ui, Button::new(&save), &save).clicked() || is_entered {
+        if text_button(ui, &text!("paint-save")).clicked() || is_entered {
             actions.push(PaintAction::SaveCoat);
         }
-        let cancel = text!("paint-cancel");
-        if labelled(ui, Button::new(&cancel), &cancel).clicked() {
+        if text_button(ui, &text!("paint-cancel")).clicked() {
             actions.push(PaintAction::Name(None));
         }
     });
@@ -231,9 +219,9 @@ fn parameters_of(
     ui: &mut Ui,
     group: CoatGroup,
     paint: &PaintState,
-    theme: &Theme,
     actions: &mut Vec<PaintAction>,
 ) {
+    let theme = Theme::of(ui);
     // The pattern is in the row of tools.
     let is_here = |key: &str| key != "pattern";
     let of = |place: Place| {
@@ -243,12 +231,12 @@ fn parameters_of(
     let design = &paint.design;
     let mut control = |ui: &mut Ui, parameter| {
         let (coat, kept) = (&design.coat, &design.kept.recipe);
-        parameter_control::control(ui, parameter, coat, kept, theme, &mut |change| {
+        parameter_control::control(ui, parameter, coat, kept, &mut |change| {
             actions.push(PaintAction::Change(parameter.key, change));
         });
     };
     let title = parameters::coat_group(group);
-    heading(ui, theme, &title);
+    heading(ui, &title);
     for parameter in of(Place::Front) {
         control(ui, parameter);
     }
@@ -267,8 +255,8 @@ fn parameters_of(
 }
 
 /// Draws the figures of the film.
-fn check(ui: &mut Ui, planned: &Planned, theme: &Theme) {
-    heading(ui, theme, &text!("paint-check"));
+fn check(ui: &mut Ui, planned: &Planned) {
+    heading(ui, &text!("paint-check"));
     let (film, takes) = (&planned.film.figures, &planned.film.path);
     let micrometres = |metres: f64| format!("{:.1}", 1e6 * metres);
     let seconds = takes.time.round() as u64;
@@ -297,12 +285,13 @@ fn check(ui: &mut Ui, planned: &Planned, theme: &Theme) {
         ),
         (text!("paint-points"), grouped(planned.path.points().len())),
     ] {
-        row(ui, theme, &name, &value);
+        row(ui, &name, &value);
     }
 }
 
 /// Draws the shares of the surface by thickness; those within tolerance are highlighted.
-fn histogram(ui: &mut Ui, film: &FilmFigures, tolerance: f64, theme: &Theme) {
+fn histogram(ui: &mut Ui, film: &FilmFigures, tolerance: f64) {
+    let theme = Theme::of(ui);
     let size = vec2(ui.available_width(), 52.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, text!("paint-histogram")));
@@ -347,13 +336,8 @@ fn percent(share: f64) -> String {
 }
 
 /// Draws the buttons for the path.
-fn buttons(
-    ui: &mut Ui,
-    paint: &PaintState,
-    session: &Session,
-    theme: &Theme,
-    actions: &mut Vec<PaintAction>,
-) {
+fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<PaintAction>) {
+    let theme = Theme::of(ui);
     let stored = paint.stored(session);
     if let Some(stored) = stored {
         ui.horizontal(|ui| {

@@ -18,7 +18,8 @@ const BLOCKS: f32 = 14.0;
 const STEP: f64 = 0.5;
 
 /// Draws heading and timeline.
-pub(super) fn ui(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut Vec<PaintAction>) {
+pub(super) fn ui(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
+    let theme = Theme::of(ui);
     let Some(planned) = paint.planned.as_ref().filter(|_| paint.duration() > 0.0) else {
         return;
     };
@@ -27,7 +28,7 @@ pub(super) fn ui(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut V
         actions.push(PaintAction::Advance(f64::from(seconds)));
         ui.request_repaint();
     }
-    heading(ui, paint, planned, theme, actions);
+    heading(ui, paint, planned, actions);
     let size = vec2(ui.available_width(), space::TARGET);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let sense = Sense::click_and_drag() | Sense::FOCUSABLE;
@@ -73,7 +74,7 @@ pub(super) fn ui(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut V
             ScrubberInput::TogglePlay => PaintAction::TogglePlay,
         });
     }
-    focus_ring(ui, rect, &response, theme);
+    focus_ring(ui, rect, &response);
     let (caption, _) = ui.allocate_exact_size(vec2(size.x, 16.0), Sense::hover());
     let write = |at, anchor, text| {
         let painter = ui.painter();
@@ -98,24 +99,18 @@ pub(super) fn ui(ui: &mut Ui, paint: &PaintState, theme: &Theme, actions: &mut V
     );
 }
 
-fn heading(
-    ui: &mut Ui,
-    paint: &PaintState,
-    planned: &Planned,
-    theme: &Theme,
-    actions: &mut Vec<PaintAction>,
-) {
+fn heading(ui: &mut Ui, paint: &PaintState, planned: &Planned, actions: &mut Vec<PaintAction>) {
     ui.horizontal(|ui| {
         let text = match paint.playback {
             Playback::Paused => text!("paint-play"),
             Playback::Playing => text!("paint-pause"),
         };
-        let key = RichText::new("P").font(font::small());
-        let button = Button::new(&text).shortcut_text(key.color(theme.weak_text));
+        let key = RichText::new("P").small();
+        let button = Button::new(&text).shortcut_text(key.weak());
         if labelled(ui, button, &text).clicked() {
             actions.push(PaintAction::TogglePlay);
         }
-        ui.label(RichText::new(place_text(paint, planned)).color(theme.text));
+        ui.label(place_text(paint, planned));
     });
 }
 

@@ -18,7 +18,7 @@ use crate::{
         language::text,
         shell::session::{Session, ThemeChoice},
         ui::{
-            theme::{ROUNDING, font, space},
+            theme::{ROUNDING, space},
             viewport::{
                 Colouring, DrawnShape, FitRequest, Legend, Line, LineSet, PointSize, Role,
                 ScaleWords, StandardView, TextLabel, ViewCamera, ViewColours, ViewError, ViewScene,
@@ -258,7 +258,7 @@ impl PaintView {
         // The hint would cover the part while a person draws.
         if corners.is_empty() {
             let place = rect.with_min_y(rect.bottom() - 2.0 * space::TARGET);
-            let text = RichText::new(hint).font(font::small()).color(colours.text);
+            let text = RichText::new(hint).small().color(colours.text);
             let plate = Frame::new()
                 .fill(colours.background.gamma_multiply(0.85))
                 .corner_radius(ROUNDING)
@@ -349,7 +349,7 @@ impl PaintView {
 
     fn controls(&mut self, ui: &mut Ui) {
         let button = |ui: &mut Ui, text: String| {
-            let text = RichText::new(text).font(font::small());
+            let text = RichText::new(text).small();
             ui.add(Button::new(text).min_size(Vec2::splat(space::TARGET)))
         };
         if button(ui, text!("paint-view-fit")).clicked() {
