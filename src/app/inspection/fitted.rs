@@ -88,27 +88,27 @@ mod tests {
 
     #[test]
     fn references_have_as_many_rays_as_the_recipe_gives_scenes() {
-        let shelved = LibraryCache::default().get();
+        let loaded = LibraryCache::default().get();
         let mut recipe = Recipe::default();
-        let loaded = shelved.fitting(&recipe, &Unwatched).expect("loaded");
-        assert!(matches!(loaded, PreparedLibrary::AsLoaded(_)));
+        let as_loaded = loaded.fitting(&recipe, &Unwatched).expect("loaded");
+        assert!(matches!(as_loaded, PreparedLibrary::AsLoaded(_)));
         recipe.signature.num_rays = 128;
-        let fitted = shelved.fitting(&recipe, &Unwatched).expect("prepared");
+        let fitted = loaded.fitting(&recipe, &Unwatched).expect("prepared");
         let names = |library: &Library| -> Vec<String> {
             let references = library.references.iter();
             references.map(|r| r.name.clone()).collect()
         };
-        assert_eq!(names(&fitted), names(&loaded));
+        assert_eq!(names(&fitted), names(&as_loaded));
         for view in fitted.references.iter().flat_map(|r| &r.views) {
             assert_eq!(view.signature.rays.len(), 128);
         }
-        let again = shelved.fitting(&recipe, &Unwatched).expect("known");
+        let again = loaded.fitting(&recipe, &Unwatched).expect("known");
         let (PreparedLibrary::Anew(first), PreparedLibrary::Anew(again)) = (fitted, again) else {
             panic!("prepared anew");
         };
         assert!(Arc::ptr_eq(&first, &again));
 
         recipe.signature.num_rays = 64;
-        assert!(shelved.fitting(&recipe, &CancellableProgress).is_none());
+        assert!(loaded.fitting(&recipe, &CancellableProgress).is_none());
     }
 }

@@ -154,7 +154,7 @@ pub fn inspect(
     library_cache: &LibraryCache,
     watch: &dyn ProgressObserver,
 ) -> Result<Inspected, TaskError> {
-    let shelved = library_cache.get();
+    let loaded = library_cache.get();
     if watch.is_cancelled() {
         return Err(TaskError::Cancelled);
     }
@@ -166,7 +166,7 @@ pub fn inspect(
         origin,
         warnings,
     } = taken?;
-    let fitted = shelved.fitting(&request.recipe, watch);
+    let fitted = loaded.fitting(&request.recipe, watch);
     let fitted = fitted.ok_or(TaskError::Cancelled)?;
     let found = FinishedInspection {
         inspection: pipeline::run(&scene, &fitted, &request.recipe, watch)?,
@@ -178,7 +178,7 @@ pub fn inspect(
         scan: None,
         source: request.source.in_words(),
     };
-    Ok(found.prepared(&fitted, &shelved.shown))
+    Ok(found.prepared(&fitted, &loaded.shown))
 }
 
 /// Puts the shots of a scan together and inspects them; the inner error says why they cannot be put together.
@@ -188,12 +188,12 @@ pub(in crate::app) fn inspect_scan(
     steps: &Steps<'_>,
 ) -> Result<Result<Inspected, FuseError>, TaskError> {
     let begun = Instant::now();
-    let shelved = library_cache.get();
+    let loaded = library_cache.get();
     let fused = match fuse(request, Then::Inspect, steps) {
         Ok(fused) => Arc::new(fused.ok_or(TaskError::Cancelled)?),
         Err(error) => return Ok(Err(error)),
     };
-    let fitted = shelved.fitting(&request.recipe, steps);
+    let fitted = loaded.fitting(&request.recipe, steps);
     let fitted = fitted.ok_or(TaskError::Cancelled)?;
     let ScanInspection {
         mut inspection,
@@ -220,7 +220,7 @@ pub(in crate::app) fn inspect_scan(
             fused,
         }),
     };
-    Ok(Ok(found.prepared(&fitted, &shelved.shown)))
+    Ok(Ok(found.prepared(&fitted, &loaded.shown)))
 }
 
 /// An inspection, before the data of the panels is prepared.

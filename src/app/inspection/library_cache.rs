@@ -183,11 +183,11 @@ impl LibraryCache {
     pub fn get(&self) -> Arc<LoadedLibrary> {
         let mut choice = self.lock();
         let is_there = |known: &&Arc<LoadedLibrary>| known.shown.unloaded.is_none();
-        if let Some(shelved) = choice.loaded.as_ref().filter(is_there) {
-            return Arc::clone(shelved);
+        if let Some(loaded) = choice.loaded.as_ref().filter(is_there) {
+            return Arc::clone(loaded);
         }
         match choice.load() {
-            Ok(shelved) => shelved,
+            Ok(loaded) => loaded,
             Err(error) => choice.without(&error),
         }
     }
@@ -219,9 +219,9 @@ impl LibraryCache {
             given,
             loaded: None,
         };
-        let shelved = other.load()?;
+        let loaded = other.load()?;
         *self.lock() = other;
-        Ok(shelved)
+        Ok(loaded)
     }
 
     fn lock(&self) -> MutexGuard<'_, Choice> {
@@ -232,9 +232,9 @@ impl LibraryCache {
 
 impl Choice {
     fn load(&mut self) -> Result<Arc<LoadedLibrary>, LibraryError> {
-        let shelved = Arc::new(load(self.given.as_deref())?);
-        self.loaded = Some(Arc::clone(&shelved));
-        Ok(shelved)
+        let loaded = Arc::new(load(self.given.as_deref())?);
+        self.loaded = Some(Arc::clone(&loaded));
+        Ok(loaded)
     }
 
     /// Returns the stand-in for a library that could not be loaded, the same one for the same error.
@@ -255,14 +255,14 @@ impl Choice {
             unloaded: Some(trouble),
             ..LibraryView::default()
         };
-        let shelved = Arc::new(LoadedLibrary {
+        let loaded = Arc::new(LoadedLibrary {
             place: None,
             library: Library::default(),
             shown: Arc::new(shown),
             fitted: PreparedLibraryCache::default(),
         });
-        self.loaded = Some(Arc::clone(&shelved));
-        shelved
+        self.loaded = Some(Arc::clone(&loaded));
+        loaded
     }
 }
 

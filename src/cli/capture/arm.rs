@@ -19,7 +19,7 @@ use crate::{
     robot::{WrittenPose, pairs::read_arm_poses, parse_written_pose},
 };
 
-/// What is said of the arm.
+/// Options about the arm that carries the camera.
 #[derive(Debug, Args)]
 pub(super) struct ArmChoice {
     /// With a camera on the flange: the flange pose for all frames, as `kuka X Y Z A B C`, or the 16 numbers of a

@@ -33,12 +33,12 @@ const MAX_ERROR_BYTES: usize = 1 << 16;
 /// Where a machine in Amazon's cloud gets its credentials, if the environment has none.
 const CREDENTIALS_HOST: &str = "169.254.169.254";
 
-/// How long so many bytes may take.
+/// How long a request may take that transfers this number of bytes.
 pub(super) fn patience(bytes: u64) -> Duration {
     ANSWER_TIMEOUT + Duration::from_secs(bytes / SLOWEST)
 }
 
-/// Makes clients over HTTPS, or over HTTP too where `AWS_ALLOW_HTTP` says so.
+/// Makes clients for HTTPS, and for HTTP if `AWS_ALLOW_HTTP` permits it.
 #[derive(Debug)]
 pub(super) struct Connector;
 

@@ -19,7 +19,7 @@ use crate::files::{FileError, disk, read_limited, sync_folder};
 
 /// A key in PEM has some hundred bytes.
 const MAX_KEY_BYTES: u64 = 1 << 14;
-/// What stands before the 32 bytes of a public key in its DER form (RFC 8410).
+/// The bytes before the 32 bytes of a public key in DER (RFC 8410).
 const PUBLIC_KEY_PREFIX: [u8; 12] = [
     0x30, 0x2a, 0x30, 0x05, 0x06, 0x03, 0x2b, 0x65, 0x70, 0x03, 0x21, 0x00,
 ];

@@ -182,7 +182,7 @@ impl BundleStore {
         }
     }
 
-    /// A bundle of so many bytes; none if there is none of this name, and never more than `limit` bytes.
+    /// Reads a bundle of at most `limit` bytes; `None` if there is none of this name.
     pub(super) fn bundle(&self, sha256: &str, limit: u64) -> Result<Option<Vec<u8>>, BundleError> {
         self.get(&bundle_name(sha256), limit)
     }

@@ -262,7 +262,7 @@ fn verdict(
         );
     }
     for caution in report.pose.iter().flat_map(|pose| &pose.cautions) {
-        // The headline band already says so.
+        // The headline band shows this already.
         if !caution.starts_with("simulated") {
             y = text(
                 sheet,

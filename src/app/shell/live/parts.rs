@@ -75,8 +75,8 @@ impl FollowedParts {
         part
     }
 
-    /// The part that hangs before this source as far as is known now, for whoever does not wait for Live; else another
-    /// one.
+    /// The part that hangs in front of this source as far as is known now, without waiting for Live; a new one if Live
+    /// follows another source.
     pub(in crate::app) fn part_now(&self, source: &str) -> HungId {
         if self.source == source {
             self.rows.id_of_frame(false)

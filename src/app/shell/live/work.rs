@@ -311,9 +311,9 @@ impl<'a> LiveSession<'a> {
 
     /// Inspects a frame.
     fn take(&mut self, captured: Captured) -> Result<(), TaskError> {
-        let shelved = self.library_cache.get();
+        let loaded = self.library_cache.get();
         let watching = SilentContext(self.context);
-        let fitted = shelved.fitting(self.recipe, &watching);
+        let fitted = loaded.fitting(self.recipe, &watching);
         let fitted = fitted.ok_or(TaskError::Cancelled)?;
         let (arrived, at) = (captured.arrived, seconds(&captured));
         let SceneOrigin {
@@ -329,7 +329,7 @@ impl<'a> LiveSession<'a> {
         }
         let mut inspection = pipeline::run(&scene, &fitted, self.recipe, &watching)?;
         let middle = FinishedInspection::middle(&inspection, &fitted);
-        let inputs = format!("{} {}", self.recipe_identity, shelved.shown.identity);
+        let inputs = format!("{} {}", self.recipe_identity, loaded.shown.identity);
         let mut followed = None;
         // If captures are independent, each is a hung part of its own.
         let mut role = FrameRole::First;
@@ -372,7 +372,7 @@ impl<'a> LiveSession<'a> {
             followed,
             source: self.spec.to_string(),
         };
-        let inspected = found.prepared(&fitted, &shelved.shown);
+        let inspected = found.prepared(&fitted, &loaded.shown);
         if self.watch.is_some() && role != FrameRole::Nothing {
             // Not before: after a panic on the way here, the next frame shall be recorded in place of this one.
             let frame = HungFrame {

@@ -93,13 +93,13 @@ impl Pair {
     pub fn of(source: &PairSource, library_cache: &LibraryCache) -> Result<Self, UserError> {
         match source {
             PairSource::MovedCopy { part, start } => {
-                let shelved = library_cache.get();
-                let (reference, title) = find(&shelved, part)?;
+                let loaded = library_cache.get();
+                let (reference, title) = find(&loaded, part)?;
                 Ok(Self::moved_copy(reference, title, *start))
             }
             PairSource::Scene { inspected, part } => {
-                let shelved = library_cache.get();
-                let (reference, title) = find(&shelved, part)?;
+                let loaded = library_cache.get();
+                let (reference, title) = find(&loaded, part)?;
                 let found = inspected.inspection.segmentation.part.as_ref();
                 let found = found.map_err(UserError::of)?;
                 let scene = inspected.origin.shown_title();
@@ -213,14 +213,14 @@ fn drawn(cloud: &PointCloud, role: Role) -> PointSet {
 }
 
 /// Finds the enrolled part of this name, and its title.
-fn find<'a>(shelved: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
-    let place = shelved.shown.place_of(part);
-    let reference = place.and_then(|place| shelved.library.references.get(place));
+fn find<'a>(loaded: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
+    let place = loaded.shown.place_of(part);
+    let reference = place.and_then(|place| loaded.library.references.get(place));
     let reference = reference.ok_or_else(|| UserError {
         what: text!("align-part-gone", name = part),
         advice: text!("align-part-gone-advice"),
     })?;
-    let title = place.map_or("", |place| shelved.shown.title(place));
+    let title = place.map_or("", |place| loaded.shown.title(place));
     Ok((reference, title))
 }
 

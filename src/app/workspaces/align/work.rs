@@ -44,14 +44,14 @@ pub(super) fn table(
     library_cache: &LibraryCache,
     context: &TaskContext<AlignResult>,
 ) -> Result<AlignResult, TaskError> {
-    let shelved = library_cache.get();
-    let references = &shelved.library.references;
+    let loaded = library_cache.get();
+    let references = &loaded.library.references;
     let total = references.len() * Start::NUM_PAPER;
     let clock = Instant::now();
     let mut num_done = done.len();
     context.progress(num_done, total);
     for (place, reference) in references.iter().enumerate() {
-        let title = shelved.shown.title(place);
+        let title = loaded.shown.title(place);
         for start in 0..Start::NUM_PAPER {
             let is_done = |(part, of): &(String, usize)| *part == reference.name && *of == start;
             if done.iter().any(is_done) {

@@ -114,7 +114,7 @@ pub fn study(
     library_cache: &LibraryCache,
     watch: &dyn ProgressObserver,
 ) -> Result<CaseStudy, TaskError> {
-    let shelved = library_cache.get();
+    let loaded = library_cache.get();
     let (scene, inspected) = match &request.case {
         CaseScene::Inspected(inspected) => {
             (Arc::clone(&inspected.scene), Some(Arc::clone(inspected)))
@@ -127,12 +127,12 @@ pub fn study(
     if watch.is_cancelled() {
         return Err(TaskError::Cancelled);
     }
-    let fitted = shelved.fitting(&request.recipe, watch);
+    let fitted = loaded.fitting(&request.recipe, watch);
     let fitted = fitted.ok_or(TaskError::Cancelled)?;
     let library: &Library = &fitted;
     let inspection = pipeline::run(&scene, library, &request.recipe, watch)?;
     let found = FoundVerdict::from(&inspection.verdict);
-    let shown = &shelved.shown;
+    let shown = &loaded.shown;
     let title_of = |name: &str| shown.title_of(name).to_owned();
     let known = || {
         // Why the history cannot be read is reported by the History workspace.

@@ -205,9 +205,9 @@ fn run_cases(
     library_cache: &LibraryCache,
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
-    let shelved = library_cache.get();
+    let loaded = library_cache.get();
     let list = folder.list().map_err(|error| UserError::of(&error))?;
-    let library = shelved.fitting(recipe, context);
+    let library = loaded.fitting(recipe, context);
     let library = library.ok_or(TaskError::Cancelled)?;
     let order = library.references.iter().map(|r| r.name.clone());
     let order: Vec<String> = order.collect();
@@ -218,7 +218,7 @@ fn run_cases(
         let confusion = Confusion::of(results, &order);
         Arc::new(CaseRun {
             recipe: Arc::clone(recipe),
-            matrix: Matrix::of(confusion, &shelved.shown),
+            matrix: Matrix::of(confusion, &loaded.shown),
             calibration: Calibration::of(results),
             trade_off: TradeOff::of(results),
             results: results.to_vec(),

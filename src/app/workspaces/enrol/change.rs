@@ -67,15 +67,15 @@ pub(super) fn change(
     change: &LibraryChange,
     library_cache: &LibraryCache,
 ) -> Result<Changed, UserError> {
-    let shelved = library_cache.get();
-    let folder = shelved.folder_to_change()?;
+    let loaded = library_cache.get();
+    let folder = loaded.folder_to_change()?;
     let title_of = |name: &PartName| {
-        let place = shelved.shown.place_of(name.as_str());
-        let title = place.map(|place| shelved.shown.title(place));
+        let place = loaded.shown.place_of(name.as_str());
+        let title = place.map(|place| loaded.shown.title(place));
         title.map_or_else(|| name.to_string(), str::to_owned)
     };
     if let LibraryChange::Save(_, words, _) = change
-        && shelved.shown.place_of(words.name.as_str()).is_none()
+        && loaded.shown.place_of(words.name.as_str()).is_none()
         && folder.path().join(words.name.as_str()).exists()
     {
         let reloaded = library_cache.reload();

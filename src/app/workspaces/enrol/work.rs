@@ -175,9 +175,9 @@ fn check(
     context.check()?;
     // Clear the placeholder name, so that no enrolled part is left out of the comparison for having the same.
     enrolled.reference.name.clear();
-    let shelved = library_cache.get();
+    let loaded = library_cache.get();
     let coverage = enrolled.part.meta.coverage;
-    let likenesses = likenesses(&enrolled.reference, coverage, &shelved.library);
+    let likenesses = likenesses(&enrolled.reference, coverage, &loaded.library);
     Ok(DraftEvent::Checked(Ok(Arc::new(Checked {
         warnings: enrolled.warnings.iter().map(UserError::of).collect(),
         enrolled: Arc::new(enrolled),

@@ -14,11 +14,11 @@ use crate::{
 
 /// Inspections that wait for Live at most, 4 MB each; usually one does, for as long as Live needs for a frame.
 const MAX_WAITING: usize = 4;
-/// Inspections are handed to the history with numbers from here on, beyond those of the window's own.
+/// First number of these inspections for the history, beyond those of the window's own inspections.
 const FIRST_TICKET: u64 = 1 << 63;
 
-/// Hands inspections to the history, each once Live has told of which part it is. Dropping it hands over all of them, and
-/// waits until they are written.
+/// Passes inspections to the history, each once Live knows which part it shows. Dropping it passes on all of them and waits
+/// until they are written.
 pub(super) struct TriggerRows {
     writer: Writer,
     parts: Arc<Mutex<FollowedParts>>,
@@ -41,18 +41,18 @@ impl TriggerRows {
         }
     }
 
-    /// Takes in an inspection, and what [`FollowedParts::part_of_frame`] tells of its frame.
+    /// Adds an inspection, with the answer of [`FollowedParts::part_of_frame`] about its frame.
     pub(super) fn add(&mut self, entry: NewEntry, part: Receiver<HungId>) {
         self.waiting.push(WaitingRow { entry, part });
         self.write(MAX_WAITING);
     }
 
-    /// Hands over what Live has told of. Without Live nothing waits for it.
+    /// Passes on the inspections whose part is known; without Live, all of them.
     pub(super) fn update(&mut self, is_followed: bool) {
         self.write(if is_followed { MAX_WAITING } else { 0 });
     }
 
-    /// Hands over all but the newest, so many at most, of which nothing is told yet.
+    /// Passes on all inspections except the newest ones whose part is not known yet, up to `max_waiting`.
     fn write(&mut self, max_waiting: usize) {
         let waiting = std::mem::take(&mut self.waiting);
         let num_over = waiting.len().saturating_sub(max_waiting);

@@ -107,7 +107,7 @@ pub(super) struct AnswerRequest {
     pub(super) on_history: Box<dyn Fn() + Send>,
 }
 
-/// Runs the server until it is told to end or the task is cancelled. On return all answered inspections are in the history.
+/// Runs the server until `is_ending` is set or the task is cancelled. On return, all answered inspections are in the history.
 pub(super) fn answer(
     request: AnswerRequest,
     context: &TaskContext<AnsweringStatus>,

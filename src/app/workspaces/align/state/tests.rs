@@ -28,8 +28,8 @@ impl Bench {
     /// With the shipped library.
     fn with_library() -> Self {
         let mut bench = Self::new();
-        let shelved = bench.shell.services.library_cache.get();
-        bench.shell.session.library = Some(Arc::clone(&shelved.shown));
+        let loaded = bench.shell.services.library_cache.get();
+        bench.shell.session.library = Some(Arc::clone(&loaded.shown));
         bench
     }
 
@@ -125,8 +125,8 @@ fn every_method_runs_on_the_pair_and_a_scrubbed_pose_gives_the_e_of_its_iteratio
 #[test]
 fn the_source_is_the_part_moved_by_the_start_and_the_truth_brings_it_back() {
     let library_cache = LibraryCache::default();
-    let shelved = library_cache.get();
-    let reference = &shelved.library.references[0];
+    let loaded = library_cache.get();
+    let reference = &loaded.library.references[0];
     for start in [Start::Paper(4), Start::Random(3)] {
         let pair = Pair::moved_copy(reference, "part", start);
         let truth = pair.truth.expect("known");
