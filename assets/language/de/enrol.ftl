@@ -139,10 +139,6 @@ enrol-segment-specks = Einzelne Punkte
 enrol-segment-mesh = Netz
 enrol-segment-cell = Umgebende Zelle
 enrol-view = 3D-Ansicht des Entwurfs
-enrol-view-fit = Einpassen
-enrol-view-front = Vorn
-enrol-view-top = Oben
-enrol-view-side = Seite
 
 ## Keys
 enrol-key-redo = Letzte rückgängig gemachte Änderung wiederholen

@@ -68,13 +68,7 @@ paint-film-colours-hint = Teil nach der Schichtdicke einfärben
 
 ## View and timeline
 paint-view = 3D-Ansicht des Teils und seiner Lackierbahn
-paint-view-fit = Einpassen
-paint-view-front = Vorn
-paint-view-top = Oben
-paint-view-side = Seite
 paint-gun-off = Pistole aus
-paint-play = Abspielen
-paint-pause = Pause
 paint-key-play = Pistole die Bahn entlangfahren lassen oder anhalten
 paint-key-back = Zur vorigen Bahn
 paint-key-on = Zur nächsten Bahn

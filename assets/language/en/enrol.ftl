@@ -139,10 +139,6 @@ enrol-segment-specks = Specks
 enrol-segment-mesh = Mesh
 enrol-segment-cell = Cell around it
 enrol-view = 3-D view of the draft
-enrol-view-fit = Fit
-enrol-view-front = Front
-enrol-view-top = Top
-enrol-view-side = Side
 
 ## Keys
 enrol-key-redo = Redo the last undone change

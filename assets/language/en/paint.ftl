@@ -68,13 +68,7 @@ paint-film-colours-hint = Colour the part by the thickness of its film
 
 ## View and timeline
 paint-view = 3-D view of the part and its spray path
-paint-view-fit = Fit
-paint-view-front = Front
-paint-view-top = Top
-paint-view-side = Side
 paint-gun-off = gun off
-paint-play = Play
-paint-pause = Pause
 paint-key-play = Run the gun along the path, or stop it
 paint-key-back = To the previous stroke
 paint-key-on = To the next stroke

@@ -139,10 +139,6 @@ enrol-segment-specks = Puntos sueltos
 enrol-segment-mesh = Malla
 enrol-segment-cell = Celda alrededor
 enrol-view = Vista 3D del borrador
-enrol-view-fit = Ajustar
-enrol-view-front = Frente
-enrol-view-top = Arriba
-enrol-view-side = Lado
 
 ## Keys
 enrol-key-redo = Rehacer el último cambio deshecho

@@ -68,13 +68,7 @@ paint-film-colours-hint = Colorear la pieza según el espesor de la película
 
 ## View and timeline
 paint-view = Vista 3D de la pieza y su trayectoria de pintura
-paint-view-fit = Ajustar
-paint-view-front = Frente
-paint-view-top = Arriba
-paint-view-side = Lado
 paint-gun-off = pistola cerrada
-paint-play = Reproducir
-paint-pause = Pausa
 paint-key-play = Recorrer la trayectoria con la pistola o pararla
 paint-key-back = A la pasada anterior
 paint-key-on = A la pasada siguiente

@@ -138,10 +138,6 @@ enrol-segment-specks = 散点
 enrol-segment-mesh = 网格
 enrol-segment-cell = 周围工位
 enrol-view = 草稿的三维视图
-enrol-view-fit = 适合
-enrol-view-front = 前
-enrol-view-top = 上
-enrol-view-side = 侧
 
 ## Keys
 enrol-key-redo = 重做上一次撤销的更改

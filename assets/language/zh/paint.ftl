@@ -68,13 +68,7 @@ paint-film-colours-hint = 按膜厚为零件着色
 
 ## View and timeline
 paint-view = 零件及其喷涂轨迹的三维视图
-paint-view-fit = 适合
-paint-view-front = 前
-paint-view-top = 上
-paint-view-side = 侧
 paint-gun-off = 喷枪关
-paint-play = 播放
-paint-pause = 暂停
 paint-key-play = 让喷枪沿轨迹运行或停止
 paint-key-back = 上一行程
 paint-key-on = 下一行程

@@ -1,6 +1,31 @@
 //! A position along a line, moved by keys and by a screen reader: the timeline of Paint, the iterations of Align.
 
-use egui::{EventFilter, Key, Modifiers, Response, Ui, accesskit};
+use egui::{Button, EventFilter, Key, Modifiers, Response, RichText, Ui, accesskit};
+
+use super::widgets::labelled;
+use crate::app::language::text;
+
+/// Whether the position moves by itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Playback {
+    /// It stands still.
+    #[default]
+    Paused,
+    /// It moves.
+    Playing,
+}
+
+impl Playback {
+    /// Draws the button that plays or pauses; true if it was pressed.
+    pub(in crate::app) fn button(self, ui: &mut Ui) -> bool {
+        let text = match self {
+            Self::Paused => text!("view-play"),
+            Self::Playing => text!("view-pause"),
+        };
+        let button = Button::new(&text).shortcut_text(RichText::new("P").small().weak());
+        labelled(ui, button, &text).clicked()
+    }
+}
 
 /// The name of a scrubber and its position.
 pub(in crate::app) struct Scrubber {

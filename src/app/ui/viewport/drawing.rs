@@ -1,10 +1,13 @@
 //! Drawing a box or a lasso with the pointer, over a 3-D view or a picture.
 
-use egui::{Event, Key, Painter, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
+use egui::{
+    Event, Frame, Key, Label, Painter, PointerButton, Pos2, Rect, Response, RichText, Shape,
+    Stroke, Ui, UiBuilder, vec2,
+};
 use glam::{Mat4, Vec2, Vec3};
 
 use super::style::{Role, ViewColours};
-use crate::app::ui::theme::font;
+use crate::app::ui::theme::{ROUNDING, font, space};
 
 /// The shape that a drag draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -163,6 +166,19 @@ pub fn outline(painter: &Painter, corners: &[Pos2], words: &str, colours: &ViewC
     let plate = Rect::from_min_size(room.clamp(above), galley.size());
     painter.rect_filled(plate.expand(3.0), 0.0, colours.background);
     painter.galley(plate.min, galley, bright);
+}
+
+/// Draws a hint on a backing, so that it is legible over any points.
+pub fn hint(ui: &mut Ui, place: Rect, text: String, colours: &ViewColours) {
+    let text = RichText::new(text).small().color(colours.text);
+    let plate = Frame::new()
+        .fill(colours.background.gamma_multiply(0.85))
+        .corner_radius(ROUNDING)
+        .inner_margin(space::SMALL);
+    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
+        // Selectable text would take the drags away from the view.
+        plate.show(ui, |ui| ui.add(Label::new(text).selectable(false)));
+    });
 }
 
 #[cfg(test)]

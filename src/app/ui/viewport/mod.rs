@@ -30,6 +30,7 @@ pub mod bounds;
 pub mod camera;
 mod composite;
 mod detail;
+mod direction;
 pub mod drawing;
 mod eye_dome;
 pub mod furniture;
@@ -51,6 +52,7 @@ mod widget;
 
 pub use self::{
     camera::{FitRequest, StandardView, ViewCamera},
+    direction::ViewDirection,
     drawing::{Drawing, DrawnShape, seen_at},
     gpu::{ViewError, ViewportGpu},
     measure::Measurement,

@@ -2,7 +2,7 @@
 
 use egui::Color32;
 
-use crate::app::language::text;
+use crate::app::{language::text, ui::theme::ThemeChoice};
 use crate::{stages::segment::PointLabel, units::Metres};
 
 /// Number of colours of a scale, evenly spaced from its low end to its high end.
@@ -213,6 +213,14 @@ pub struct ViewColours {
 }
 
 impl ViewColours {
+    /// Returns the colours for a window with this theme.
+    pub fn of(theme: ThemeChoice) -> Self {
+        match theme {
+            ThemeChoice::Dark => Self::dark(),
+            ThemeChoice::Light => Self::light(),
+        }
+    }
+
     /// Returns the colours for a dark window.
     pub fn dark() -> Self {
         let role = |rgb: u32, weight: f32| RoleColour {

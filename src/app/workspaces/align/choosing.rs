@@ -9,7 +9,6 @@ use super::{
     custom::Form,
     start::Start,
     state::{AlignState, Pairing},
-    views::ViewDirection,
 };
 use crate::app::{
     inspection::source::file_name,
@@ -17,7 +16,7 @@ use crate::app::{
     shell::session::Session,
     ui::{
         theme::{Theme, font, space},
-        viewport::StandardView,
+        viewport::ViewDirection,
         widgets::{labelled, shortened, text_button},
     },
 };
@@ -85,24 +84,8 @@ pub(super) fn ui(
 /// Menu of view directions, for all views at once.
 fn look_menu(ui: &mut Ui) -> Option<ViewDirection> {
     let menu = ui.menu_button(format!("{} ▼", text!("align-view-menu")), |ui| {
-        let looks = [
-            (text!("align-view-fit"), ViewDirection::Fit),
-            (
-                text!("align-view-front"),
-                ViewDirection::From(StandardView::Front),
-            ),
-            (
-                text!("align-view-top"),
-                ViewDirection::From(StandardView::Top),
-            ),
-            (
-                text!("align-view-side"),
-                ViewDirection::From(StandardView::Side),
-            ),
-        ];
-        let chosen = looks
-            .into_iter()
-            .find(|(text, _)| ui.button(text).clicked());
+        let mut choices = ViewDirection::choices().into_iter();
+        let chosen = choices.find(|(text, _)| ui.button(text).clicked());
         if chosen.is_some() {
             ui.close();
         }

@@ -29,13 +29,14 @@ pub use self::{
     action::{AlignAction, AlignFile},
     custom::{CustomStart, Form},
     pair::{Pair, PairSource},
-    playback::{MethodComparison, Playback},
+    playback::MethodComparison,
     start::Start,
     state::{AlignResult, AlignState, Pairing},
     table::{TableCell, TableFigures, TableRow, TableShown},
     track::{MethodRun, Track},
 };
 use self::{side::SidePanel, views::LinkedViews};
+pub use crate::app::ui::scrubber::Playback;
 use crate::app::{
     language::{keys, text},
     shell::{

@@ -7,6 +7,7 @@ use super::{
     state::AlignState,
     track::{MethodRun, Track},
 };
+use crate::app::ui::scrubber::Playback;
 
 /// A pair and the results of the methods on it.
 #[derive(Debug)]
@@ -31,16 +32,6 @@ impl MethodComparison {
         runs.filter(move |run| found(run))
             .filter_map(|run| Some((run, run.track.as_ref().ok()?)))
     }
-}
-
-/// Whether the scrubber advances by itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Playback {
-    /// The scrubber stands still.
-    #[default]
-    Paused,
-    /// The scrubber advances.
-    Playing,
 }
 
 /// Duration of a playback, seconds; short tracks take less.

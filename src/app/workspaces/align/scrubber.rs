@@ -1,19 +1,14 @@
 //! Below the views: the plot, which is also the scrubber, and playback.
 
-use egui::{Align, Button, Id, Layout, RichText, Sense, Ui, vec2};
+use egui::{Align, Id, Layout, RichText, Sense, Ui, vec2};
 
-use super::{
-    action::AlignAction,
-    playback::{MethodComparison, Playback},
-    plot,
-    state::AlignState,
-};
+use super::{action::AlignAction, playback::MethodComparison, plot, state::AlignState};
 use crate::app::{
     language::text,
     ui::{
-        scrubber::{Scrubber, ScrubberInput},
+        scrubber::{Playback, Scrubber, ScrubberInput},
         theme::{font, space},
-        widgets::{focus_ring, labelled},
+        widgets::focus_ring,
     },
 };
 
@@ -80,13 +75,7 @@ fn heading(
         let title = RichText::new(&shown.pair.title).small();
         ui.label(title.weak());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let text = match align.playback {
-                Playback::Paused => text!("align-play"),
-                Playback::Playing => text!("align-pause"),
-            };
-            let key = RichText::new("P").small();
-            let button = Button::new(&text).shortcut_text(key.weak());
-            if labelled(ui, button, &text).clicked() {
+            if align.playback.button(ui) {
                 actions.push(AlignAction::TogglePlay);
             }
             let (place, last) = (align.place.round() as usize, shown.last_place());

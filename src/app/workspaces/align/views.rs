@@ -18,8 +18,8 @@ use crate::{
         ui::{
             theme::{ROUNDING, Theme, font, space},
             viewport::{
-                FitRequest, PointSize, Role, RoleColour, StandardView, ViewCamera, ViewColours,
-                ViewError, ViewScene, ViewStyle, Viewport, ViewportGpu, scene::mat4,
+                PointSize, Role, RoleColour, ViewCamera, ViewColours, ViewDirection, ViewError,
+                ViewScene, ViewStyle, Viewport, ViewportGpu, scene::mat4,
             },
         },
     },
@@ -34,15 +34,6 @@ const NARROW: f32 = 300.0;
 /// Point size. Reference clouds are thinned to 8 mm: they look closed from afar, and the other cloud still shows
 /// between.
 const POINT: Metres = Metres(0.0075);
-
-/// Direction from which the views look.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ViewDirection {
-    /// The present direction, fitted to show everything.
-    Fit,
-    /// One of the standard views.
-    From(StandardView),
-}
 
 /// Relative point size of the source: smaller than the target's, so that neither hides the other where they coincide.
 const SOURCE_WEIGHT: f32 = 0.6;
@@ -130,11 +121,8 @@ impl LinkedViews {
     }
 
     /// Turns all views and fits them.
-    pub(super) fn look(&mut self, look: ViewDirection) {
-        if let ViewDirection::From(view) = look {
-            self.camera.look(view);
-        }
-        self.camera.request_fit(FitRequest::Focus);
+    pub(super) fn look(&mut self, direction: ViewDirection) {
+        direction.apply(&mut self.camera);
     }
 
     /// Shows a new pair; its points are shared, not copied.
@@ -246,10 +234,7 @@ fn head(width: f32) -> f32 {
 }
 
 fn style(method: PoseMethod, choice: ThemeChoice) -> ViewStyle {
-    let mut colours = match choice {
-        ThemeChoice::Dark => ViewColours::dark(),
-        ThemeChoice::Light => ViewColours::light(),
-    };
+    let mut colours = ViewColours::of(choice);
     // The source has the colour of its method's curve.
     colours.roles[Role::Moving as usize] = RoleColour {
         colour: series::colour(method, choice.colours()),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Button, Frame, Label, Rect, RichText, Ui, UiBuilder, Vec2, vec2};
+use egui::{Rect, Ui, UiBuilder, Vec2, vec2};
 
 use super::{
     EnrolAction, EnrolState,
@@ -16,9 +16,9 @@ use crate::{
         language::text,
         shots::{Overlay, POINT_SIZE},
         ui::{
-            theme::{ROUNDING, Theme, ThemeChoice, space},
+            theme::{Theme, ThemeChoice, space},
             viewport::{
-                DrawnShape, FitRequest, PointSize, StandardView, ViewCamera, ViewColours,
+                DrawnShape, FitRequest, PointSize, ViewCamera, ViewColours, ViewDirection,
                 ViewError, ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
             },
         },
@@ -84,10 +84,7 @@ impl DraftView {
         let looked_at = enrol.shots.looked_at;
         self.show(draft, looked_at);
         if self.styled != theme {
-            self.style = ViewStyle::new(match theme {
-                ThemeChoice::Dark => ViewColours::dark(),
-                ThemeChoice::Light => ViewColours::light(),
-            });
+            self.style = ViewStyle::new(ViewColours::of(theme));
             self.styled = theme;
         }
         self.style.point_size = match draft.subject.scan() {
@@ -135,7 +132,7 @@ impl DraftView {
         let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
         let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);
         ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal(|ui| self.controls(ui));
+            ui.horizontal(|ui| ViewDirection::buttons(ui, &mut self.camera));
         });
         if let Some(shape) = shape {
             let painter = ui.painter_at(rect);
@@ -180,26 +177,6 @@ impl DraftView {
             space,
         });
     }
-
-    fn controls(&mut self, ui: &mut Ui) {
-        let button = |ui: &mut Ui, text: String| {
-            let text = RichText::new(text).small();
-            ui.add(Button::new(text).min_size(Vec2::splat(space::TARGET)))
-        };
-        if button(ui, text!("enrol-view-fit")).clicked() {
-            self.camera.request_fit(FitRequest::Focus);
-        }
-        for (text, view) in [
-            (text!("enrol-view-front"), StandardView::Front),
-            (text!("enrol-view-top"), StandardView::Top),
-            (text!("enrol-view-side"), StandardView::Side),
-        ] {
-            if button(ui, text).clicked() {
-                self.camera.look(view);
-                self.camera.request_fit(FitRequest::Focus);
-            }
-        }
-    }
 }
 
 /// Draws a hint on how to draw and what it does.
@@ -209,15 +186,7 @@ fn hint(ui: &mut Ui, place: Rect, shape: DrawnShape, mode: OutlineMode, colours:
         drag = drag_to_draw(shape),
         does = mode.explanation()
     );
-    let text = RichText::new(text).small().color(colours.text);
-    let plate = Frame::new()
-        .fill(colours.background.gamma_multiply(0.85))
-        .corner_radius(ROUNDING)
-        .inner_margin(space::SMALL);
-    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
-        // Selectable text would take the drags away from the view.
-        plate.show(ui, |ui| ui.add(Label::new(text).selectable(false)));
-    });
+    drawing::hint(ui, place, text, colours);
 }
 
 /// The overlay of a scan's points.

@@ -375,13 +375,9 @@ fn overlay<'a>(state: &'a InspectState, inspected: &'a Inspected) -> Option<Over
 }
 
 fn style(theme: ThemeChoice) -> ViewStyle {
-    let colours = match theme {
-        ThemeChoice::Dark => ViewColours::dark(),
-        ThemeChoice::Light => ViewColours::light(),
-    };
     ViewStyle {
         deviation_range: DEVIATION_RANGE,
-        ..ViewStyle::new(colours)
+        ..ViewStyle::new(ViewColours::of(theme))
     }
 }
 

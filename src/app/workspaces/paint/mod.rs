@@ -34,12 +34,12 @@ pub use self::{
     action::{PaintAction, PaintFile, ShownPath},
     course::{GunCourse, GunState},
     design::Design,
-    playback::Playback,
     reach::Reach,
     region::{EditKind, PaintTool, RegionUse},
     state::PaintState,
     work::Planned,
 };
+pub use crate::app::ui::scrubber::Playback;
 use crate::app::{
     language::{keys, text},
     shell::{

@@ -1,16 +1,7 @@
 //! Playback of the gun along the path.
 
 use super::state::PaintState;
-
-/// Whether the gun moves by itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Playback {
-    /// The gun stands still.
-    #[default]
-    Paused,
-    /// The gun moves.
-    Playing,
-}
+use crate::app::ui::scrubber::Playback;
 
 impl PaintState {
     /// Duration of the whole path, seconds.

@@ -5,7 +5,6 @@ use std::{path::PathBuf, sync::Arc};
 use super::{
     action::{PaintAction, PaintFile, ShownPath},
     design::{Design, Step, UndoDirection, UndoStack},
-    playback::Playback,
     reach::{Reach, ReachRequest},
     region::PaintTool,
     work::{self, PaintResult, Planned, Request},
@@ -23,6 +22,7 @@ use crate::{
             session::{Session, WorkspaceKind},
         },
         task::{Running, Task, TaskEvent, TaskRunner},
+        ui::scrubber::Playback,
         user_error::UserError,
     },
     library::{PartName, SprayPath},

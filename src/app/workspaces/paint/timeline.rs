@@ -1,14 +1,14 @@
 //! Below the view: the path over time, with the gun on in blocks, to be played and scrubbed.
 
-use egui::{Align2, Button, Id, RichText, Sense, Ui, pos2, vec2};
+use egui::{Align2, Id, Sense, Ui, pos2, vec2};
 
-use super::{action::PaintAction, playback::Playback, state::PaintState, work::Planned};
+use super::{action::PaintAction, state::PaintState, work::Planned};
 use crate::app::{
     language::text,
     ui::{
-        scrubber::{Scrubber, ScrubberInput},
+        scrubber::{Playback, Scrubber, ScrubberInput},
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Scale, focus_ring, labelled},
+        widgets::{Scale, focus_ring},
     },
 };
 
@@ -101,13 +101,7 @@ pub(super) fn ui(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>
 
 fn heading(ui: &mut Ui, paint: &PaintState, planned: &Planned, actions: &mut Vec<PaintAction>) {
     ui.horizontal(|ui| {
-        let text = match paint.playback {
-            Playback::Paused => text!("paint-play"),
-            Playback::Playing => text!("paint-pause"),
-        };
-        let key = RichText::new("P").small();
-        let button = Button::new(&text).shortcut_text(key.weak());
-        if labelled(ui, button, &text).clicked() {
+        if paint.playback.button(ui) {
             actions.push(PaintAction::TogglePlay);
         }
         ui.label(place_text(paint, planned));

@@ -2,7 +2,7 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
-use egui::{Button, Frame, Label, Rect, RichText, Ui, UiBuilder, Vec2, vec2};
+use egui::{Rect, Ui, UiBuilder, Vec2, vec2};
 use glam::Vec3;
 use nalgebra::Vector3;
 
@@ -18,11 +18,11 @@ use crate::{
         language::text,
         shell::session::{Session, ThemeChoice},
         ui::{
-            theme::{ROUNDING, space},
+            theme::space,
             viewport::{
-                Colouring, DrawnShape, FitRequest, Legend, Line, LineSet, PointSize, Role,
-                ScaleWords, StandardView, TextLabel, ViewCamera, ViewColours, ViewError, ViewScene,
-                ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
+                Colouring, DrawnShape, Legend, Line, LineSet, PointSize, Role, ScaleWords,
+                StandardView, TextLabel, ViewCamera, ViewColours, ViewDirection, ViewError,
+                ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
             },
         },
     },
@@ -98,8 +98,7 @@ impl PaintView {
         let part = paint.planned.as_ref().map(|planned| &planned.part);
         if part.is_some() && self.fitted.as_ref() != part {
             self.fitted = part.cloned();
-            self.camera.look(StandardView::Front);
-            self.camera.request_fit(FitRequest::Focus);
+            ViewDirection::From(StandardView::Front).apply(&mut self.camera);
         }
         self.viewport.tool = match (paint.tool, self.viewport.tool) {
             (PaintTool::Outline(shape, _), _) => ViewTool::Draw(shape),
@@ -123,7 +122,7 @@ impl PaintView {
         let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
         let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);
         ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal(|ui| self.controls(ui));
+            ui.horizontal(|ui| ViewDirection::buttons(ui, &mut self.camera));
         });
         self.tool_overlay(ui, rect, paint);
     }
@@ -258,18 +257,7 @@ impl PaintView {
         // The hint would cover the part while a person draws.
         if corners.is_empty() {
             let place = rect.with_min_y(rect.bottom() - 2.0 * space::TARGET);
-            let text = RichText::new(hint).small().color(colours.text);
-            let plate = Frame::new()
-                .fill(colours.background.gamma_multiply(0.85))
-                .corner_radius(ROUNDING)
-                .inner_margin(space::SMALL);
-            ui.scope_builder(
-                UiBuilder::new().max_rect(place.shrink(space::SMALL)),
-                |ui| {
-                    // Selectable text would take the drags away from the view.
-                    plate.show(ui, |ui| ui.add(Label::new(text).selectable(false)));
-                },
-            );
+            drawing::hint(ui, place.shrink(space::SMALL), hint, colours);
         }
     }
 
@@ -284,10 +272,7 @@ impl PaintView {
 
     fn style_as(&mut self, paint: &PaintState, theme: ThemeChoice) {
         if self.styled != Some(theme) {
-            self.style = ViewStyle::new(match theme {
-                ThemeChoice::Dark => ViewColours::dark(),
-                ThemeChoice::Light => ViewColours::light(),
-            });
+            self.style = ViewStyle::new(ViewColours::of(theme));
             // Make the marks of the gun going on and off visible from afar.
             for role in [Role::AxisX, Role::AxisY] {
                 self.style.colours.roles[role as usize].weight = MARKS;
@@ -345,26 +330,6 @@ impl PaintView {
         let gun = drawn_gun(planned, &state, session);
         self.gun = Some((Arc::clone(planned), time, gun.clone()));
         gun
-    }
-
-    fn controls(&mut self, ui: &mut Ui) {
-        let button = |ui: &mut Ui, text: String| {
-            let text = RichText::new(text).small();
-            ui.add(Button::new(text).min_size(Vec2::splat(space::TARGET)))
-        };
-        if button(ui, text!("paint-view-fit")).clicked() {
-            self.camera.request_fit(FitRequest::Focus);
-        }
-        for (text, view) in [
-            (text!("paint-view-front"), StandardView::Front),
-            (text!("paint-view-top"), StandardView::Top),
-            (text!("paint-view-side"), StandardView::Side),
-        ] {
-            if button(ui, text).clicked() {
-                self.camera.look(view);
-                self.camera.request_fit(FitRequest::Focus);
-            }
-        }
     }
 }
 
