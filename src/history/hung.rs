@@ -40,11 +40,11 @@ impl fmt::Display for HungId {
 pub struct HungRows<E = NewEntry> {
     parts: HungParts,
     id: HungId,
-    /// Of the part that hangs there next.
+    /// Identifier of the part that hangs there next.
     next: HungId,
     visit: u64,
     departures: u64,
-    /// Of a part whose verdict does not count yet.
+    /// The best entry of a part whose verdict does not count yet.
     best: Option<E>,
 }
 
@@ -238,7 +238,7 @@ mod tests {
         assert_eq!(line.counted(&fender), FrameRole::First);
         assert_eq!(*line.rows.id(), second);
 
-        // What is there for a moment and goes is not the part that comes after it.
+        // Something that hangs there only for a moment is not the part that comes after it.
         line.open(&empty);
         line.open(&fender);
         let passing = line.rows.id_of_frame(true);

@@ -13,12 +13,12 @@
 //! angles_deg = [0, 0, 30]          # about x, y and z of the base, R = Rz·Ry·Rx; 0 without them
 //! ```
 //!
-//! Of the arm itself, gun and wrist must stay clear of the upper arm; gun, wrist and forearm of the base column; and
-//! the gun of the forearm. The column reaches from the foot to the height of joint 2; its radius is that of the upper
-//! arm, or the distance of joint 2 from joint 1 if larger. Bodies that share a joint are not compared: wrist and
-//! forearm, forearm and upper arm, upper arm and column. The gun begins at the end of a short wrist, so near the middle
-//! of the wrist it is always near the forearm. The parts of both that are there, within the radii and the clearance,
-//! are ignored: a gun ahead of the wrist is clear, one folded back along the forearm is not.
+//! The gun must stay clear of the upper arm, the forearm and the base column of the arm itself, the wrist of the upper
+//! arm and the column, and the forearm of the column. The column reaches from the foot to the height of joint 2; its
+//! radius is that of the upper arm, or the distance of joint 2 from joint 1 if larger. Bodies that share a joint are
+//! not compared: wrist and forearm, forearm and upper arm, upper arm and column. The gun begins at the end of a short
+//! wrist, so near the middle of the wrist it is always near the forearm. The parts of both that are there, within the
+//! radii and the clearance, are ignored: a gun ahead of the wrist is clear, one folded back along the forearm is not.
 //!
 //! Known limits: only the limits of joint 5 keep wrist and forearm apart. Hoses, cables, counterweights and anything
 //! that the arm carries besides the gun are not modelled. Part, boxes and floor are not compared with the base column,

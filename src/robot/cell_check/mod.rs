@@ -51,9 +51,9 @@ const NOISIER: f64 = 1.5;
 /// The largest movement that still counts as in place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CellLimits {
-    /// Of the part's middle, and of wall and floor where they are seen.
+    /// Movement of the part's middle, and of wall and floor where they are seen.
     pub shift: Metres,
-    /// Of the part.
+    /// Rotation of the part.
     pub turn: Radians,
 }
 

@@ -44,7 +44,7 @@ impl FollowedParts {
         self.asked.retain(|frame| {
             let is_former = frame.source == self.source;
             if is_former {
-                // Whoever asked may have gone.
+                // The receiver may be gone.
                 let _ = frame.tell.send(part.clone());
             }
             !is_former
@@ -133,7 +133,7 @@ impl FollowedParts {
                 && frame.source == *source
                 && let Some(part) = part_of(frame)
             {
-                // Whoever asked may have gone.
+                // The receiver may be gone.
                 let _ = frame.tell.send(part);
             }
             !is_due

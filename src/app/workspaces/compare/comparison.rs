@@ -1,7 +1,7 @@
 //! Compares the outline of a scene with that of one enrolled part: overlaid at the best lag, ray by ray, and by auto- and
 //! cross-correlation.
 //!
-//! What the two matchers do with a correlation differs, and so do the figures:
+//! The two matchers use the correlation in different ways, so their figures differ:
 //! - the default one correlates the rays as complex numbers L·e^{iΘ} around the circle. The strongest lag says how far
 //!   one outline is shifted along the other, the phase there how far it is turned; the distance that remains between
 //!   the outlines decides. A is the part with itself, C with the scene, both by their modulus and from their own

@@ -20,7 +20,7 @@ impl PaintState {
         let course = &planned.course;
         let begins = course.strokes.iter().map(|stroke| course.times(*stroke)[0]);
         let begins: Vec<f64> = begins.collect();
-        // Just begun, the one before is meant.
+        // At the beginning of a stroke, a step back leads to the stroke before it.
         let now = begins.partition_point(|begin| *begin <= self.time + 1e-6) as i32 - 1;
         let wanted = usize::try_from(now + strokes).unwrap_or(0);
         let time = begins.get(wanted).copied().unwrap_or(course.duration());

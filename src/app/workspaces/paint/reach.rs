@@ -68,9 +68,9 @@ pub struct Reach {
     pub base: Option<PlaceSuggestion>,
     /// A position on its rail that reaches more points.
     pub rail: Option<PlaceSuggestion>,
-    /// Of what accelerations are not checked: `joints`, `rail` or `joints and rail`.
+    /// Whose accelerations are not checked: `joints`, `rail` or `joints and rail`.
     pub unchecked_accelerations: Option<&'static str>,
-    /// Between which positions, metres, its rail moves along the path; none of a rail that stands still.
+    /// The positions, metres, between which its rail moves along the path; `None` for a rail that stands still.
     pub rail_range: Option<[f64; 2]>,
     /// Lines over the points not reached, and the boxes of the cell.
     pub(super) lines: LineSet,
