@@ -13,6 +13,7 @@ use partsight::{
     bench::suites::{enrol_standard_parts, enrolment_pose},
     geometry::{
         cloud::{Grid, PointCloud},
+        parallel::on_one_core,
         rigid::pose_error,
     },
     library::{EnrolParams, Library},
@@ -119,6 +120,33 @@ fn the_same_scene_gives_the_same_bits() {
     assert_eq!(once.ranking, again.ranking);
     assert_eq!(once.pose, again.pose);
     assert_eq!(once.verdict, again.verdict);
+}
+
+#[test]
+fn one_core_and_all_of_them_give_the_same_bits() {
+    let library = standard();
+    let fender = SimulatedObject::Part {
+        kind: PartKind::Fender,
+        side: Side::Left,
+        model_seed: 0,
+    };
+    // A whole part; one that the picture cuts, which is searched for as a piece; and a thing like no part.
+    let scenes = [
+        door(0.4, [0.02, 0.0]),
+        scene_of(&CellSetup::booth(fender, 5_800_519)),
+        scene_of(&CellSetup::booth(
+            SimulatedObject::Object(ObjectKind::Chair),
+            3_900_012,
+        )),
+    ];
+    for scene in &scenes {
+        let alone = on_one_core(|| inspected(scene, &library, &Recipe::default()));
+        let shared = inspected(scene, &library, &Recipe::default());
+        assert_eq!(alone.segmentation, shared.segmentation);
+        assert_eq!(alone.ranking, shared.ranking);
+        assert_eq!(alone.pose, shared.pose);
+        assert_eq!(alone.verdict, shared.verdict);
+    }
 }
 
 #[test]

@@ -3,18 +3,40 @@
 //! Stages start threads only here. A stage remains a pure function: it states how many pieces there are and how many
 //! workers may share them, and gets bit-identical results for any number of workers, because the pieces are independent
 //! and nothing is summed here. Threads are started per call and end with it: a pool would save about ten microseconds
-//! per thread, but would be global state that outlives its callers.
+//! per thread, but would be global state that outlives its callers. Work that already shares the cores with other workers
+//! starts no further threads.
 
 use std::{
+    cell::Cell,
     num::NonZero,
     panic::resume_unwind,
     sync::atomic::{AtomicUsize, Ordering},
     thread,
 };
 
-/// Returns the number of processor cores available.
+thread_local! {
+    /// True while this thread may not share its work.
+    static IS_ONE_CORE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Returns the number of processor cores available to the caller: one for a worker, and within [`on_one_core`].
 pub fn num_cores() -> usize {
+    if IS_ONE_CORE.get() {
+        return 1;
+    }
     thread::available_parallelism().map_or(1, NonZero::get)
+}
+
+/// Runs `work` on this thread alone.
+pub fn on_one_core<T>(work: impl FnOnce() -> T) -> T {
+    struct Restore(bool);
+    impl Drop for Restore {
+        fn drop(&mut self) {
+            IS_ONE_CORE.set(self.0);
+        }
+    }
+    let _restore = Restore(IS_ONE_CORE.replace(true));
+    work()
 }
 
 /// Runs `work` on each of `0..num_pieces` with up to `num_workers` workers; returns the results in order.
@@ -48,8 +70,9 @@ pub fn map_in_order<S, T: Send>(
         }
     };
     let mut blocks = thread::scope(|scope| {
-        let others: Vec<_> = (1..num_workers).map(|_| scope.spawn(take_blocks)).collect();
-        let mut blocks = take_blocks();
+        let worker = || on_one_core(take_blocks);
+        let others: Vec<_> = (1..num_workers).map(|_| scope.spawn(worker)).collect();
+        let mut blocks = worker();
         for other in others {
             match other.join() {
                 Ok(done) => blocks.extend(done),
@@ -89,6 +112,17 @@ mod tests {
         let prepare = || prepared.fetch_add(1, Ordering::Relaxed);
         map_in_order(100, 4, prepare, |_, i| i);
         assert!(prepared.load(Ordering::Relaxed) <= 4);
+    }
+
+    #[test]
+    fn workers_start_no_further_threads() {
+        let found = map_in_order(8, 3, || (), |(), _| num_cores());
+        assert_eq!(found, [1; 8]);
+        assert_eq!(on_one_core(num_cores), 1);
+        let before = num_cores();
+        let caught = std::panic::catch_unwind(|| on_one_core(|| panic!("ends the work")));
+        assert!(caught.is_err());
+        assert_eq!(num_cores(), before, "allowed again");
     }
 
     #[test]

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::{Suite, SuiteCase, SuiteFrame};
 use crate::{
     bench::speed::quantile,
+    geometry::parallel::on_one_core,
     library::Library,
     pipeline::{Cancelled, Inspection, ProgressObserver, Recipe, run},
     simulate::frame_of_mesh,
@@ -88,7 +89,7 @@ pub struct ConfusionEntry {
     pub first_seed: u64,
 }
 
-/// Inspects the frames of a suite, and calls `after_each` with every frame's case, scene and inspection.
+/// Inspects the frames of a suite on one core, and calls `after_each` with every frame's case, scene and inspection.
 pub fn run_suite(
     suite: Suite,
     frames: &[SuiteFrame],
@@ -101,7 +102,7 @@ pub fn run_suite(
     for frame in frames {
         let shot = frame_of_mesh(&frame.setup, &frame.setup.subject.mesh());
         let scene = scene_from_frame(&shot.frame);
-        let inspection = run(&scene, library, recipe, watch)?;
+        let inspection = on_one_core(|| run(&scene, library, recipe, watch))?;
         let case = SuiteCase::of(frame, &shot.truth, &inspection);
         after_each(&case, &scene, &inspection);
         cases.push(case);

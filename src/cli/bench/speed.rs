@@ -15,6 +15,7 @@ use crate::{
         input::open_scene,
     },
     files::read_limited,
+    geometry::parallel::on_one_core,
     pipeline::{Recipe, Timings, Unwatched, run as inspect},
 };
 
@@ -104,7 +105,7 @@ fn inspect_files(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Vec<
     console.start_progress(args.files.len());
     let timed = |path: &PathBuf| {
         let (scene, _) = open_scene(path).advised()?;
-        let inspection = inspect(&scene, &load.library, &recipe, &Unwatched)?;
+        let inspection = on_one_core(|| inspect(&scene, &load.library, &recipe, &Unwatched))?;
         console.done();
         Ok(inspection.timings)
     };

@@ -1,5 +1,7 @@
 //! One reference's poses, from the placements of its outline to the best refined one.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use nalgebra::{Isometry2, Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
@@ -8,7 +10,10 @@ use super::{
     piece_search::{PieceSample, Start},
 };
 use crate::{
-    geometry::rigid::{RigidTransform, pose_error},
+    geometry::{
+        parallel::map_in_order,
+        rigid::{RigidTransform, pose_error},
+    },
     stages::{
         pose::{
             PoseEstimate, PoseMethod, RunnerUp, Uncertainty,
@@ -22,6 +27,7 @@ use crate::{
 };
 
 /// The best pose of one reference.
+#[derive(Clone)]
 pub(super) struct ReferenceCandidate {
     pub(super) refined: Refined,
     /// The view whose edges it is refined to.
@@ -73,10 +79,13 @@ const POSES_OF_A_WHOLE: usize = 2;
 /// Poses of a piece: it may lie in several places along the part.
 const POSES_OF_A_PIECE: usize = 3;
 /// Starts of a piece on all references that are refined.
-const MOST_REFINED: usize = 16;
+const MOST_REFINED: usize = 10;
 /// Where the best start costs more than this, nothing enrolled is there: so few are refined, to say how far off it is.
 const HOPELESS_START: f64 = 1.3;
 const FEW_REFINED: usize = 3;
+/// Where there is a score to beat, starts that cost more than this are not refined: of 14 surfaces accepted in that way,
+/// the best start of the worst cost 0.73.
+const WORTH_REFINING: f64 = 1.0;
 /// A start of a piece that costs this much more than the best one is not refined; nor is a pose weighed.
 pub(super) const WORSE_START: f64 = 0.5;
 const WORSE_POSE: f64 = 0.35;
@@ -93,27 +102,38 @@ impl PreparedScene<'_> {
         references: &[Reference],
         least_score: f64,
     ) -> Vec<Vec<PoseTrial>> {
-        let mut starts: Vec<(usize, Start)> = Vec::new();
-        let mut least = f64::INFINITY;
         // What fits badly is of use only to say how far off it is.
         let most_cost = if least_score > 0.0 {
-            HOPELESS_START
+            WORTH_REFINING
         } else {
             f64::INFINITY
         };
-        for (number, entry) in entries.iter().enumerate() {
+        // The least cost so far saves work on the other references, in whatever order they come: what it prunes would be
+        // dropped below anyway. Costs are not negative, so their bits sort as they do.
+        let least = AtomicU64::new(f64::INFINITY.to_bits());
+        let of_reference = |number: usize| {
+            let entry = entries[number];
             let reference = &references[entry.reference];
-            if let Some(piece) = self.piece_for(reference) {
-                let placed = self.distinct_starts(reference, &entry.placements);
-                let placed = placed.into_iter().map(|start| start.1);
-                let limit = f64::min(least + WORSE_START, most_cost);
-                let of_reference = self.coarse_starts(piece, reference, placed, limit);
-                least = of_reference
-                    .first()
-                    .map_or(least, |best| least.min(best.cost));
-                starts.extend(of_reference.into_iter().map(|start| (number, start)));
+            let Some(piece) = self.piece_for(reference) else {
+                return Vec::new();
+            };
+            let placed = self.distinct_starts(reference, &entry.placements);
+            let placed = placed.into_iter().map(|start| start.1);
+            let known = f64::from_bits(least.load(Ordering::Relaxed));
+            let limit = f64::min(known + WORSE_START, most_cost);
+            let starts = self.coarse_starts(piece, reference, placed, limit);
+            if let Some(best) = starts.first() {
+                least.fetch_min(best.cost.to_bits(), Ordering::Relaxed);
             }
-        }
+            starts
+        };
+        let of_references = self.in_parallel(entries.len(), of_reference);
+        let mut starts: Vec<(usize, Start)> = of_references
+            .into_iter()
+            .enumerate()
+            .flat_map(|(number, starts)| starts.into_iter().map(move |start| (number, start)))
+            .collect();
+        let least = f64::from_bits(least.into_inner());
         starts.sort_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
         starts.truncate(if least < HOPELESS_START {
             MOST_REFINED
@@ -121,36 +141,42 @@ impl PreparedScene<'_> {
             FEW_REFINED
         });
         starts.retain(|start| start.1.cost < least + WORSE_START);
-        let of_entry = |(number, entry): (usize, &&MatchEntry)| {
+        let of_pieces = self.in_parallel(starts.len(), |i| {
+            let (number, start) = &starts[i];
+            let reference = &references[entries[*number].reference];
+            self.attempt_piece(self.piece_for(reference)?, reference, start)
+        });
+        let mut trials = self.in_parallel(entries.len(), |number| {
+            let entry = entries[number];
             let reference = &references[entry.reference];
-            let mut trials: Vec<PoseTrial> = match self.piece_for(reference) {
-                Some(piece) => starts
-                    .iter()
-                    .filter(|start| start.0 == number)
-                    .filter_map(|(_, start)| self.attempt_piece(piece, reference, start))
-                    .collect(),
-                None => self
-                    .distinct_starts(reference, &entry.placements)
-                    .into_iter()
-                    .filter_map(|(view, start)| self.attempt(reference, view, &start, &FIRST, None))
-                    .collect(),
-            };
-            trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-            trials
-        };
-        let mut trials: Vec<Vec<PoseTrial>> = entries.iter().enumerate().map(of_entry).collect();
+            if self.piece_for(reference).is_some() {
+                return Vec::new();
+            }
+            let starts = self.distinct_starts(reference, &entry.placements);
+            let attempt = |(view, start)| self.attempt(reference, view, &start, &FIRST, None);
+            starts.into_iter().filter_map(attempt).collect()
+        });
+        for ((number, _), trial) in starts.iter().zip(of_pieces) {
+            trials[*number].extend(trial);
+        }
+        for trials in &mut trials {
+            trials.sort_by(|a: &PoseTrial, b| a.cost.total_cmp(&b.cost));
+        }
         let least = least_piece_cost(&trials);
-        for (entry, trials) in entries.iter().zip(&mut trials) {
-            let reference = &references[entry.reference];
-            let Some(piece) = self.piece_for(reference) else {
-                continue;
-            };
-            let best = trials.first();
-            if let Some(best) = best.filter(|best| best.cost < least + WORSE_POSE) {
+        let elsewhere = self.in_parallel(entries.len(), |number| {
+            let reference = &references[entries[number].reference];
+            let piece = self.piece_for(reference)?;
+            let best = trials[number].first()?;
+            (best.cost < least + WORSE_POSE).then(|| {
                 let pose = best.refined.target_from_source;
-                for start in self.slides(piece, reference, &pose, best.cost) {
-                    trials.extend(self.attempt_piece(piece, reference, &start));
-                }
+                let slides = self.slides(piece, reference, &pose, best.cost);
+                let attempt = |start| self.attempt_piece(piece, reference, start);
+                slides.iter().filter_map(attempt).collect::<Vec<_>>()
+            })
+        });
+        for (trials, elsewhere) in trials.iter_mut().zip(elsewhere) {
+            if let Some(elsewhere) = elsewhere {
+                trials.extend(elsewhere);
                 trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
             }
         }
@@ -159,6 +185,15 @@ impl PreparedScene<'_> {
             trials.retain(|trial| !trial.is_piece || trial.cost < least + WORSE_POSE);
         }
         trials
+    }
+
+    /// Runs `work` on each of `0..num_pieces` and returns the results in order.
+    pub(super) fn in_parallel<T: Send>(
+        &self,
+        num_pieces: usize,
+        work: impl Fn(usize) -> T + Sync,
+    ) -> Vec<T> {
+        map_in_order(num_pieces, self.num_workers, || (), |(), i| work(i))
     }
 
     /// The best of the coarse poses after a finer refinement, with what else fits.

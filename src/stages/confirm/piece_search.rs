@@ -21,9 +21,13 @@ use crate::{
 
 /// Points of a piece's border that are paired.
 const NUM_BORDER: usize = 80;
-/// Pairs that are looked up in each reference: of a piece, and of what looks whole, whose border is nearly all there.
+/// Pairs that are looked up in each reference: of a piece; where only a high score counts, which takes a border that is
+/// nearly all the part's own; and of what looks whole, whose border is nearly all there.
 pub(super) const NUM_PAIRS: usize = 450;
+pub(super) const NUM_PAIRS_FOR_A_HIGH_SCORE: usize = 250;
 pub(super) const NUM_PAIRS_OF_A_WHOLE: usize = 150;
+/// A score from which on a fit is close.
+pub(super) const HIGH_SCORE: f64 = 0.3;
 /// Points of the surface that a pose is scored on, and those that it is first tried on.
 const NUM_SURFACE: usize = 56;
 const NUM_TRIED: usize = 16;

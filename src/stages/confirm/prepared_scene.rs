@@ -10,17 +10,22 @@ use super::{
     local_normal::LocalNormals,
     outline_ends::{Outline, outline_of},
     outline_shift::outline_shift,
-    piece_search::{NUM_PAIRS, NUM_PAIRS_OF_A_WHOLE, PieceSample},
-};
-use crate::stages::{
-    pose::{
-        closest::Correspondence,
-        quality::{NUM_LOOKED_FOR, Tolerance},
-        refine::{AlignmentSource, Search, refine},
-        uncertainty::uncertainty,
+    piece_search::{
+        HIGH_SCORE, NUM_PAIRS, NUM_PAIRS_FOR_A_HIGH_SCORE, NUM_PAIRS_OF_A_WHOLE, PieceSample,
     },
-    rank::MatchEntry,
-    reference::{Reference, border::BorderPoint},
+};
+use crate::{
+    geometry::parallel::num_cores,
+    stages::{
+        pose::{
+            closest::Correspondence,
+            quality::{NUM_LOOKED_FOR, Tolerance},
+            refine::{AlignmentSource, Search, refine},
+            uncertainty::uncertainty,
+        },
+        rank::MatchEntry,
+        reference::{Reference, border::BorderPoint},
+    },
 };
 
 /// The scene's side of all comparisons, prepared once.
@@ -33,7 +38,11 @@ pub(super) struct PreparedScene<'a> {
     outline: Outline,
     /// `None` if a whole part is in sight, and whole ones are enrolled.
     pub(super) piece: Option<PieceSample>,
+    /// Number of pairs of its border that are looked up.
+    num_pairs: usize,
     pub(super) tolerance: Tolerance,
+    /// Number of threads that share the references; does not affect the result.
+    pub(super) num_workers: usize,
 }
 
 /// References that are cut off and looked at whatever they rank.
@@ -44,6 +53,7 @@ impl<'a> PreparedScene<'a> {
         scene: &'a Scene<'a>,
         references: &[Reference],
         params: &ConfirmParams,
+        least_score: f64,
     ) -> Self {
         let outline = outline_of(scene);
         let source = thinned_source(scene, &outline, params.seed);
@@ -53,9 +63,10 @@ impl<'a> PreparedScene<'a> {
                 .all(|reference| reference.cut.is_nothing())
         };
         let is_piece = scene.part.is_piece || outline.cut_share >= CUT_SHARE;
+        let num_pairs = num_pairs(scene, least_score);
         let piece = (is_piece || !are_whole()).then(|| {
             let border = oriented_border(scene, &outline);
-            PieceSample::new(&source.surface, border, num_pairs(scene), params.seed)
+            PieceSample::new(&source.surface, border, num_pairs, params.seed)
         });
         Self {
             is_piece,
@@ -64,10 +75,12 @@ impl<'a> PreparedScene<'a> {
             source,
             outline,
             piece,
+            num_pairs,
             tolerance: Tolerance {
                 base: params.tolerance,
                 noise_at_1m: scene.part.noise_at_1m,
             },
+            num_workers: num_cores(),
         }
     }
 
@@ -76,8 +89,13 @@ impl<'a> PreparedScene<'a> {
         self.source = thinned_source(self.scene, &self.outline, seed);
         self.centre = centre_of(&self.source.surface);
         if let Some(piece) = self.piece.take() {
-            let (surface, num_pairs) = (&self.source.surface, num_pairs(self.scene));
-            self.piece = Some(PieceSample::new(surface, piece.border, num_pairs, seed));
+            let surface = &self.source.surface;
+            self.piece = Some(PieceSample::new(
+                surface,
+                piece.border,
+                self.num_pairs,
+                seed,
+            ));
         }
     }
 
@@ -123,11 +141,14 @@ impl<'a> PreparedScene<'a> {
         num
     }
 
-    /// Refines a candidate to the end.
-    pub(super) fn finish(&self, reference: &Reference, candidate: &mut ReferenceCandidate) {
-        let Some(target) = reference.target(candidate.view) else {
-            return;
-        };
+    /// Returns the candidate refined to the end; `None` if its reference has nothing to align with.
+    pub(super) fn finished(
+        &self,
+        reference: &Reference,
+        candidate: &ReferenceCandidate,
+    ) -> Option<ReferenceCandidate> {
+        let mut candidate = candidate.clone();
+        let target = reference.target(candidate.view)?;
         let start = candidate.refined.target_from_source;
         let last = refine(&self.source, &target, &start, &THIRD);
         candidate.refined.iterations.extend(last.iterations);
@@ -152,13 +173,15 @@ impl<'a> PreparedScene<'a> {
         );
         candidate.evidence.outline_shift_m = shift.map(|shift| shift.rms);
         candidate.evidence.outline_median_m = shift.map(|shift| shift.median);
+        Some(candidate)
     }
 }
 
-/// The border of what looks whole is nearly all there: fewer pairs find it.
-fn num_pairs(scene: &Scene<'_>) -> usize {
+fn num_pairs(scene: &Scene<'_>, least_score: f64) -> usize {
     if scene.part.is_piece {
         NUM_PAIRS_OF_A_WHOLE
+    } else if least_score >= HIGH_SCORE {
+        NUM_PAIRS_FOR_A_HIGH_SCORE
     } else {
         NUM_PAIRS
     }

@@ -232,6 +232,8 @@ pub fn other_segments(
         .into_iter()
         .zip(&segmentation.clusters)
         .filter(|(indices, cluster)| is_candidate(cluster) && indices.first() != taken)
+        // The camera looks at the part, not at what is behind other things.
+        .filter(|(_, cluster)| cluster.in_front >= IN_FRONT)
         .map(|(indices, cluster)| (*cluster, indices))
         .collect();
     others.sort_by(|a, b| part_prior(&b.0).total_cmp(&part_prior(&a.0)));
