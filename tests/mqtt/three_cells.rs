@@ -199,12 +199,24 @@ fn the_containers_are_the_same_three_cells() {
     };
     let services = compose["services"].as_object().expect("services");
     assert!(services.contains_key("broker"));
+    // One service builds the image of all; the others must not look for it in a registry.
+    let with_build = CELLS.map(|(cell, _)| services[cell]["build"]["dockerfile"].as_str());
+    let [Some(recipe), None, None] = with_build else {
+        panic!("{with_build:?}");
+    };
+    let recipe = fs::read_to_string(at(recipe)).expect("a Containerfile");
+    let copied = recipe.lines().find_map(|line| line.strip_prefix("COPY "));
+    let copied = copied.and_then(|args| args.split(' ').next());
+    let context = fs::read_to_string(at(".dockerignore")).expect("read");
+    let sent = context.lines().filter_map(|line| line.strip_prefix('!'));
+    assert_eq!(sent.collect::<Vec<_>>(), [copied.expect("a package")]);
     let folder = tempfile::tempdir().expect("a folder");
     let mut addresses = BTreeSet::new();
     for (cell, part) in CELLS {
         let service = &services[cell];
-        let image = service["build"]["dockerfile"].as_str().expect("a file");
-        assert!(at(image).is_file(), "{image}");
+        assert_eq!(service["image"], "localhost/partsight", "{cell}");
+        let is_pulled = service["pull_policy"] != "never";
+        assert_eq!(is_pulled, service["build"].is_object(), "{cell}");
         for volume in service["volumes"].as_array().expect("a list") {
             let volume = volume.as_str().expect("text");
             let (from, _) = volume.split_once(':').expect("from:to");
