@@ -18,10 +18,12 @@ use super::{
 const TURN: Duration = Duration::from_millis(100);
 /// Bytes per read. A parser keeps at most one incomplete request, so this plus one request bounds a client's memory.
 const CHUNK: usize = 512;
+/// Most bytes of a refused client that are read and discarded.
+const MAX_DISCARDED: usize = 1 << 20;
 
 /// A connection and what is needed to answer it.
 pub(super) struct Client {
-    pub(super) stream: TcpStream,
+    pub(super) stream: Arc<TcpStream>,
     pub(super) peer: SocketAddr,
     pub(super) listener: Listener,
     pub(super) shared: Arc<Shared>,
@@ -38,7 +40,7 @@ enum EndReason {
 
 impl Client {
     /// Serves requests until either side ends the connection.
-    pub(super) fn serve(mut self) {
+    pub(super) fn serve(self) {
         let protocol = self.listener.at.protocol.name();
         self.shared.tell(self.peer, protocol, ClientNews::Connected);
         let news = match self.talk() {
@@ -50,10 +52,11 @@ impl Client {
             // A broken connection counts as ended.
             Ok(EndReason::Silent) | Err(_) => ClientNews::Left,
         };
+        self.shared.forget_silent(&self.stream);
         self.shared.tell(self.peer, protocol, news);
     }
 
-    fn talk(&mut self) -> io::Result<EndReason> {
+    fn talk(&self) -> io::Result<EndReason> {
         self.stream.set_nonblocking(false)?;
         self.stream.set_nodelay(true)?;
         self.stream.set_read_timeout(Some(TURN))?;
@@ -64,6 +67,7 @@ impl Client {
         let mut last_answer = Instant::now();
         // When the pending incomplete request began.
         let mut begun: Option<Instant> = None;
+        let mut is_silent = true;
         while !self.shared.is_stopping() {
             let parsed = self.listener.at.protocol.parse(&bytes);
             if parsed.used > 0 {
@@ -72,6 +76,10 @@ impl Client {
             }
             match parsed.request {
                 Some(Ok(request)) => {
+                    if is_silent {
+                        self.shared.forget_silent(&self.stream);
+                        is_silent = false;
+                    }
                     let answer = answer_to(request, &self.shared, &self.jobs);
                     self.send(&answer)?;
                     last_answer = Instant::now();
@@ -87,7 +95,7 @@ impl Client {
             if begun.is_none() && last_answer.elapsed() > settings.idle_timeout {
                 return Ok(EndReason::Silent);
             }
-            match self.stream.read(&mut chunk) {
+            match (&*self.stream).read(&mut chunk) {
                 Ok(0) => return Ok(EndReason::Silent),
                 Ok(num) => {
                     begun.get_or_insert_with(Instant::now);
@@ -100,25 +108,29 @@ impl Client {
         Ok(EndReason::Silent)
     }
 
-    fn send(&mut self, answer: &Answer) -> io::Result<()> {
+    fn send(&self, answer: &Answer) -> io::Result<()> {
         let protocol = self.listener.at.protocol;
         let bytes = protocol.write(answer, self.listener.convention);
-        self.stream.write_all(&bytes)
+        (&*self.stream).write_all(&bytes)
     }
 
     /// Sends the reason and closes the connection. Reads and discards what the client still sends for a moment: closing a
     /// socket with unread bytes resets the connection, and the client might lose the answer.
-    fn refuse(&mut self, why: &BadRequest) -> io::Result<()> {
+    fn refuse(&self, why: &BadRequest) -> io::Result<()> {
         let trouble = Trouble::of(why.reason(), why);
         let at = self.shared.situation();
         self.send(&Answer::turned_away(VerdictCode::BadRequest, trouble, &at))?;
         self.stream.shutdown(Shutdown::Write)?;
         let since = Instant::now();
         let mut chunk = [0; CHUNK];
-        while since.elapsed() < LINGER && !self.shared.is_stopping() {
-            match self.stream.read(&mut chunk) {
+        let mut num_discarded = 0;
+        while since.elapsed() < LINGER
+            && num_discarded < MAX_DISCARDED
+            && !self.shared.is_stopping()
+        {
+            match (&*self.stream).read(&mut chunk) {
                 Ok(0) => break,
-                Ok(_) => {}
+                Ok(num) => num_discarded += num,
                 Err(error) if is_passing(&error) => {}
                 Err(error) => return Err(error),
             }

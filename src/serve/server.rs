@@ -45,6 +45,8 @@ const ACCEPT_TURN: Duration = Duration::from_millis(10);
 pub(super) const LINGER: Duration = Duration::from_secs(1);
 /// Most refused connections that are kept open at a time.
 const MAX_TURNED_AWAY: usize = 64;
+/// How long a connection without a request keeps its place if others want it: a robot sends its request right away.
+const SILENT_GRACE: Duration = Duration::from_secs(1);
 /// How long a client may take to accept its answer before it is disconnected.
 pub(super) const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
 /// Short, because the answer to a refused client fits into the socket's empty send buffer.
@@ -189,6 +191,8 @@ pub(super) struct Shared {
     pub(super) boot: u32,
     is_stopping: AtomicBool,
     num_clients: AtomicUsize,
+    /// Connections without a request so far, and since when, the oldest first.
+    silent: Mutex<VecDeque<(Instant, Arc<TcpStream>)>>,
     last: Mutex<Arc<Inspected>>,
     pub(super) tally: Mutex<Tally>,
     pub(super) library: Mutex<Option<LibraryStatus>>,
@@ -203,6 +207,19 @@ impl Shared {
 
     pub(super) fn num_clients(&self) -> usize {
         self.num_clients.load(Ordering::SeqCst)
+    }
+
+    /// Called once a connection has sent a request, and when it ends.
+    pub(super) fn forget_silent(&self, stream: &Arc<TcpStream>) {
+        lock(&self.silent).retain(|(_, other)| !Arc::ptr_eq(other, stream));
+    }
+
+    /// Closes the oldest connection without a request so far; false if there is none, or only since a moment ago.
+    fn close_silent(&self) -> bool {
+        let oldest = lock(&self.silent).pop_front_if(|(since, _)| since.elapsed() > SILENT_GRACE);
+        // Its thread reads the end of the stream and ends. If this fails, the client has closed the connection.
+        let closed = oldest.map(|(_, stream)| stream.shutdown(Shutdown::Both));
+        closed.is_some()
     }
 
     pub(super) fn last(&self) -> Arc<Inspected> {
@@ -233,13 +250,14 @@ pub struct ClientSlot {
 }
 
 impl ClientSlot {
+    /// Takes a place; if all are taken, that of a connection without a request so far, whose thread then ends in a moment.
     pub(super) fn take(shared: &Arc<Shared>) -> Option<Self> {
         let num_before = shared.num_clients.fetch_add(1, Ordering::SeqCst);
         // If it is not returned, its drop undoes the count.
         let slot = Self {
             shared: Arc::clone(shared),
         };
-        (num_before < shared.settings.max_clients).then_some(slot)
+        (num_before < shared.settings.max_clients || shared.close_silent()).then_some(slot)
     }
 }
 
@@ -283,6 +301,7 @@ impl Server {
                 boot: boot_number(Timestamp::now()),
                 is_stopping: AtomicBool::new(false),
                 num_clients: AtomicUsize::new(0),
+                silent: Mutex::default(),
                 last: Mutex::default(),
                 tally: Mutex::default(),
                 library: Mutex::default(),
@@ -429,8 +448,10 @@ fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: 
             turned_away.push_back((stream, Instant::now()));
             continue;
         };
+        let stream = Arc::new(stream);
+        lock(&shared.silent).push_back((Instant::now(), Arc::clone(&stream)));
         let client = Client {
-            stream,
+            stream: Arc::clone(&stream),
             peer,
             listener,
             shared: Arc::clone(shared),
@@ -440,8 +461,11 @@ fn listen(listener: Listener, socket: &TcpListener, shared: &Arc<Shared>, jobs: 
             client.serve();
             drop(slot);
         });
-        // If no thread can be started, the connection is dropped, and the client may try again.
-        clients.extend(thread);
+        match thread {
+            Ok(thread) => clients.push(thread),
+            // The connection is dropped, and the client may try again.
+            Err(_) => shared.forget_silent(&stream),
+        }
     }
     for client in clients {
         let _ = client.join();
