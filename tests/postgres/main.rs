@@ -8,6 +8,7 @@ mod errors;
 mod kills;
 #[path = "../kit/mod.rs"]
 mod kit;
+mod outage;
 mod program;
 mod server;
 
