@@ -6,7 +6,8 @@ use std::{
     sync::Arc,
 };
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, de::IntoDeserializer as _};
+use toml::{Table, Value};
 
 use super::{
     current_trace::CurrentTrace,
@@ -54,6 +55,7 @@ pub struct Settings {
     /// Units that are shown.
     pub units: UnitSystem,
     /// The language chosen in the window; `None` for the system's.
+    #[serde(deserialize_with = "language")]
     pub language: Option<Language>,
     /// The convention of poses for the robot.
     pub convention: Convention,
@@ -275,40 +277,76 @@ struct Versioned {
     schema: u32,
 }
 
-/// Reads the file. A missing one is no error; an unusable one is set aside, which frees its name.
-pub fn load(path: &Path) -> (Settings, Option<UserError>) {
-    match read(path) {
-        Ok(settings) => (settings, None),
-        Err(BadSettings::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
-            (Settings::default(), None)
-        }
-        Err(bad) => {
-            let what = text!(
-                "shell-settings-not-used",
-                path = path.display().to_string(),
-                why = bad.to_string()
-            );
-            let advice = match set_aside(path) {
-                Ok(aside) => text!(
-                    "shell-settings-set-aside",
-                    path = aside.display().to_string()
-                ),
-                Err(error) => text!(
-                    "shell-settings-move-away",
-                    why = crate::files::words_of(&error)
-                ),
-            };
-            (Settings::default(), Some(UserError { what, advice }))
-        }
+/// The settings of a file, and the keys whose values cannot be read.
+struct ReadSettings {
+    settings: Settings,
+    bad_keys: Vec<String>,
+}
+
+/// Reads a language by its name or its code, such as `en`.
+fn language<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Language>, D::Error> {
+    let Some(name) = Option::<String>::deserialize(from)? else {
+        return Ok(None);
+    };
+    if let Some(language) = Language::from_locale(&name) {
+        return Ok(Some(language));
     }
+    Language::deserialize(name.into_deserializer()).map(Some)
+}
+
+/// Reads the file. A missing one is no error. An unusable one is set aside, which frees its name; one with unusable values
+/// too, and the rest of it is written and used.
+pub fn load(path: &Path) -> (Settings, Option<UserError>) {
+    let bad = match read(path) {
+        Ok(ReadSettings { settings, bad_keys }) if bad_keys.is_empty() => return (settings, None),
+        Ok(ReadSettings { settings, bad_keys }) => {
+            let trouble = UserError {
+                what: format!(
+                    "{} in {} cannot be read and {} its default value; all other settings are kept",
+                    bad_keys.join(", "),
+                    path.display(),
+                    if bad_keys.len() == 1 { "has" } else { "have" }
+                ),
+                advice: match set_aside(path) {
+                    Ok(aside) => {
+                        // If this fails, writing the next change reports it.
+                        let _ = save(path, &settings);
+                        format!("The file as it was is {}", aside.display())
+                    }
+                    Err(_) => format!("Correct {} while the window is closed", path.display()),
+                },
+            };
+            return (settings, Some(trouble));
+        }
+        Err(BadSettings::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
+            return (Settings::default(), None);
+        }
+        Err(bad) => bad,
+    };
+    let what = text!(
+        "shell-settings-not-used",
+        path = path.display().to_string(),
+        why = bad.to_string()
+    );
+    let advice = match set_aside(path) {
+        Ok(aside) => text!(
+            "shell-settings-set-aside",
+            path = aside.display().to_string()
+        ),
+        Err(error) => text!(
+            "shell-settings-move-away",
+            why = crate::files::words_of(&error)
+        ),
+    };
+    (Settings::default(), Some(UserError { what, advice }))
 }
 
 /// Returns the last size of the window, without reporting problems with the file.
 pub(in crate::app) fn window_size(path: &Path) -> Option<[f32; 2]> {
-    read(path).ok()?.window
+    read(path).ok()?.settings.window
 }
 
-fn read(path: &Path) -> Result<Settings, BadSettings> {
+fn read(path: &Path) -> Result<ReadSettings, BadSettings> {
     let mut text = String::new();
     let file = open_regular(path)?;
     let num_read = file.take(MAX_BYTES + 1).read_to_string(&mut text)?;
@@ -323,11 +361,29 @@ fn read(path: &Path) -> Result<Settings, BadSettings> {
     if found > SCHEMA {
         return Err(BadSettings::Newer { found });
     }
-    let mut settings: Settings = toml::from_str(&text).map_err(garbled)?;
+    let table: Table = toml::from_str(&text).map_err(garbled)?;
+    let (table, bad_keys) = readable(table);
+    let mut settings: Settings = table.try_into().map_err(garbled)?;
     let is_sensible = |size: &[f32; 2]| size.iter().all(|side| SIDES.contains(side));
     settings.window = settings.window.filter(is_sensible);
     settings.program = settings.program.checked();
-    Ok(settings)
+    Ok(ReadSettings { settings, bad_keys })
+}
+
+/// Removes the keys whose values cannot be read, and returns their names. Tables stay whole or go: half of a recipe, or
+/// half of a robot's set-up, would be another one.
+fn readable(mut table: Table) -> (Table, Vec<String>) {
+    let is_bad = |(key, value): (&String, &Value)| {
+        let alone = Table::from_iter([(key.clone(), value.clone())]);
+        let is_read = alone.try_into::<Settings>().is_ok();
+        (!is_read).then(|| key.clone())
+    };
+    let bad_keys: Vec<String> = table.iter().filter_map(is_bad).collect();
+    table.retain(|key, _| !bad_keys.iter().any(|bad| bad == key));
+    if bad_keys.iter().any(|key| key == "recipe") {
+        table.remove("recipe_label");
+    }
+    (table, bad_keys)
 }
 
 /// Renames a file to a free name beside it.
@@ -439,15 +495,7 @@ mod tests {
     fn a_bad_file_is_set_aside_and_never_lost() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("settings.toml");
-        let bad: [&[u8]; 7] = [
-            b"theme = [",
-            b"theme = \"Purple\"",
-            b"schema = 99\nnew = 1",
-            b"\xff\xfe\x00",
-            b"window = [\"wide\", 3]",
-            b"shifts = [\"six\"]",
-            b"[answering]\nat = \"ascii=robot\"",
-        ];
+        let bad: [&[u8]; 3] = [b"theme = [", b"schema = 99\nnew = 1", b"\xff\xfe\x00"];
         for (number, contents) in bad.into_iter().enumerate() {
             fs::write(&path, contents).expect("written");
             let (settings, trouble) = load(&path);
@@ -459,6 +507,66 @@ mod tests {
             assert!(trouble.advice.contains(&aside.display().to_string()));
             assert_eq!(fs::read(&aside).expect("kept"), contents);
             assert!(!path.exists());
+        }
+    }
+
+    #[test]
+    fn only_the_values_that_cannot_be_read_go_back_to_their_defaults() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        let bad = [
+            ("theme = \"Purple\"", "theme"),
+            ("window = [\"wide\", 3]", "window"),
+            ("shifts = [\"six\"]", "shifts"),
+            ("language = \"klingon\"", "language"),
+            (
+                "[answering]\nis_on = true\nat = \"ascii=robot\"",
+                "answering",
+            ),
+            ("[recipe.accept]\nmin_score = \"high\"", "recipe"),
+        ];
+        for (number, (line, key)) in bad.into_iter().enumerate() {
+            let text = format!("average = 4\nlock_after = 15\n{line}\n");
+            fs::write(&path, &text).expect("written");
+            let (settings, trouble) = load(&path);
+            let kept = Settings {
+                average: 4,
+                lock_after: 15,
+                ..Settings::default()
+            };
+            assert_eq!(settings, kept, "{line}");
+            let trouble = trouble.expect("said");
+            assert!(
+                trouble.what.starts_with(&format!("{key} in ")),
+                "{trouble:?}"
+            );
+            let aside = folder
+                .path()
+                .join(format!("settings.broken-{}.toml", number + 1));
+            assert!(trouble.advice.contains(&aside.display().to_string()));
+            assert_eq!(fs::read_to_string(&aside).expect("kept"), text);
+            // The next start has nothing to complain about.
+            assert_eq!(load(&path), (kept, None), "{line}");
+        }
+    }
+
+    #[test]
+    fn a_language_may_be_given_by_its_code() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        for (name, language) in [
+            ("en", Language::English),
+            ("de", Language::German),
+            ("es", Language::Spanish),
+            ("zh", Language::Chinese),
+            ("german", Language::German),
+        ] {
+            fs::write(&path, format!("language = \"{name}\"\n")).expect("written");
+            let wanted = Settings {
+                language: Some(language),
+                ..Settings::default()
+            };
+            assert_eq!(load(&path), (wanted, None), "{name}");
         }
     }
 
