@@ -117,21 +117,25 @@ struct FilterArgs {
 enum VerdictChoice {
     /// A part, accepted
     Accepted,
-    /// A part, not accepted
+    /// Everything that was not accepted: rejected, unknown and no-part
     NotAccepted,
-    /// Something that is not enrolled
+    /// An enrolled part was the best match, and was not accepted
+    Rejected,
+    /// Something that is not enrolled, or only the mirror image of an enrolled part
     Unknown,
     /// No part
     NoPart,
 }
 
-impl From<VerdictChoice> for StoredVerdict {
-    fn from(choice: VerdictChoice) -> Self {
-        match choice {
-            VerdictChoice::Accepted => Self::Accepted,
-            VerdictChoice::NotAccepted => Self::NotAccepted,
-            VerdictChoice::Unknown => Self::Unknown,
-            VerdictChoice::NoPart => Self::NoPart,
+impl VerdictChoice {
+    /// Returns the only verdict that matches; `None` if several do.
+    fn verdict(self) -> Option<StoredVerdict> {
+        match self {
+            Self::Accepted => Some(StoredVerdict::Accepted),
+            Self::NotAccepted => None,
+            Self::Rejected => Some(StoredVerdict::NotAccepted),
+            Self::Unknown => Some(StoredVerdict::Unknown),
+            Self::NoPart => Some(StoredVerdict::NoPart),
         }
     }
 }
@@ -142,7 +146,8 @@ impl FilterArgs {
             since: self.since,
             until: self.until,
             part: self.part.clone(),
-            verdict: self.verdict.map(Into::into),
+            verdict: self.verdict.and_then(VerdictChoice::verdict),
+            is_accepted: (self.verdict == Some(VerdictChoice::NotAccepted)).then_some(false),
             is_simulated: self.simulated,
             with_below: self.reinspections,
             text: self.text.clone().unwrap_or_default(),

@@ -14,8 +14,10 @@ pub struct Filter {
     pub until: Option<Timestamp>,
     /// Recognised as this part, accepted or not.
     pub part: Option<String>,
-    /// With this verdict.
+    /// With exactly this verdict.
     pub verdict: Option<StoredVerdict>,
+    /// Accepted, or not accepted for whatever reason: unknown parts and scenes without a part are not accepted either.
+    pub is_accepted: Option<bool>,
     /// Simulated or not.
     pub is_simulated: Option<bool>,
     /// Includes the re-inspections; otherwise the list has one row per part.
@@ -64,6 +66,14 @@ impl Filter {
         if let Some(verdict) = self.verdict {
             add("verdict = ?", verdict.name().to_owned().into());
         }
+        if let Some(is_accepted) = self.is_accepted {
+            let condition = if is_accepted {
+                "verdict = ?"
+            } else {
+                "verdict <> ?"
+            };
+            add(condition, StoredVerdict::Accepted.name().to_owned().into());
+        }
         if let Some(part) = &self.part {
             add("part = ?", part.clone().into());
         }
@@ -93,6 +103,7 @@ impl Filter {
             && self.until.is_none_or(|until| row.at < until)
             && (self.part.is_none() || self.part == row.part)
             && self.verdict.is_none_or(|verdict| row.verdict == verdict)
+            && (self.is_accepted).is_none_or(|is| (row.verdict == StoredVerdict::Accepted) == is)
             && self.is_simulated.is_none_or(|is| row.is_simulated == is)
             && self.words().all(|word| {
                 let mut texts = self.found_by(word).into_iter();

@@ -873,3 +873,32 @@ fn poses_of_accepted_parts_come_in_the_order_of_time() {
     };
     assert_eq!(found(&until), [fender(1)]);
 }
+
+#[test]
+fn not_accepted_is_everything_but_accepted_in_the_file_and_before() {
+    let (_folder, mut history) = new_history();
+    let entries = StoredVerdict::ALL
+        .into_iter()
+        .zip(1..)
+        .map(|(verdict, seconds)| history_entry(seconds, verdict, "grille"));
+    for entry in entries {
+        history.add(&entry, &ALL).expect("written");
+        for is_accepted in [true, false] {
+            let filter = Filter {
+                is_accepted: Some(is_accepted),
+                ..Filter::default()
+            };
+            let summary = &entry.record.summary;
+            let is_wanted = (summary.verdict == StoredVerdict::Accepted) == is_accepted;
+            assert_eq!(filter.passes(summary), is_wanted, "{:?}", summary.verdict);
+        }
+    }
+    let num = |is_accepted| {
+        let filter = Filter {
+            is_accepted: Some(is_accepted),
+            ..Filter::default()
+        };
+        history.page(&filter, 0, 10).expect("asked").num_matching
+    };
+    assert_eq!((num(true), num(false)), (1, 3));
+}

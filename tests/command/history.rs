@@ -161,6 +161,34 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
 }
 
 #[test]
+fn everything_that_was_not_accepted_is_listed_under_that_name() {
+    let place = with_captures();
+    place.accepted(&["simulate", "--part", "empty", "--out", "empty.pcd"]);
+    let all = ["fender.pcd", "hood.png", "empty.pcd"];
+    assert_eq!(place.run(&[&["inspect"], &all[..]].concat()).code, 1);
+    let scenes = |verdict: &str| {
+        let list = ["history", "list", "--json", "--verdict", verdict];
+        let lines = place.accepted(&list).lines();
+        let scenes = lines
+            .iter()
+            .map(|line| line["scene"].as_str().map(str::to_owned));
+        scenes
+            .map(|scene| scene.expect("a name"))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(scenes("not-accepted"), ["empty.pcd", "hood.png"]);
+    assert_eq!(scenes("accepted"), ["fender.pcd"]);
+    assert_eq!(scenes("rejected"), Vec::<String>::new());
+    assert_eq!(scenes("unknown"), ["hood.png"]);
+    assert_eq!(scenes("no-part"), ["empty.pcd"]);
+    let card = place.run(&["history", "show", "1"]).out;
+    assert!(
+        card.contains(", margin 0.") && !card.contains("ahead of"),
+        "{card}"
+    );
+}
+
+#[test]
 fn programs_read_why_an_inspection_was_not_accepted_as_a_kind() {
     let place = with_captures();
     let inspected = place.run(&["inspect", "fender.pcd", "hood.png"]);

@@ -87,11 +87,14 @@ impl ListFilter {
         } else {
             shown_for_stored()
         };
+        // Unknown parts and scenes without a part are not accepted either.
+        let is_refused = self.verdict == Some(StoredVerdict::NotAccepted);
         Filter {
             since,
             until,
             part: self.part.clone(),
-            verdict: self.verdict,
+            verdict: self.verdict.filter(|_| !is_refused),
+            is_accepted: is_refused.then_some(false),
             is_simulated: None,
             with_below: false,
             text: self.text.clone(),
