@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::{
     MethodChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error},
-    input::open_cloud,
+    input::{FileAdvice, open_cloud},
 };
 use crate::{
     error::Advice as _,
@@ -77,7 +77,10 @@ pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Out
     let open = |path: &PathBuf| -> anyhow::Result<PointCloud> {
         let (cloud, warnings) = open_cloud(path).advised()?;
         for warning in &warnings {
-            console.warn(&format_args!("{}: {warning}", path.display()), warning);
+            console.warn(
+                &format_args!("{}: {warning}", path.display()),
+                &FileAdvice(warning),
+            );
         }
         Ok(PointCloud::from_points(cloud.points))
     };

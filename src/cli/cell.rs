@@ -10,7 +10,7 @@ use super::{
     Outcome,
     console::{Advised as _, Console, Table, advised_error, marked_simulated},
     follow::{follow, parse_source},
-    input::{from_to, open_scene, within},
+    input::{FileAdvice, from_to, open_scene, within},
     recipe::RecipeSource,
 };
 use crate::{
@@ -274,7 +274,7 @@ fn list(
         return Ok(Outcome::Accepted);
     }
     let mut table = Table::new(&[
-        "time", "cell", "shift", "x", "y", "z", "turn", "rms", "noise",
+        "TIME", "CELL", "SHIFT", "X", "Y", "Z", "TURN", "RMS", "NOISE",
     ]);
     for check in &checks {
         let [x, y, z] = check.shift_m.map(|shift| format!("{:+.1}", shift * 1000.0));
@@ -343,7 +343,10 @@ fn views(args: &Views, console: &mut Console) -> anyhow::Result<CellViews> {
     for path in &args.files {
         let (scene, warnings) = open_scene(path).advised()?;
         for warning in &warnings {
-            console.warn(&format_args!("{}: {warning}", path.display()), warning);
+            console.warn(
+                &format_args!("{}: {warning}", path.display()),
+                &FileAdvice(warning),
+            );
         }
         look(&scene, &path.display().to_string())?;
     }

@@ -7,7 +7,7 @@ use clap::Args;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
-    input::ImportChoice,
+    input::{FileAdvice, ImportChoice},
     recipe::RecipeSource,
     scan::{PosesChoice, open_scan},
 };
@@ -121,7 +121,7 @@ pub(super) fn run(mut args: EnrolArgs, console: &mut Console) -> anyhow::Result<
         if saved.left_path {
             console.note(&format_args!(
                 "note: the spray path stays with the previous version, since it is in that version's frame. To store \
-                 a new one: partsight library path {} path.csv",
+                 a new one: partsight library path {} YOUR_PATH.csv",
                 args.name
             ));
         }
@@ -213,7 +213,10 @@ fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enro
     };
     let opened = files::open(file).advised()?;
     for warning in opened.warnings() {
-        console.warn(&format_args!("{}: {warning}", file.display()), &warning);
+        console.warn(
+            &format_args!("{}: {warning}", file.display()),
+            &FileAdvice(&warning),
+        );
     }
     let about = about(args, file, opened.is_simulated())?;
     let path = file.display();

@@ -73,6 +73,20 @@ impl ImportChoice {
     }
 }
 
+/// Advice on a file for the command line, which names the option to use.
+pub(super) struct FileAdvice<'a>(pub(super) &'a FileWarning);
+
+impl Advice for FileAdvice<'_> {
+    fn advice(&self) -> String {
+        match self.0 {
+            FileWarning::TooWideForMetres { .. } => {
+                "Read it as millimetres: --units mm, or #units=mm after its path".into()
+            }
+            other => other.advice(),
+        }
+    }
+}
+
 /// A captured scene and the warnings about its file.
 pub(super) type OpenedScene = Result<(SceneCloud, Vec<FileWarning>), InputError>;
 
@@ -137,7 +151,7 @@ pub(super) fn parse_convention(name: &str) -> Result<Convention, String> {
 pub(super) fn open_empty_cell(path: &Path, console: &Console) -> anyhow::Result<Arc<EmptyCell>> {
     let (scene, warnings) = open_scene(path).advised()?;
     for warning in &warnings {
-        console.warn(warning, warning);
+        console.warn(warning, &FileAdvice(warning));
     }
     Ok(Arc::new(EmptyCell::of(&scene).advised()?))
 }

@@ -22,7 +22,7 @@ use super::{
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, marked_simulated},
     follow::{follow, parse_source},
-    input::{ImportChoice, OpenedScene, Scenes, before, open_ahead, open_empty_cell},
+    input::{FileAdvice, ImportChoice, OpenedScene, Scenes, before, open_ahead, open_empty_cell},
     output::{Columns, OutputFormat},
     recipe::{RecipeChoice, show_recipe},
     record::{HistoryChoice, HistoryRecorder, SceneOrigin},
@@ -38,7 +38,7 @@ use crate::{
     history::{HungId, NewEntry, Traceability},
     library::Library,
     pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
-    report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
+    report::{CaptureLine, InspectionLine, Picture, ReportFolder, stage_pictures},
     robot::RobotFrame,
     stages::{
         reference::Reference,
@@ -291,7 +291,7 @@ impl InspectSession {
         match opened {
             Ok((scene, warnings)) => {
                 for warning in &warnings {
-                    console.warn(&format_args!("{name}: {warning}"), warning);
+                    console.warn(&format_args!("{name}: {warning}"), &FileAdvice(warning));
                 }
                 self.frame(path, console, |one, console| {
                     one.inspect_scene(path, scene, None, console)
@@ -353,8 +353,6 @@ impl InspectSession {
             trace,
             empty_cell,
             robot,
-            spray,
-            program,
             format,
             report,
             recording,
@@ -362,6 +360,7 @@ impl InspectSession {
             #[cfg(feature = "plant")]
             publisher,
             mirrored,
+            ..
         } = self;
         let name = path.display().to_string();
         before(&mut scene, empty_cell.as_ref(), &name, console);
@@ -401,29 +400,12 @@ impl InspectSession {
         if let (OutputFormat::Card, Some(robot)) = (format, robot) {
             show_in_robot(robot, &inspection, library, console);
         }
-        let mut outcome = outcome_of(&inspection);
-        let seen = spray::SprayResult {
-            scene: &name,
-            inspection: &inspection,
-            library,
-            params: &recipe.stand_off,
-        };
-        if let (Some(spray), Some(robot)) = (spray, robot) {
-            outcome = outcome.max(spray.write(&seen, robot, console)?);
-        } else if let (Some(program), Some(robot)) = (program, robot) {
-            // A refused part keeps its outcome even if its program was forced.
-            outcome = outcome.max(program.write(&seen, file_says_simulated, robot, console)?);
-        } else if let Some(report) = report {
-            let pictures = stage_pictures(&scene, &inspection);
-            report.write(path, &line, &pictures).advised()?;
-        }
-        // Last, so that the verdict does not wait for it.
+        let outcome = outcome_of(&inspection);
+        let pictures = report.as_ref().map(|_| stage_pictures(&scene, &inspection));
+        // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
         let is_kept = recording.is_some();
         #[cfg(feature = "plant")]
         let is_kept = is_kept || publisher.is_some();
-        if !is_kept {
-            return Ok(outcome);
-        }
         let kept = |inspection: &Inspection, hung: HungId| KeptInspection {
             entry: recording.as_ref().map(|recording| {
                 recording.entry(taken, &scene, inspection, &line_of(inspection), hung)
@@ -431,24 +413,57 @@ impl InspectSession {
             #[cfg(feature = "plant")]
             found: (publisher.as_ref()).and_then(|publisher| publisher.found(inspection, recipe)),
         };
-        let (Some(followed), Some(capture)) = (followed, capture) else {
+        if let (true, Some(followed), Some(capture)) = (is_kept, followed, capture) {
+            let frame = FollowedFrame {
+                scene: &scene,
+                taken_at: capture.taken_at(),
+                middle: inspection
+                    .best_reference(library)
+                    .and_then(Reference::middle),
+                accept: &recipe.accept,
+            };
+            let kept = followed.take(&frame, inspection, kept);
+            for kept in kept.into_iter().flatten() {
+                self.keep(kept, console);
+            }
+            // Paths and programs are only written for files.
+            self.write_report(path, &line, pictures)?;
+            return Ok(outcome);
+        }
+        if is_kept {
             let kept = kept(&inspection, HungId::new());
             self.keep(kept, console);
-            return Ok(outcome);
-        };
-        let frame = FollowedFrame {
-            scene: &scene,
-            taken_at: capture.taken_at(),
-            middle: inspection
-                .best_reference(library)
-                .and_then(Reference::middle),
-            accept: &recipe.accept,
-        };
-        let kept = followed.take(&frame, inspection, kept);
-        for kept in kept.into_iter().flatten() {
-            self.keep(kept, console);
         }
-        Ok(outcome)
+        let seen = spray::SprayResult {
+            scene: &name,
+            inspection: &inspection,
+            library: &self.library,
+            params: &self.recipe.stand_off,
+        };
+        Ok(match (&self.spray, &self.program, &self.robot) {
+            (Some(spray), _, Some(robot)) => outcome.max(spray.write(&seen, robot, console)?),
+            // A refused part keeps its outcome even if its program was forced.
+            (_, Some(program), Some(robot)) => {
+                outcome.max(program.write(&seen, file_says_simulated, robot, console)?)
+            }
+            _ => {
+                self.write_report(path, &line, pictures)?;
+                outcome
+            }
+        })
+    }
+
+    /// Writes line and pictures of an inspection, if there is a folder for them.
+    fn write_report(
+        &mut self,
+        path: &Path,
+        line: &str,
+        pictures: Option<Vec<Picture>>,
+    ) -> anyhow::Result<()> {
+        if let (Some(report), Some(pictures)) = (&mut self.report, pictures) {
+            report.write(path, line, &pictures).advised()?;
+        }
+        Ok(())
     }
 
     /// Passes an inspection to the history and to the publisher.

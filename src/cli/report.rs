@@ -12,7 +12,9 @@ use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, Table},
-    input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell, parse_convention},
+    input::{
+        FileAdvice, OpenedScene, Scenes, before, open_ahead, open_empty_cell, parse_convention,
+    },
     recipe::RecipeChoice,
     trace::TraceChoice,
     verdict::outcome_of,
@@ -195,7 +197,7 @@ impl Reporter<'_> {
             }
         };
         for warning in &warnings {
-            console.warn(&format_args!("{name}: {warning}"), warning);
+            console.warn(&format_args!("{name}: {warning}"), &FileAdvice(warning));
         }
         before(&mut scene, self.empty_cell.as_ref(), &name, console);
         let inspection = pipeline::run(&scene, &self.load.library, &self.recipe, &Unwatched)?;

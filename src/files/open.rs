@@ -55,7 +55,7 @@ pub enum FileWarning {
 impl Advice for FileWarning {
     fn advice(&self) -> String {
         match self {
-            Self::TooWideForMetres { .. } => "Read it as millimetres: --units mm, or #units=mm after its path".into(),
+            Self::TooWideForMetres { .. } => "Read it as millimetres, or export it in metres".into(),
             Self::SurplusBytes { .. } => {
                 "Copy or export the file again from the program that made it".into()
             }

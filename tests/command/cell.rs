@@ -41,6 +41,7 @@ fn a_part_that_moved_is_found_told_and_listed() {
         read.out
     );
     assert!(read.out.contains("the part moved"), "{}", read.out);
+    assert!(read.out.starts_with("TIME"), "{}", read.out);
     let lines = place.accepted(&["cell", "list", "--json"]).out;
     assert_eq!(lines.lines().count(), 2);
     place.accepted(&["cell", "list", "--csv", "drift.csv"]);

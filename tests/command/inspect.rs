@@ -359,3 +359,26 @@ fn a_pose_that_is_not_found_is_a_line_with_its_reason_and_names_the_file() {
     let long = ["enrol", "few.xyz", "--name", "few", "--title", &title];
     assert!(place.run(&long).err.contains("at most 80"));
 }
+
+#[test]
+fn the_card_names_a_margin_and_no_difference_of_scores() {
+    let place = Workplace::new();
+    let simulate = ["simulate", "--part", "fender", "--placement", "facing"];
+    place.accepted(&[&simulate[..], &["--out", "fender.pcd"]].concat());
+    let card = place.accepted(&["inspect", "fender.pcd"]).out;
+    assert!(
+        card.contains(", margin ") && !card.contains("ahead of"),
+        "{card}"
+    );
+}
+
+#[test]
+fn only_the_command_line_names_the_option_for_millimetres() {
+    let place = Workplace::new();
+    let cloud: String = (0..2500)
+        .map(|i| format!("{} {} 1400\n", 20 * (i % 50), 20 * (i / 50)))
+        .collect();
+    place.write("part.xyz", &cloud);
+    let ran = place.run(&["inspect", "part.xyz"]);
+    assert!(ran.err.contains("--units mm"), "{}", ran.err);
+}

@@ -9,7 +9,7 @@ use crate::{
     cli::{
         LibraryChoice,
         console::{Advised as _, Console, advised_error},
-        input::open_scene,
+        input::{FileAdvice, open_scene},
     },
     error::Advice as _,
     files::{file_name, in_counting_order},
@@ -59,7 +59,10 @@ pub(super) fn pairs_of_captures(
         console.begin(&file.display());
         let (scene, warnings) = open_scene(file).advised()?;
         for warning in &warnings {
-            console.warn(&format_args!("{}: {warning}", file.display()), warning);
+            console.warn(
+                &format_args!("{}: {warning}", file.display()),
+                &FileAdvice(warning),
+            );
         }
         let inspection = pipeline::run(&scene, &library, &Recipe::default(), &Unwatched)?;
         match seen_part(&inspection, &library) {

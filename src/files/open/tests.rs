@@ -168,6 +168,8 @@ fn numbers_that_look_like_millimetres_are_warned_about_and_kept() {
         }]
     );
     assert!(warnings[0].to_string().contains("1100 m") && !warnings[0].advice().is_empty());
+    // The window has a button for it, and no options.
+    assert!(!warnings[0].advice().contains("--"));
     assert!(
         matches!(opened, FileContent::Cloud(cloud) if cloud.points[1] == Point3::new(1100.0, 0.0, 650.0))
     );
