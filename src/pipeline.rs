@@ -48,7 +48,7 @@ pub use self::{
     recipe_error::RecipeError,
     recipe_folder::{RecipeFolder, RecipeList, Replace, open_recipe},
     refusal::{Refusal, RefusalKind},
-    rejection::{Rejection, Unrecognisable},
+    rejection::{Rejection, Unrecognisable, is_like},
     verdict::{AcceptParams, Verdict},
     watch::{Cancelled, ProgressObserver, Stage, Timings, Unwatched},
 };

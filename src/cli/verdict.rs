@@ -4,7 +4,7 @@ use super::{Outcome, console::Console};
 use crate::{
     files::visible,
     library::Library,
-    pipeline::{Inspection, Rejection, Verdict},
+    pipeline::{Inspection, Rejection, Verdict, is_like},
     robot::RobotFrame,
     stages::pose::Stopped,
     units::Metres,
@@ -73,16 +73,19 @@ pub(super) fn show_card(
                 Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }) => {
                     format!("mirror image of {part}")
                 }
-                Some(Rejection::Unknown { .. }) => format!("unknown, nearest {part}"),
+                Some(Rejection::Unknown { .. }) if is_like(*score) => {
+                    format!("unknown, nearest {part}")
+                }
+                Some(Rejection::Unknown { .. }) => "unknown".to_owned(),
                 _ => part.clone(),
             };
             line("part", format!("{part}: {verdict}"));
-            let ahead = inspection.ranking.runner_up();
-            let ahead = ahead.map(|next| next.part.as_str());
-            let ahead = ahead.map_or(String::new(), |next| {
-                format!(", {margin:.2} ahead of {next}")
+            let next = inspection.ranking.runner_up().map(|next| &next.part);
+            let next = next.filter(|_| !inspection.verdict.is_unknown());
+            let margin = next.map_or(String::new(), |next| {
+                format!(", margin {margin:.2} (the next part is {next})")
             });
-            line("score", format!("{score:.2}{ahead}"));
+            line("score", format!("{score:.2}{margin}"));
         }
         Verdict::NoPart(_) => {
             line("scene", visible(scene).into_owned());
@@ -107,12 +110,14 @@ pub(super) fn show_card(
         line("reference", text);
     }
     if let Some(Ok(pose)) = &inspection.pose {
-        let ambiguous = if pose.is_ambiguous() {
+        // The pose of something unknown is of no use.
+        let is_known = !inspection.verdict.is_unknown();
+        let ambiguous = if is_known && pose.is_ambiguous() {
             "; another pose fits as well"
         } else {
             ""
         };
-        let approximate = if inspection.verdict.is_approximate() {
+        let approximate = if is_known && inspection.verdict.is_approximate() {
             "; approximate, since this may be another model of the part"
         } else {
             ""

@@ -16,6 +16,57 @@ use crate::{
     units::Metres,
 };
 
+/// Score below which an unknown part is like no enrolled one, and the best match is not named.
+const LIKE_FROM: f64 = 0.05;
+
+/// Returns whether the best match of an unknown part, with this score, is worth naming.
+pub fn is_like(score: f64) -> bool {
+    score >= LIKE_FROM
+}
+
+fn nearest_words(nearest: &str, score: f64) -> String {
+    if is_like(score) {
+        format!("; the nearest, {nearest}, scores {score:.2}")
+    } else {
+        String::new()
+    }
+}
+
+/// Returns the shares of a piece that are out of sight, unless they round to zero.
+fn out_of_sight(hidden: f64, outside: f64) -> String {
+    let (is_hidden, is_outside) = (hidden >= 0.005, outside >= 0.005);
+    let hidden = format!("{:.0} % of it hidden", hidden * 100.0);
+    let outside = format!("{:.0} % beyond the picture", outside * 100.0);
+    match (is_hidden, is_outside) {
+        (true, false) => hidden,
+        (false, true) => outside,
+        _ => format!("{hidden}, {outside}"),
+    }
+}
+
+/// Returns how another model differs, without figures that round to zero, and with a semicolon behind; empty if it does
+/// not differ visibly.
+fn model_differences(relief: Metres, outline: Metres, missing: f64) -> String {
+    let is_shown = |length: Metres| length.mm() >= 0.05;
+    let mut found = Vec::new();
+    if is_shown(relief) {
+        found.push(format!("its surface is off by {relief}"));
+    }
+    if is_shown(outline) {
+        let is = if found.is_empty() { "is off " } else { "" };
+        found.push(format!("its outline {is}by {outline}"));
+    }
+    if missing >= 0.0005 {
+        found.push(format!("{:.1} % of it is missing", missing * 100.0));
+    }
+    match found.as_slice() {
+        [] => String::new(),
+        [one] => format!("{one}; "),
+        [one, two] => format!("{one}, and {two}; "),
+        [first @ .., last] => format!("{}, and {last}; ", first.join(", ")),
+    }
+}
+
 /// Why a best guess was not accepted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
@@ -32,9 +83,8 @@ pub enum Rejection {
     },
     /// Only a piece of it is in sight, and that is too little.
     #[error(
-        "only a piece of {part} is in sight ({:.0} % of it hidden, {:.0} % beyond the picture); it scores {score:.2}, below the threshold of {threshold:.2}",
-        hidden * 100.0,
-        outside * 100.0
+        "only a piece of {part} is in sight ({}); it scores {score:.2}, below the threshold of {threshold:.2}",
+        out_of_sight(*hidden, *outside)
     )]
     Piece {
         /// Best match.
@@ -58,8 +108,8 @@ pub enum Rejection {
     },
     /// A part of the same type, but of another car model.
     #[error(
-        "it is like {part}, but not the same: its surface is off by {relief}, its outline by {outline}, and {:.1} % of it is missing; another model, the pose is approximate",
-        missing * 100.0
+        "it is like {part}, but not the same: {}another model, the pose is approximate",
+        model_differences(*relief, *outline, *missing)
     )]
     AnotherModel {
         /// Best match.
@@ -115,7 +165,7 @@ pub enum Rejection {
         limit: Metres,
     },
     /// Nothing enrolled is like it.
-    #[error("unknown: no enrolled part is like it; the nearest, {nearest}, scores {score:.2}")]
+    #[error("unknown: no enrolled part is like it{}", nearest_words(nearest, *score))]
     Unknown {
         /// Best match.
         nearest: String,
@@ -391,6 +441,65 @@ impl Advice for Unrecognisable {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_best_match_of_something_unknown_is_named_only_if_it_is_like_it() {
+        let why = |score| {
+            let unknown = Rejection::Unknown {
+                nearest: "back_bumper".into(),
+                score,
+            };
+            unknown.to_string()
+        };
+        assert_eq!(why(0.004), "unknown: no enrolled part is like it");
+        assert_eq!(
+            why(0.3),
+            "unknown: no enrolled part is like it; the nearest, back_bumper, scores 0.30"
+        );
+    }
+
+    #[test]
+    fn figures_that_round_to_zero_are_no_reasons() {
+        let other = |relief, outline, missing| {
+            let model = Rejection::AnotherModel {
+                part: "door".into(),
+                relief: Metres::from_mm(relief),
+                outline: Metres::from_mm(outline),
+                missing,
+            };
+            let why = model.to_string();
+            let why = why.strip_prefix("it is like door, but not the same: ");
+            why.expect("the part").to_owned()
+        };
+        let end = "another model, the pose is approximate";
+        assert_eq!(
+            other(4.2, 11.9, 0.0123),
+            format!(
+                "its surface is off by 4.2 mm, its outline by 11.9 mm, and 1.2 % of it is missing; {end}"
+            )
+        );
+        assert_eq!(
+            other(4.2, 11.9, 0.0),
+            format!("its surface is off by 4.2 mm, and its outline by 11.9 mm; {end}")
+        );
+        assert_eq!(
+            other(0.01, 11.9, 0.0004),
+            format!("its outline is off by 11.9 mm; {end}")
+        );
+        assert_eq!(other(0.0, 0.0, 0.0), end);
+        let piece = |hidden, outside| {
+            let piece = Rejection::Piece {
+                part: "door".into(),
+                score: 0.7,
+                threshold: 0.9,
+                hidden,
+                outside,
+            };
+            piece.to_string()
+        };
+        assert!(piece(0.4, 0.001).contains("(40 % of it hidden);"));
+        assert!(piece(0.001, 0.4).contains("(40 % beyond the picture);"));
+    }
 
     #[test]
     fn a_piece_that_nothing_hides_is_not_said_to_stand_behind_something() {

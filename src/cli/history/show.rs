@@ -16,7 +16,7 @@ use crate::{
         StoredRefusal, Summary, Traceability,
     },
     library::Truth,
-    pipeline::RefusalKind,
+    pipeline::{RefusalKind, is_like},
 };
 
 /// Version of the JSON lines.
@@ -285,14 +285,11 @@ fn record_table(from: ReadFrom<'_>, record: &Record) -> Table {
     }
     row("verdict", summary.verdict.title().to_lowercase());
     row("part", summary.part.clone().unwrap_or_default());
-    if summary.part != detail.nearest {
+    if summary.part != detail.nearest && summary.score.is_none_or(|[score, _]| is_like(score)) {
         row("nearest", detail.nearest.clone().unwrap_or_default());
     }
     if let Some([score, margin]) = summary.score {
-        row(
-            "score",
-            format!("{score:.3}, {margin:.3} ahead of the next"),
-        );
+        row("score", format!("{score:.3}, margin {margin:.3}"));
     }
     if let Some(refusal) = &detail.refusal {
         row("why not", refusal.reason.clone());

@@ -228,7 +228,7 @@ impl PoseBlock {
                 let (rx, ry, rz) = camera_from_part.rotation.euler_angles();
                 MiddleBlock {
                     meaning: "for people, not for a robot: the middle of the part's extent before the camera (x right, y \
-                              down, z forward), how far it is off its standard position, and how the part is turned",
+                              down, z forward), its displacement from the standard position, and how the part is turned",
                     standard_m: array(middle.coords),
                     now_m: array(now.coords),
                     moved_m: array(now - middle),
@@ -268,6 +268,10 @@ fn cautions(
     }
     if subject.seen_by == SeenBy::Simulation {
         cautions.push("simulated: no camera was read".to_owned());
+    }
+    // Further cautions say how far the pose can be used, and that of something unknown is of no use.
+    if inspection.verdict.is_unknown() {
+        return cautions;
     }
     if inspection.verdict.is_approximate() {
         cautions.push("approximate: this may be another model of the part".to_owned());

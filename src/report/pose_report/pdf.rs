@@ -15,7 +15,10 @@ use super::{
     PoseReport, SeenBy,
     sheet::{Area, Faces, Ink, Sheet, Style, Weight},
 };
-use crate::report::{Picture, lettering::Anchor};
+use crate::{
+    pipeline::is_like,
+    report::{Picture, lettering::Anchor},
+};
 
 /// A4, points.
 const PAGE: [f32; 2] = [595.28, 841.89];
@@ -166,7 +169,7 @@ fn head(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
         height: 18.0,
     };
     sheet.fill(band, AMBER);
-    let text = "SIMULATED: no camera was read. This report is of no real part.";
+    let text = "SIMULATED: no camera was read. This report does not describe a real part.";
     sheet.text(
         text,
         [MARGIN + 8.0, 72.5],
@@ -184,7 +187,7 @@ fn headline(report: &PoseReport, pictures: &PdfPictures<'_>) -> String {
         (_, _, "no_part") => "No part".into(),
         (_, _, "unknown") => "Unknown part".into(),
         // An uncertain name must not be the headline.
-        _ => "Not recognised".into(),
+        _ => "Part not accepted".into(),
     }
 }
 
@@ -236,9 +239,9 @@ fn verdict(
             large(22.0),
             Anchor::Right,
         );
-        let margin = verdict.margin.map_or(String::new(), |margin| {
-            format!(", {margin:.2} ahead of the next")
-        });
+        let margin = verdict
+            .margin
+            .map_or(String::new(), |margin| format!(", margin {margin:.2}"));
         let below = format!("score, threshold {:.2}{margin}", verdict.threshold);
         sheet.text(&below, [right, y], SMALL, Anchor::Right);
     }
@@ -246,7 +249,9 @@ fn verdict(
     let text = |sheet: &mut Sheet<'_>, text: &str, style, y| {
         sheet.paragraph(text, [MARGIN + INDENT, y], WIDTH - INDENT, style, 3)
     };
-    let nearest = verdict.part.as_ref().or(verdict.nearest.as_ref());
+    let nearest = (verdict.nearest.as_ref())
+        .filter(|_| verdict.score.is_none_or(is_like))
+        .or(verdict.part.as_ref());
     if let Some(nearest) = nearest.filter(|_| !verdict.accepted) {
         y = text(sheet, &format!("Nearest enrolled part: {nearest}"), BODY, y);
     }

@@ -5,7 +5,7 @@ use crate::{
     geometry::rigid::{RigidTransform, from_euler_zyx},
     kit::{conforms, scene_of, shipped_library},
     library::Library,
-    pipeline::{Unwatched, run},
+    pipeline::{Unwatched, Verdict, run},
     report::{Picture, stage_pictures},
     simulate::{CellSetup, PartKind, Side, SimulatedObject},
     stages::{reference::Reference, scene::SceneCloud, stand_off::stand_off},
@@ -45,6 +45,15 @@ impl Inspected {
     }
 
     pub(super) fn report(&self, robot: Option<&RobotFrame>, convention: Convention) -> PoseReport {
+        self.report_of(&self.inspection, robot, convention)
+    }
+
+    fn report_of(
+        &self,
+        inspection: &Inspection,
+        robot: Option<&RobotFrame>,
+        convention: Convention,
+    ) -> PoseReport {
         let best = self.inspection.best_reference(&self.library);
         PoseReport::of(&ReportSubject {
             inspected_at: "2026-03-04T05:06:07.25Z".parse().expect("a time"),
@@ -52,7 +61,7 @@ impl Inspected {
             source: None,
             seen_by: SeenBy::Simulation,
             trace: &Traceability::default(),
-            inspection: &self.inspection,
+            inspection,
             middle: best.and_then(Reference::middle),
             stand_off: self.stand_off.as_ref(),
             recipe: &self.recipe,
@@ -252,4 +261,35 @@ fn reports_conform_to_the_schema() {
     let mut broken = json(&door().report(None, Convention::Matrix));
     broken.as_object_mut().expect("fields").remove("robot");
     assert!(conforms(&broken, &schema, &schema).is_err());
+}
+
+#[test]
+fn an_unknown_part_has_no_cautions_about_using_its_pose() {
+    let mut inspection = refused().inspection.clone();
+    inspection.verdict = match inspection.verdict {
+        Verdict::Part {
+            part,
+            score,
+            margin,
+            rejected,
+            ..
+        } => Verdict::Part {
+            part,
+            score,
+            margin,
+            rejected,
+            is_approximate: true,
+        },
+        none => none,
+    };
+    assert!(inspection.verdict.is_unknown());
+    let report = refused().report_of(&inspection, None, Convention::Kuka);
+    let pose = report.refused_pose.expect("a pose");
+    assert_eq!(
+        pose.cautions,
+        [
+            "not accepted: do not move on this pose",
+            "simulated: no camera was read"
+        ]
+    );
 }

@@ -123,7 +123,8 @@ pub enum NoPart {
     },
     /// Nothing of a part's size remains without the background.
     #[error(
-        "nothing the size of a part stands in front of the background ({planes} planes removed, largest rest {found:.3} m², needed {needed:.3} m²)"
+        "nothing the size of a part stands in front of the background ({planes} {} removed, largest rest {found:.3} m², needed {needed:.3} m²)",
+        if *planes == 1 { "plane" } else { "planes" }
     )]
     OnlyBackground {
         /// Number of planes removed.

@@ -127,7 +127,7 @@ impl Rows<'_, '_> {
     }
 
     fn middle(&mut self, middle: &MiddleBlock) {
-        self.heading("Off its standard position");
+        self.heading("Displacement from the standard position");
         let axes = ["x, to the right", "y, down", "z, away"];
         for (axis, metres) in axes.into_iter().zip(middle.moved_m) {
             self.row(axis, &typeset(&format!("{:+.1} mm", metres * 1000.0)));
@@ -147,9 +147,9 @@ impl Rows<'_, '_> {
                     bounds.shift_m * 1000.0,
                     bounds.turn_deg
                 );
-                self.row("pose uncertainty (95 %)", &text);
+                self.row("bounds (95 of 100 cases)", &text);
             }
-            None => self.row("pose uncertainty (95 %)", "unconstrained, or not computed"),
+            None => self.row("bounds", "unconstrained, or not computed"),
         }
         if let Some(ratio) = fit.runner_up_ratio {
             self.row("next best pose", &format!("{ratio:.1}× worse"));
@@ -281,7 +281,8 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
 fn source_of(report: &PoseReport) -> String {
     match report.seen_by {
         SeenBy::NotKnown => "a file",
-        SeenBy::Camera | SeenBy::Simulation => "not written down",
+        SeenBy::Camera => "a camera",
+        SeenBy::Simulation => "a simulation",
     }
     .into()
 }

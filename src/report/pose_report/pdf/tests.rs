@@ -123,11 +123,27 @@ fn a_refused_part_has_no_number_on_the_page_that_a_robot_takes() {
             && said.contains("No pose is given")
     );
     assert!(said.contains("Unknown part") && !said.contains("\nAccepted"));
+    assert!(said.contains("Source\na simulation"), "{said}");
+    assert!(
+        said.contains(", margin ") && !said.contains("ahead of"),
+        "{said}"
+    );
     let refused = report.refused_pose.as_ref().expect("a pose");
     for value in &refused.camera_from_part.in_convention.values {
         assert!(!said.contains(&value.rounded()), "{value:?}\n{said}");
     }
     assert!(!said.contains("robot_from_part"));
+}
+
+#[test]
+fn the_page_names_no_part_that_is_not_like_it() {
+    let mut report = refused().report(None, Convention::Kuka);
+    (report.verdict.part, report.verdict.nearest) = (None, Some("grille".into()));
+    for (score, is_named) in [(0.3, true), (0.01, false)] {
+        report.verdict.score = Some(score);
+        let said = said(&report, &PdfPictures::default());
+        assert_eq!(said.contains("Nearest enrolled part: grille"), is_named);
+    }
 }
 
 #[test]
