@@ -205,6 +205,14 @@ pub(super) fn advised_error(
     })
 }
 
+/// Returns the advice for a part without a spray path.
+pub(super) fn store_a_path(part: &str) -> String {
+    format!(
+        "To store one: partsight path plan {part} --coat primer --propose --store, or partsight library path {part} \
+         YOUR_PATH.csv"
+    )
+}
+
 /// Returns the name of a scene, marked as simulated if it is and the name does not already say so.
 pub(super) fn marked_simulated(name: &str, is_simulated: bool) -> String {
     if is_simulated && !name.to_lowercase().contains("simulated") {

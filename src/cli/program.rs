@@ -29,7 +29,7 @@ pub(super) struct ProgramOptions {
     /// The tool on the controller: a number for KUKA, FANUC and Yaskawa, a name for ABB and Doosan
     #[arg(long, value_name = "TOOL", requires = "program")]
     tool: Option<String>,
-    /// Pose of the nozzle on the flange, with z the way it points: `kuka X Y Z A B C`, or the 16 numbers of a matrix
+    /// Pose of the nozzle on the flange, with z in its direction: `kuka X Y Z A B C`, or the 16 numbers of a matrix
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true, requires = "program")]
     nozzle: Option<WrittenPose>,
     /// Number of the digital output that opens the gun

@@ -289,9 +289,11 @@ fn announce(
     show_numbers(parts, load, console);
 }
 
-/// Shows the part numbers for robots.
+/// Shows the part numbers for robots, in their order.
 fn show_numbers(parts: &[NumberedPart], load: &LibraryLoad, console: &Console) {
-    for (part, meta) in parts.iter().zip(&load.parts) {
+    let mut numbers: Vec<_> = parts.iter().zip(&load.parts).collect();
+    numbers.sort_by_key(|(part, _)| part.number);
+    for (part, meta) in numbers {
         console.note(&format_args!("  number {}: {}", part.number, meta.name));
     }
 }

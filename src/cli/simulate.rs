@@ -51,7 +51,7 @@ pub(super) struct SimulateArgs {
     /// Model of the car; 0 is the standard one
     #[arg(long, default_value_t = 0)]
     model: u64,
-    /// Exact pose: three angles (radians, or 15deg) and the part's middle in front of the camera (metres, or 1200mm); R = Rz·Ry·Rx
+    /// Exact pose: three angles (radians, or 15deg) and the origin of the part's model, near its middle, in front of the camera (metres, or 1200mm); R = Rz·Ry·Rx
     #[arg(
         long,
         value_name = "\"rx ry rz x y z\"",
@@ -282,7 +282,7 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
     };
     let [x, y, z] = [0, 1, 2].map(|i| truth.camera_from_part.translation.vector[i] * 1000.0);
     console.line(&format_args!(
-        "{}: a simulated {what} with its middle at x {x:.0}  y {y:.0}  z {z:.0} mm, {:.0} % of it in sight",
+        "{}: a simulated {what}, {:.0} % of it in sight; the origin of its model, which is not the middle that inspect shows, at x {x:.0}  y {y:.0}  z {z:.0} mm",
         out.display(),
         truth.visible_share * 100.0
     ));
@@ -301,8 +301,7 @@ struct OutOfSight;
 
 impl Advice for OutOfSight {
     fn advice(&self) -> String {
-        "Put the part's middle near the camera's axis, about 1.3 m away: --pose \"0 0 0 0 0 1.3\""
-            .into()
+        "Put the part near the camera's axis, about 1.3 m away: --pose \"0 0 0 0 0 1.3\"".into()
     }
 }
 

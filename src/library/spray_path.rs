@@ -156,7 +156,7 @@ impl SprayPath {
     /// Writes the table that is stored; reading it gives the same path, to a micrometre.
     pub fn to_text(&self) -> String {
         let mut text = String::from(
-            "# Partsight spray path, in the frame of the part's reference cloud: nozzle positions, and the way it points.\n\
+            "# Partsight spray path, in the frame of the part's reference cloud: positions of the nozzle, and the direction in which it points.\n\
              nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z,stand_off_mm,gun_on,speed_mm_s,fan_x,fan_y,fan_z\n",
         );
         for PathPoint {

@@ -44,6 +44,12 @@ fn an_accepted_part_is_painted_by_a_program_of_each_controller() {
     let shop = shop();
     let ran = shop.coded(2, &["inspect", "door.pcd", "--program", "paint.src"]);
     assert!(ran.err.contains("no spray path"), "{}", ran.err);
+    assert!(ran.err.contains("YOUR_PATH.csv"), "{}", ran.err);
+    // The part was accepted, whatever became of its program.
+    let listed = shop.accepted(&["history", "list", "--json"]).lines();
+    assert_eq!(listed.len(), 1);
+    assert_eq!(listed[0]["verdict"], "accepted");
+    assert_eq!(listed[0]["part"], "front_door");
     store_path(&shop);
     for (file, wanted) in [
         ("paint.src", "DEF paint ( )"),
@@ -60,6 +66,7 @@ fn an_accepted_part_is_painted_by_a_program_of_each_controller() {
             "SIMULATED",
             "part: front_door",
             "3 points, gun: output 1",
+            "at the nozzle mouth, z",
         ] {
             assert!(text.contains(wanted), "{file} {wanted}: {text}");
         }

@@ -18,6 +18,17 @@ fn the_same_seed_gives_the_same_file() {
 }
 
 #[test]
+fn the_origin_of_the_model_is_not_called_its_middle() {
+    let place = Workplace::new();
+    let simulate = ["simulate", "--part", "fender", "--out", "fender.pcd"];
+    let told = place.accepted(&simulate).out;
+    assert!(
+        told.contains("the origin of its model") && !told.contains("its middle"),
+        "{told}"
+    );
+}
+
+#[test]
 fn a_booth_draws_its_own_stand_and_pose() {
     let place = Workplace::new();
     let simulate = ["simulate", "--part", "fender", "--booth", "--seed", "3"];

@@ -8,7 +8,7 @@ use super::spray::{SprayResult, check_placed_part, names_of};
 use crate::{
     cli::{
         Outcome,
-        console::{Advised as _, Console, advised_error},
+        console::{Advised as _, Console, advised_error, store_a_path},
         program::{ProgramFile, ProgramOptions, ProgramSubject, parse_format},
     },
     library::{LibraryLoad, LibraryPlace, PartName},
@@ -96,7 +96,7 @@ impl CapturedProgram {
             }
             return Err(advised_error(
                 format!("{name} has no spray path, so there is nothing to write a program from"),
-                format!("Store one: partsight library path {name} path.csv"),
+                store_a_path(name.as_str()),
             ));
         };
         let camera_from_part = pose.camera_from_part();

@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use crate::{
     cli::{
         Outcome,
-        console::{Advised as _, Console, advised_error},
+        console::{Advised as _, Console, advised_error, store_a_path},
         input::parse_convention,
     },
     library::{Library, LibraryLoad, LibraryPlace, PartName},
@@ -133,14 +133,14 @@ impl SprayFile {
                 format!(
                     "{other}, one more reference of {part}, has no spray path: that of {part} is in other coordinates"
                 ),
-                format!("Store one: partsight library path {other} path.csv"),
+                store_a_path(other),
             ));
         }
         let is_stored = stored.is_some();
         let Some(path) = stored.or_else(|| default_path(reference, params)) else {
             return Err(advised_error(
                 format!("{name} has neither a spray path nor a surface to start on"),
-                format!("Store one: partsight library path {name} path.csv"),
+                store_a_path(name.as_str()),
             ));
         };
         let carried = carry(&path, &pose.camera_from_part(), &part.cloud, params);
@@ -165,8 +165,8 @@ impl SprayFile {
         ));
         if !is_stored {
             console.note(&format_args!(
-                "note: {name} has no spray path: the only point is a start in front of its middle. To store one: \
-                 partsight library path {name} path.csv"
+                "note: {name} has no spray path: the only point is a start in front of its middle. {}",
+                store_a_path(name.as_str())
             ));
         }
         Ok(Outcome::Accepted)

@@ -28,7 +28,7 @@ The path is a table in the part's own frame: that of its reference cloud, which 
 enrolled (x right, y down, z forward). Its heading names columns and units, in one of two ways:
 
   nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z
-  12.0,-40.5,1141.0,0,0,1                      the nozzle, and the way it points: towards the part
+  12.0,-40.5,1141.0,0,0,1                      position of the nozzle, and its direction: towards the part
 
   x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm
   12.0,-40.5,1291.0,0,0,-1,150                 a point of the surface, its normal towards the nozzle, the distance

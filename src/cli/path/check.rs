@@ -10,7 +10,7 @@ use crate::{
     cli::{
         LibraryChoice, Outcome,
         calibrate::CalibrationChoice,
-        console::{Advised as _, Console, advised_error},
+        console::{Advised as _, Console, advised_error, store_a_path},
         input::{parse_robot_pose, within},
         program::CellChoice,
     },
@@ -37,7 +37,7 @@ pub(super) struct CheckArgs {
     /// The arm: kr6-r900, m-20ia, irb2600, irb4600, gp25, or a TOML file
     #[arg(long, value_name = "ARM")]
     arm: String,
-    /// Pose of the nozzle on the flange, with z the way it points: `kuka X Y Z A B C`, or the 16 numbers of a matrix
+    /// Pose of the nozzle on the flange, with z in its direction: `kuka X Y Z A B C`, or the 16 numbers of a matrix
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     nozzle: WrittenPose,
     #[command(flatten)]
@@ -72,7 +72,7 @@ pub(super) fn run(
     let Some(path) = place.spray_path(name.as_str()).advised()? else {
         return Err(advised_error(
             format!("{name} has no spray path"),
-            format!("Store one: partsight library path {name} path.csv"),
+            store_a_path(name.as_str()),
         ));
     };
     let part = place.read(name.as_str(), &ReferenceParams::default());

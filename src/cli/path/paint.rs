@@ -126,7 +126,7 @@ pub(super) fn run_plan(
     }
     if !args.json {
         console.line(&format_args!(
-            "{name}: {} points over {}; rows {:.0} mm apart at {:.0} mm/s",
+            "{name}: {} points on {}; rows {:.0} mm apart at {:.0} mm/s",
             path.points().len(),
             surface.scope(),
             1000.0 * coat.spacing,

@@ -301,7 +301,7 @@ impl CellCalibration {
     /// Its name, or a placeholder if it has none.
     pub fn shown_name(&self) -> &str {
         if self.name.is_empty() {
-            "unnamed cell"
+            "an unnamed calibration"
         } else {
             &self.name
         }

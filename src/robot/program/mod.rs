@@ -250,9 +250,9 @@ impl Program<'_> {
         lines.push(match &self.settings.flange_from_nozzle {
             Some(tool) => format!("flange_from_nozzle: {}", convention.write(tool).line()),
             None if format == ProgramFormat::UrScript => {
-                "tool: the active TCP at the nozzle's mouth, z towards the part".into()
+                "tool: the active TCP at the nozzle mouth, z towards the part".into()
             }
-            None => format!("tool: {tool}, at the nozzle's mouth, z towards the part"),
+            None => format!("tool: {tool}, at the nozzle mouth, z towards the part"),
         });
         let base = self.reach.map(|(arm, _)| arm.robot_from_base);
         lines.push(

@@ -113,7 +113,7 @@ struct JsonPoint {
 }
 
 const FRAME: &str = "the robot's base frame";
-const TOOL: &str = "origin at the nozzle's mouth, z the way it points (towards the part), x along the fan's long side or, for a round jet, nearest to the part's x axis, y = z × x";
+const TOOL: &str = "origin at the nozzle's mouth, z in the direction in which it points (towards the part), x along the fan's long side or, for a round jet, nearest to the part's x axis, y = z × x";
 
 impl SprayExport<'_> {
     /// Writes the file, whole or not at all.
