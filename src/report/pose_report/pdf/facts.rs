@@ -127,7 +127,7 @@ impl Rows<'_, '_> {
     }
 
     fn middle(&mut self, middle: &MiddleBlock) {
-        self.heading("Displacement from the standard position");
+        self.heading("Shift from the standard position");
         let axes = ["x, to the right", "y, down", "z, away"];
         for (axis, metres) in axes.into_iter().zip(middle.moved_m) {
             self.row(axis, &typeset(&format!("{:+.1} mm", metres * 1000.0)));
