@@ -116,7 +116,8 @@ pub struct VerdictBlock {
     pub score: Option<f64>,
     /// Least score at which a part is accepted, 0..1.
     pub threshold: f64,
-    /// Lead over the next part's score.
+    /// How clearly the best part leads the next one, 0..1: the difference of their probabilities, given that only one of the
+    /// two can hang there. Not the difference of their scores.
     pub margin: Option<f64>,
     /// Why it was not accepted.
     pub reason: Option<String>,
