@@ -13,7 +13,7 @@ use super::{
     coat::Coat,
     error::PaintError,
     region::{KeepOut, are_kept_out},
-    shadow::{DISC, DepthBuffer, Seen},
+    shadow::{DISC, DirectionGrid, Seen},
     surface::PaintSurface,
 };
 use crate::{
@@ -115,8 +115,8 @@ pub fn simulate(
         num_sums,
         num_cores(),
         || {
-            let buffer = DepthBuffer::new(coat.gun.spread(), surface.spacing, coat.stand_off);
-            (buffer, Vec::new())
+            let grid = DirectionGrid::new(coat.gun.spread(), surface.spacing, coat.stand_off);
+            (grid, Vec::new())
         },
         |scratch, which| {
             let end = steps.len().min((which + 1) * STEPS_PER_SUM);
@@ -197,13 +197,13 @@ fn step_at(a: &PathPoint, b: &PathPoint, share: f64, seconds: f64) -> Step {
     }
 }
 
-/// Adds the paint of one step; `buffer` and `seen` are scratch.
+/// Adds the paint of one step; `grid` and `seen` are scratch.
 fn spray(
     surface: &PaintSurface,
     tree: &KdTree,
     step: &Step,
     coat: &Coat,
-    (buffer, seen): &mut (DepthBuffer, Vec<Seen>),
+    (grid, seen): &mut (DirectionGrid, Vec<Seen>),
     sum: &mut [f64],
 ) {
     let spread = coat.gun.spread();
@@ -227,12 +227,12 @@ fn spray(
             });
         }
     });
-    buffer.draw(seen);
+    grid.sort(seen);
     for point in seen.iter() {
         let growth = coat
             .gun
             .film_growth(&point.at, -point.at.dot(&point.normal));
-        if growth > 0.0 && !buffer.hides(seen, point) {
+        if growth > 0.0 && !grid.hides(seen, point) {
             sum[point.index] += growth * step.seconds;
         }
     }

@@ -167,6 +167,52 @@ fn half_the_speed_is_twice_the_film_and_a_gun_that_is_off_paints_nothing() {
 }
 
 #[test]
+fn a_part_that_hangs_elsewhere_gets_the_same_film_from_its_carried_path() {
+    // Shelves of several heights, so that there are many edges of shadows.
+    let surface = {
+        let mut points = Vec::new();
+        for i in -40_i32..=40 {
+            for j in -30_i32..=30 {
+                points.push(Point3::new(0.01 * f64::from(i), 0.01 * f64::from(j), 0.0));
+                if i.rem_euclid(20) < 7 && j.rem_euclid(15) < 6 {
+                    let height = 0.03 + 0.0013 * f64::from((i + 2 * j).rem_euclid(11));
+                    points.push(points[points.len() - 1] + Vector3::z() * height);
+                }
+            }
+        }
+        let normals = vec![Vector3::z(); points.len()];
+        PaintSurface::new(&points, &normals, Coverage::OneSide).expect("a surface")
+    };
+    let coat = Coat::default();
+    let path = flat_stripes((-4..=4).map(|k| 0.0731 * f64::from(k)), &coat);
+    let standard = simulate(&surface, &path, &coat, &[]).expect("simulated");
+    let turn = nalgebra::UnitQuaternion::from_euler_angles(0.21, -0.13, 0.08);
+    let pose = nalgebra::Isometry3::from_parts(Vector3::new(0.06, -0.05, 0.062).into(), turn);
+    let hung = PaintSurface {
+        points: surface.points.iter().map(|p| pose * p).collect(),
+        normals: surface.normals.iter().map(|n| pose * n).collect(),
+        side: pose * surface.side,
+        longest: pose * surface.longest,
+        middle: pose * surface.middle,
+        ..surface.clone()
+    };
+    // The sign of a fan is arbitrary.
+    for sign in [1.0, -1.0] {
+        let carried = path.points().iter().map(|point| PathPoint {
+            nozzle: pose * point.nozzle,
+            direction: pose * point.direction,
+            fan: point.fan.map(|fan| Unit::new_normalize(pose * *fan * sign)),
+            ..*point
+        });
+        let carried = SprayPath::new(carried.collect()).expect("points");
+        let film = simulate(&hung, &carried, &coat, &[]).expect("simulated");
+        for (a, b) in standard.thickness.iter().zip(&film.thickness) {
+            assert!((a - b).abs() < 1e-4 * coat.target, "{a} {b}");
+        }
+    }
+}
+
+#[test]
 fn a_shelf_before_a_wall_takes_the_paint_that_the_wall_does_not_get() {
     // Rows over a wall whose middle is hidden by a shelf 60 mm in front of it; the paint is the same with and without
     // it.
