@@ -103,6 +103,10 @@ pub struct Coat {
     pub smoothing: f64,
     /// Largest angle of the gun from the direction that the part is painted from.
     pub tilt_limit: f64,
+    /// Largest acceleration of the gun where its speed changes along a stroke, m/s²; 0 keeps the speed constant.
+    pub acceleration: f64,
+    /// Angle from the side by which the gun leans towards steep flanks in added strokes; 0 adds none.
+    pub flank_lean: f64,
     /// Distance between the points of the path.
     pub point_spacing: f64,
     /// Target thickness of the dry film, metres.
@@ -142,6 +146,8 @@ impl Default for Coat {
             margin: 0.02,
             smoothing: 0.06,
             tilt_limit: FRAC_PI_4,
+            acceleration: 4.0,
+            flank_lean: 40.0_f64.to_radians(),
             point_spacing: 0.025,
             target: 40e-6,
             tolerance: 0.2,

@@ -86,6 +86,8 @@ pub struct PathFigures {
 
 /// A short way with the gun on.
 struct Step {
+    /// Index of the point of the path before it.
+    point: usize,
     nozzle: Point3<f64>,
     /// Axes of the jet: along the fan, across it and along the jet.
     axes: [Vector3<f64>; 3],
@@ -104,25 +106,21 @@ pub fn simulate(
     for region in keep_outs {
         region.check()?;
     }
-    let (steps, time, length) = steps_of(path, coat);
+    let (steps, time, length) = steps_of(path.points(), coat);
     if steps.is_empty() {
         return Err(PaintError::NeverSprays);
     }
-    let stored: Vec<Point3<f32>> = surface.points.iter().map(|p| p.cast()).collect();
-    let tree = KdTree::new(&stored);
+    let jet = Jet::new(surface, coat);
     let num_sums = steps.len().div_ceil(STEPS_PER_SUM);
     let sums = map_in_order(
         num_sums,
         num_cores(),
-        || {
-            let grid = DirectionGrid::new(coat.gun.spread(), surface.spacing, coat.stand_off);
-            (grid, Vec::new())
-        },
+        || jet.scratch(),
         |scratch, which| {
             let end = steps.len().min((which + 1) * STEPS_PER_SUM);
             let mut sum = vec![0.0; surface.points.len()];
             for step in &steps[which * STEPS_PER_SUM..end] {
-                spray(surface, &tree, step, coat, scratch, &mut sum);
+                jet.spray(step, scratch, |index, film| sum[index] += film);
             }
             sum
         },
@@ -134,12 +132,7 @@ pub fn simulate(
             .zip(sum)
             .for_each(|(all, part)| *all += part);
     }
-    let least = (coat.tilt_limit + FACED_WITHIN).cos();
-    let kept_out = are_kept_out(surface, keep_outs);
-    let wanted = surface.normals.iter().zip(kept_out);
-    let is_reachable: Vec<bool> = wanted
-        .map(|(n, is_kept_out)| n.dot(&surface.side) >= least && !is_kept_out)
-        .collect();
+    let is_reachable = are_reachable(surface, coat, keep_outs);
     let seconds_on: f64 = steps.iter().map(|step| step.seconds).sum();
     let stays = thickness.iter().sum::<f64>() * surface.point_area;
     Ok(Film {
@@ -155,10 +148,58 @@ pub fn simulate(
     })
 }
 
+/// Returns for each point of the surface whether the gun can face it and it is not kept out.
+pub(super) fn are_reachable(
+    surface: &PaintSurface,
+    coat: &Coat,
+    keep_outs: &[KeepOut],
+) -> Vec<bool> {
+    let least = (coat.tilt_limit + FACED_WITHIN).cos();
+    let kept_out = are_kept_out(surface, keep_outs);
+    let wanted = surface.normals.iter().zip(kept_out);
+    wanted
+        .map(|(n, is_kept_out)| n.dot(&surface.side) >= least && !is_kept_out)
+        .collect()
+}
+
+/// What the gun leaves on its way from one point of a path to the next.
+#[derive(Debug)]
+pub(super) struct Deposit {
+    /// Points of the surface that get paint, each with its thickness, metres.
+    pub(super) film: Vec<(u32, f32)>,
+}
+
+/// Computes what each way with the gun on leaves on a surface, in the order of the path. Their sum is the film.
+pub(super) fn deposits(surface: &PaintSurface, points: &[PathPoint], coat: &Coat) -> Vec<Deposit> {
+    let (steps, ..) = steps_of(points, coat);
+    let ways: Vec<&[Step]> = steps.chunk_by(|a, b| a.point == b.point).collect();
+    let jet = Jet::new(surface, coat);
+    map_in_order(
+        ways.len(),
+        num_cores(),
+        || (jet.scratch(), vec![0.0; surface.points.len()]),
+        |(scratch, sum), which| {
+            let mut reached = Vec::new();
+            for step in ways[which] {
+                jet.spray(step, scratch, |index, film| {
+                    if sum[index] <= 0.0 {
+                        reached.push(index);
+                    }
+                    sum[index] += film;
+                });
+            }
+            let taken = |index| (index as u32, std::mem::take(&mut sum[index]) as f32);
+            Deposit {
+                film: reached.into_iter().map(taken).collect(),
+            }
+        },
+    )
+}
+
 /// Steps with the gun on; seconds and metres of the whole path.
-fn steps_of(path: &SprayPath, coat: &Coat) -> (Vec<Step>, f64, f64) {
+fn steps_of(points: &[PathPoint], coat: &Coat) -> (Vec<Step>, f64, f64) {
     let (mut steps, mut time, mut length) = (Vec::new(), 0.0, 0.0);
-    for pair in path.points().windows(2) {
+    for (point, pair) in points.windows(2).enumerate() {
         let [a, b] = pair else { continue };
         let way = (b.nozzle - a.nozzle).norm();
         let seconds = way / a.speed.unwrap_or(coat.speed);
@@ -172,13 +213,20 @@ fn steps_of(path: &SprayPath, coat: &Coat) -> (Vec<Step>, f64, f64) {
         let num = (way / depth * STEPS_OVER_DEPTH).ceil().max(1.0) as usize;
         for k in 0..num {
             let share = (k as f64 + 0.5) / num as f64;
-            steps.push(step_at(a, b, share, seconds / num as f64));
+            let (nozzle, axes) = gun_at(a, b, share);
+            steps.push(Step {
+                point,
+                nozzle,
+                axes,
+                seconds: seconds / num as f64,
+            });
         }
     }
     (steps, time, length)
 }
 
-fn step_at(a: &PathPoint, b: &PathPoint, share: f64, seconds: f64) -> Step {
+/// Nozzle and axes of the jet on the way from one point to another.
+fn gun_at(a: &PathPoint, b: &PathPoint, share: f64) -> (Point3<f64>, [Vector3<f64>; 3]) {
     let between = |a: &Vector3<f64>, b: &Vector3<f64>| a + (b - a) * share;
     let jet = between(&a.direction, &b.direction);
     let jet = Unit::try_new(jet, 1e-9).unwrap_or(a.direction).into_inner();
@@ -190,50 +238,73 @@ fn step_at(a: &PathPoint, b: &PathPoint, share: f64, seconds: f64) -> Step {
     };
     let fan = (fan - jet * jet.dot(&fan)).try_normalize(1e-9);
     let fan = fan.unwrap_or_else(|| super::surface::across(&jet));
-    Step {
-        nozzle: a.nozzle + (b.nozzle - a.nozzle) * share,
-        axes: [fan, jet.cross(&fan), jet],
-        seconds,
-    }
+    let nozzle = a.nozzle + (b.nozzle - a.nozzle) * share;
+    (nozzle, [fan, jet.cross(&fan), jet])
 }
 
-/// Adds the paint of one step; `grid` and `seen` are scratch.
-fn spray(
-    surface: &PaintSurface,
-    tree: &KdTree,
-    step: &Step,
-    coat: &Coat,
-    (grid, seen): &mut (DirectionGrid, Vec<Seen>),
-    sum: &mut [f64],
-) {
-    let spread = coat.gun.spread();
-    // At twice the stand-off the jet is thin, and the surface there is another part.
-    let reach = 2.0 * coat.stand_off;
-    let aim = step.nozzle + step.axes[2] * coat.stand_off;
-    let radius = reach
-        .min(coat.stand_off * spread[0].max(0.5) * 1.5)
-        .max(coat.stand_off * spread[0]);
-    // Discs beside the jet may reach into it.
-    let beside = DISC * surface.spacing;
-    let in_jet = |v: &Vector3<f64>| Vector3::from(step.axes.map(|axis| axis.dot(v)));
-    seen.clear();
-    tree.within(&aim.cast(), radius as f32, |found| {
-        let at = in_jet(&(surface.points[found.index] - step.nozzle));
-        if at.z > 0.0 && (0..2).all(|axis| at[axis].abs() <= spread[axis] * at.z + beside) {
-            seen.push(Seen {
-                index: found.index,
-                at,
-                normal: in_jet(&surface.normals[found.index]),
-            });
+/// A gun over a surface.
+struct Jet<'a> {
+    surface: &'a PaintSurface,
+    coat: &'a Coat,
+    tree: KdTree,
+}
+
+impl<'a> Jet<'a> {
+    fn new(surface: &'a PaintSurface, coat: &'a Coat) -> Self {
+        let stored: Vec<Point3<f32>> = surface.points.iter().map(|p| p.cast()).collect();
+        Self {
+            surface,
+            coat,
+            tree: KdTree::new(&stored),
         }
-    });
-    grid.sort(seen);
-    for point in seen.iter() {
-        let growth = coat
-            .gun
-            .film_growth(&point.at, -point.at.dot(&point.normal));
-        if growth > 0.0 && !grid.hides(seen, point) {
-            sum[point.index] += growth * step.seconds;
+    }
+
+    fn scratch(&self) -> (DirectionGrid, Vec<Seen>) {
+        let Self { surface, coat, .. } = self;
+        let grid = DirectionGrid::new(coat.gun.spread(), surface.spacing, coat.stand_off);
+        (grid, Vec::new())
+    }
+
+    /// Calls `add` with each point of the surface that one step paints, and its thickness.
+    fn spray(
+        &self,
+        step: &Step,
+        (grid, seen): &mut (DirectionGrid, Vec<Seen>),
+        mut add: impl FnMut(usize, f64),
+    ) {
+        let Self {
+            surface,
+            coat,
+            tree,
+        } = self;
+        let spread = coat.gun.spread();
+        // At twice the stand-off the jet is thin, and the surface there is another part.
+        let reach = 2.0 * coat.stand_off;
+        let aim = step.nozzle + step.axes[2] * coat.stand_off;
+        let radius = reach
+            .min(coat.stand_off * spread[0].max(0.5) * 1.5)
+            .max(coat.stand_off * spread[0]);
+        // Discs beside the jet may reach into it.
+        let beside = DISC * surface.spacing;
+        let in_jet = |v: &Vector3<f64>| Vector3::from(step.axes.map(|axis| axis.dot(v)));
+        seen.clear();
+        tree.within(&aim.cast(), radius as f32, |found| {
+            let at = in_jet(&(surface.points[found.index] - step.nozzle));
+            if at.z > 0.0 && (0..2).all(|axis| at[axis].abs() <= spread[axis] * at.z + beside) {
+                seen.push(Seen {
+                    index: found.index,
+                    at,
+                    normal: in_jet(&surface.normals[found.index]),
+                });
+            }
+        });
+        grid.sort(seen);
+        for point in seen.iter() {
+            let facing = -point.at.dot(&point.normal);
+            let growth = coat.gun.film_growth(&point.at, facing);
+            if growth > 0.0 && !grid.hides(seen, point) {
+                add(point.index, growth * step.seconds);
+            }
         }
     }
 }

@@ -9,8 +9,10 @@
 //! paths and films.
 
 mod coat;
+mod dwell;
 mod edit;
 mod error;
+mod even;
 mod film;
 mod fit;
 mod gun;

@@ -3,7 +3,8 @@
 //! Rows ([`lay_rows`]) run there and back over the smoothed surface, or rings ([`lay_rings`]) around it. The gun stands
 //! off along the smoothed normal, leans no farther than the coat allows, and turns its fan across the row. Its speed
 //! moves the jet over the surface at the coat's speed: around an outer curve the nozzle has the longer way and moves
-//! faster. Between rows the nozzle keeps clear of the part ([`keep_clear`]).
+//! faster. Between rows the nozzle keeps clear of the part ([`keep_clear`]). Then the speed is varied and strokes are
+//! added so that the film becomes even ([`evened`]).
 //!
 //! One layer is painted, as seen from the side; of folded sheet the upper one.
 
@@ -12,6 +13,7 @@ use nalgebra::{Point3, Unit, Vector3};
 use super::{
     coat::{Coat, Pattern, RowDirection},
     error::PaintError,
+    even::{Speed, evened},
     height_map::HeightMap,
     region::{KeepOut, KeepOuts},
     rings::lay_rings,
@@ -20,7 +22,7 @@ use super::{
     travel::keep_clear,
 };
 use crate::{
-    library::{MAX_PATH_POINTS, MAX_SPEED, PathPoint, SprayPath},
+    library::{MAX_PATH_POINTS, PathPoint, SprayPath},
     units::Metres,
 };
 
@@ -34,15 +36,29 @@ pub fn plan(
     coat: &Coat,
     keep_outs: &[KeepOut],
 ) -> Result<SprayPath, PaintError> {
+    planned(surface, coat, keep_outs, Speed::Given(coat.speed)).map(|(path, _)| path)
+}
+
+/// Plans the path of a coat at this speed, which it also returns.
+pub(super) fn planned(
+    surface: &PaintSurface,
+    coat: &Coat,
+    keep_outs: &[KeepOut],
+    speed: Speed,
+) -> Result<(SprayPath, f64), PaintError> {
     coat.check()?;
     for region in keep_outs {
         region.check()?;
     }
+    let coat = &Coat {
+        speed: 1.0,
+        ..*coat
+    };
     let along = row_direction(surface, coat);
-    let mut points = laid(surface, coat, keep_outs, &along)?;
+    let mut points = laid(surface, coat, keep_outs, &along, None)?.concat();
     if coat.pattern == Pattern::CrossHatch {
         let across = surface.side.cross(&along);
-        points.extend(laid(surface, coat, keep_outs, &across)?);
+        points.extend(laid(surface, coat, keep_outs, &across, None)?.concat());
     }
     let points = keep_clear(points, surface, coat);
     if points.len() > MAX_PATH_POINTS {
@@ -50,7 +66,19 @@ pub fn plan(
             found: points.len(),
         });
     }
-    SprayPath::new(points).ok_or(PaintError::NoRows)
+    if points.is_empty() {
+        return Err(PaintError::NoRows);
+    }
+    let raster = Coat {
+        pattern: Pattern::Raster,
+        ..*coat
+    };
+    let rows = |along: &Vector3<f64>, towards: &Vector3<f64>| {
+        laid(surface, &raster, keep_outs, along, Some(towards))
+    };
+    let (points, speed) = evened(surface, coat, keep_outs, &along, points, speed, rows)?;
+    let path = SprayPath::new(points).ok_or(PaintError::NoRows)?;
+    Ok((path, speed))
 }
 
 /// Direction of the rows, perpendicular to the side.
@@ -63,13 +91,15 @@ fn row_direction(surface: &PaintSurface, coat: &Coat) -> Vector3<f64> {
     flat.try_normalize(1e-3).unwrap_or(surface.longest)
 }
 
-/// The points of one raster, or of all rings.
+/// The rows of one raster, or all rings. With `towards`, the jet is against this direction everywhere, instead of
+/// following the surface.
 fn laid(
     surface: &PaintSurface,
     coat: &Coat,
     regions: &[KeepOut],
     along: &Vector3<f64>,
-) -> Result<Vec<PathPoint>, PaintError> {
+    towards: Option<&Vector3<f64>>,
+) -> Result<Vec<Vec<PathPoint>>, PaintError> {
     let reach = coat.overrun + coat.lead + coat.spacing;
     let frame = HeightMap::axes_of(surface, along);
     let inside = KeepOuts::new(regions, |p| HeightMap::in_axes(surface, &frame, p));
@@ -91,25 +121,25 @@ fn laid(
         lead: coat.lead,
         margin: coat.margin,
     };
-    let mut points = Vec::new();
     let is_raster = coat.pattern != Pattern::Contour;
     let rows = if is_raster {
         lay_rows(&map, &inside, &params)
     } else {
         lay_rings(&map, &inside, &params)
     };
+    let (mut all, mut found) = (Vec::new(), 0);
     for (k, mut row) in rows.into_iter().enumerate() {
         if is_raster && k % 2 == 1 {
             row.reverse();
         }
-        points.extend(path_of_row(&map, &row, coat, &surface.side));
-        if points.len() > MAX_PATH_POINTS {
-            return Err(PaintError::TooLong {
-                found: points.len(),
-            });
+        let points = path_of_row(&map, &row, coat, &surface.side, towards);
+        found += points.len();
+        if found > MAX_PATH_POINTS {
+            return Err(PaintError::TooLong { found });
         }
+        all.push(points);
     }
-    Ok(points)
+    Ok(all)
 }
 
 /// The pose of the gun at one point of a row.
@@ -125,12 +155,14 @@ fn path_of_row(
     row: &[RowPlace],
     coat: &Coat,
     side: &Vector3<f64>,
+    towards: Option<&Vector3<f64>>,
 ) -> Vec<PathPoint> {
     let stances: Vec<Stance> = evenly(map, row, coat.point_spacing)
         .into_iter()
         .map(|place| {
             let spot = map.spot(place.at);
-            let normal = leaning(&spot.normal, side, coat.tilt_limit);
+            let upright = || leaning(&spot.normal, side, coat.tilt_limit);
+            let normal = towards.copied().unwrap_or_else(upright);
             Stance {
                 surface: spot.at,
                 nozzle: spot.at + normal * coat.stand_off,
@@ -154,7 +186,7 @@ fn path_of_row(
             direction: Unit::new_normalize(-own.normal),
             stand_off: Some(Metres(coat.stand_off)),
             is_gun_on: own.is_gun_on,
-            speed: Some((coat.speed * scaling).min(MAX_SPEED)),
+            speed: Some(coat.speed * scaling),
             fan: Unit::try_new(own.normal.cross(&tangent), 1e-9),
         }
     });

@@ -1,14 +1,14 @@
 //! Finds the row spacing and the speed that bring a film to its target.
 //!
-//! The thickness is inversely proportional to the speed, so each spacing needs one simulation: the factor on the
-//! thickness that brings most of the surface within the tolerance is found exactly, by a window over the sorted
-//! thicknesses.
+//! The thickness is inversely proportional to the speed, so each spacing is planned once: the factor on the thickness
+//! that brings most of the surface within the tolerance is found exactly, by a window over the sorted thicknesses.
 
 use super::{
     coat::Coat,
     error::PaintError,
+    even::Speed,
     film::{Film, simulate},
-    plan::plan,
+    plan::planned,
     region::KeepOut,
     surface::PaintSurface,
 };
@@ -17,11 +17,11 @@ use crate::library::SprayPath;
 /// Spacings to be tried, as shares of the pattern's width at the stand-off, the fastest first.
 const SPACINGS: [f64; 4] = [0.4, 0.35, 0.3, 0.25];
 /// Share of the reachable area within the tolerance that is good enough.
-const GOOD: f64 = 0.95;
+pub(super) const GOOD: f64 = 0.95;
 /// Share of the reachable area that may be lost for a mean nearer to the target.
 const GIVEN_UP: f64 = 0.005;
 /// Range of a coat's speed, m/s.
-const SPEEDS: [f64; 2] = [0.01, 3.0];
+pub(super) const SPEEDS: [f64; 2] = [0.01, 3.0];
 
 /// A coat with the best spacing and speed, its path and film.
 #[derive(Clone, Debug)]
@@ -43,41 +43,41 @@ pub fn propose(
 ) -> Result<Proposal, PaintError> {
     coat.check()?;
     let width = coat.gun.width * coat.stand_off / coat.gun.distance;
-    let mut best: Option<(f64, Coat)> = None;
+    let mut best: Option<Proposal> = None;
     for share in SPACINGS {
         let spaced = Coat {
             // In whole millimetres, so that the value shown and stored is the one planned with.
             spacing: (1e3 * share * width).round() / 1e3,
             ..*coat
         };
-        let path = plan(surface, &spaced, keep_outs)?;
-        let film = simulate(surface, &path, &spaced, keep_outs)?;
-        let (_, within) = best_factor(&film, coat);
-        let speed = best_speed(&film, coat);
-        if best.as_ref().is_none_or(|(most, _)| within > *most) {
-            best = Some((within, Coat { speed, ..spaced }));
+        let (path, speed) = planned(surface, &spaced, keep_outs, Speed::ToTarget)?;
+        let coat = Coat { speed, ..spaced };
+        let film = simulate(surface, &path, &coat, keep_outs)?;
+        let within = film.figures.within;
+        if best
+            .as_ref()
+            .is_none_or(|best| within > best.film.figures.within)
+        {
+            best = Some(Proposal { coat, path, film });
         }
         if within >= GOOD {
             break;
         }
     }
-    let (_, coat) = best.ok_or(PaintError::NoRows)?;
-    let path = plan(surface, &coat, keep_outs)?;
-    let film = simulate(surface, &path, &coat, keep_outs)?;
-    Ok(Proposal { coat, path, film })
+    best.ok_or(PaintError::NoRows)
 }
 
 /// Returns the speed that brings most of a film within the coat's tolerance, m/s.
 pub fn best_speed(film: &Film, coat: &Coat) -> f64 {
-    let (factor, _) = best_factor(film, coat);
+    let (factor, _) = best_factor(&film.thickness, &film.is_reachable, coat);
     (coat.speed / factor).clamp(SPEEDS[0], SPEEDS[1])
 }
 
 /// Returns the factor on all thicknesses that brings most of the reachable points within the tolerance, and their
 /// share. If more than enough are within it, the factor moves towards a mean at the target: a film at the upper end of
 /// its tolerance wastes paint.
-fn best_factor(film: &Film, coat: &Coat) -> (f64, f64) {
-    let each = film.thickness.iter().zip(&film.is_reachable);
+pub(super) fn best_factor(thickness: &[f64], is_reachable: &[bool], coat: &Coat) -> (f64, f64) {
+    let each = thickness.iter().zip(is_reachable);
     let mut reached: Vec<f64> = each.filter(|(_, is)| **is).map(|(t, _)| *t).collect();
     reached.sort_by(f64::total_cmp);
     let [low, high] = [1.0 - coat.tolerance, 1.0 + coat.tolerance];
@@ -145,18 +145,19 @@ mod tests {
         let folder = LibraryFolder::open(&folder).expect("opened");
         let load = folder.load(&ReferenceParams::default()).expect("loaded");
         assert_eq!(load.parts.len(), 8);
-        let mut num_good = 0;
         for (reference, part) in load.library.references.iter().zip(&load.parts) {
             let surface = PaintSurface::of(reference, part.coverage).expect("a surface");
             let found = propose(&surface, &Coat::default(), &[]).expect(&reference.name);
             let film = &found.film.figures;
-            assert!(film.within >= 0.88, "{}: {film:?}", reference.name);
-            num_good += usize::from(film.within >= 0.95);
+            // Ribs of the grille have flanks that neighbouring ribs hide even from the leaned gun.
+            let least = if reference.name.as_str() == "grille" {
+                0.935
+            } else {
+                0.96
+            };
+            assert!(film.within >= least, "{}: {film:?}", reference.name);
             let mean = film.mean / Coat::default().target;
-            assert!((mean - 1.0).abs() < 0.12, "{}: {mean}", reference.name);
+            assert!((mean - 1.0).abs() < 0.08, "{}: {mean}", reference.name);
         }
-        // Ribs of the grille and the radiator support have flanks that the smoothed gun does not face and that
-        // neighbouring ribs hide.
-        assert!(num_good >= 5, "{num_good}");
     }
 }

@@ -306,6 +306,7 @@ mod tests {
     fn coat(pattern: Pattern) -> Coat {
         let coat = Coat {
             pattern,
+            flank_lean: 0.0,
             ..Coat::default()
         };
         Coat {

@@ -173,6 +173,7 @@ mod tests {
         Coat {
             pattern: Pattern::CrossHatch,
             tilt_limit,
+            flank_lean: 0.0,
             ..Coat::default()
         }
     }

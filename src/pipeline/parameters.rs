@@ -98,6 +98,8 @@ pub enum DisplayUnit {
     Degrees,
     /// Millimetres per second; stored in metres per second.
     MillimetresPerSecond,
+    /// Metres per second squared.
+    MetresPerSecondSquared,
     /// Millilitres per minute; stored in cubic metres per second.
     MillilitresPerMinute,
     /// Micrometres.
@@ -116,6 +118,7 @@ impl DisplayUnit {
             Self::SquareMillimetres => " mm²",
             Self::Degrees => "°",
             Self::MillimetresPerSecond => " mm/s",
+            Self::MetresPerSecondSquared => " m/s²",
             Self::MillilitresPerMinute => " ml/min",
             Self::Micrometres => " µm",
             Self::Percent => " %",
@@ -125,7 +128,7 @@ impl DisplayUnit {
     /// Factor from the stored unit to this one.
     pub fn per_inner(self) -> f64 {
         match self {
-            Self::None => 1.0,
+            Self::None | Self::MetresPerSecondSquared => 1.0,
             Self::Millimetres | Self::MillimetresPerSecond => 1000.0,
             Self::SquareCentimetres => 1e4,
             Self::SquareMillimetres | Self::Micrometres => 1e6,

@@ -120,6 +120,7 @@ fn a_planned_path_covers_a_plate_to_its_edges_and_figures_add_up() {
     let surface = plate(1.0, 0.7);
     let coat = Coat {
         target: Coat::default().flat_thickness(),
+        acceleration: 0.0,
         ..Coat::default()
     };
     let path = plan(&surface, &coat, &[]).expect("planned");

@@ -7,7 +7,10 @@ use crate::{
 #[test]
 fn rows_over_a_plate_are_straight_even_and_at_stand_off() {
     let surface = plate(1.0, 0.6);
-    let coat = Coat::default();
+    let coat = Coat {
+        acceleration: 0.0,
+        ..Coat::default()
+    };
     let path = plan(&surface, &coat, &[]).expect("planned");
     let mut levels: Vec<f64> = Vec::new();
     for pair in path.points().windows(2) {
@@ -57,6 +60,7 @@ fn rows_around_a_cylinder_are_even_along_the_surface() {
     let coat = Coat {
         direction: RowDirection::Angle,
         tilt_limit: 1.2,
+        flank_lean: 0.0,
         ..Coat::default()
     };
     let path = plan(&surface, &coat, &[]).expect("planned");
