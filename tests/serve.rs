@@ -667,7 +667,7 @@ fn hostile_clients_do_not_disturb_a_good_one() {
             // Half a request, meaningless bytes, and a gigabyte without a line end.
             scope.spawn(move || attack(&half, 1));
             scope.spawn(move || attack(&[0xff, 0x00, 0x80, b'<', b'R', b'\n'], 100));
-            scope.spawn(move || attack(&[b'A'; 65_536], 16_384));
+            scope.spawn(move || attack(&vec![b'A'; 65_536], 16_384));
         }
         // Ends the attacks even if a good client fails.
         let _end = EndAtLast(&is_over);
@@ -724,7 +724,8 @@ fn of_a_gigabyte_without_an_end_hardly_anything_is_read() {
     for place in 0..ALL.len() {
         let mut robot = service.robot(place);
         let stream = robot.stream.get_mut();
-        let chunks = (0..16_384).take_while(|_| stream.write_all(&[b'A'; 65_536]).is_ok());
+        let chunk = vec![b'A'; 65_536];
+        let chunks = (0..16_384).take_while(|_| stream.write_all(&chunk).is_ok());
         let num_taken = chunks.count();
         // What both sides of the connection buffer, and what the server discards so that the client can read why.
         assert!(num_taken < 1024, "{}: {num_taken}", robot.protocol);

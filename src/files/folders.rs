@@ -1,10 +1,6 @@
 //! Crash-safe writing of folders, and the user's own folders.
 
-use std::{
-    fs::{self, File},
-    io,
-    path::Path,
-};
+use std::{fs::File, io, path::Path};
 
 use directories::ProjectDirs;
 
@@ -37,7 +33,7 @@ pub(crate) fn new_folder(parent: &Path, prefix: &str) -> io::Result<tempfile::Te
     {
         use std::os::unix::fs::PermissionsExt as _;
         // As for an ordinary new folder, less the umask: other users may read it.
-        builder.permissions(fs::Permissions::from_mode(0o777));
+        builder.permissions(std::fs::Permissions::from_mode(0o777));
     }
     disk::temporary_folder(&builder, parent)
 }

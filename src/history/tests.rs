@@ -134,6 +134,7 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
             verdict: random
                 .random_bool(0.3)
                 .then(|| StoredVerdict::ALL[random.random_range(0..4)]),
+            is_accepted: random.random_bool(0.3).then(|| random.random()),
             is_simulated: random.random_bool(0.3).then(|| random.random()),
             with_below: random.random(),
             text: [

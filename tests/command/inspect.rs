@@ -375,9 +375,8 @@ fn the_card_names_a_margin_and_no_difference_of_scores() {
 #[test]
 fn only_the_command_line_names_the_option_for_millimetres() {
     let place = Workplace::new();
-    let cloud: String = (0..2500)
-        .map(|i| format!("{} {} 1400\n", 20 * (i % 50), 20 * (i / 50)))
-        .collect();
+    let points = (0..2500).map(|i| format!("{} {} 1400\n", 20 * (i % 50), 20 * (i / 50)));
+    let cloud = points.collect::<Vec<_>>().concat();
     place.write("part.xyz", &cloud);
     let ran = place.run(&["inspect", "part.xyz"]);
     assert!(ran.err.contains("--units mm"), "{}", ran.err);

@@ -139,7 +139,6 @@ fn while_the_database_is_gone_every_trigger_is_answered_and_arrives_there_once()
 /// The same for a minute. Prints how long triggers took.
 #[test]
 #[ignore = "takes four minutes; a measurement, run with --ignored --nocapture"]
-#[expect(clippy::print_stdout, reason = "a measurement")]
 fn a_minute_without_the_database() {
     for (when, mut waited) in outage(Duration::from_mins(1)).into_iter().flatten() {
         waited.sort();

@@ -280,7 +280,7 @@ fn an_unknown_part_has_no_cautions_about_using_its_pose() {
             rejected,
             is_approximate: true,
         },
-        none => none,
+        none @ Verdict::NoPart(_) => none,
     };
     assert!(inspection.verdict.is_unknown());
     let report = refused().report_of(&inspection, None, Convention::Kuka);
