@@ -30,6 +30,9 @@ use crate::{
 /// Least and greatest dwell of a way: three times and half the coat's speed. Faster ways need so long to change their
 /// speed that their neighbours become uneven.
 const DWELLS: [f64; 2] = [1.0 / 3.0, 2.0];
+/// Greatest speed of a faster way, m/s, unless the coat's own is greater: a little less than the least that a controller
+/// accepts (Doosan's, 1 m/s).
+const MOST_SPEED: f64 = 0.995;
 /// Least dwell of a way of an added stroke, from few strokes to many.
 const KEPT: [f64; 3] = [0.5, 0.25, 0.1];
 /// Least gain in the share of the surface for which strokes, or more strokes, are added.
@@ -96,7 +99,7 @@ pub(super) fn evened(
     }
     // Of a path at 1 m/s.
     let acceleration = coat.acceleration / (speed * speed);
-    let fastest = MAX_SPEED / speed;
+    let fastest = MOST_SPEED.max(speed).min(MAX_SPEED) / speed;
     let with_dwells = |points: Vec<PathPoint>, deposits: &[&Deposit], start: &[f64]| {
         let (ways, which) = ways_of(&points, DWELLS, fastest);
         let mut dwells = vec![1.0; ways.len()];
