@@ -30,9 +30,10 @@ use crate::{
 /// Least and greatest dwell of a way: three times and half the coat's speed. Faster ways need so long to change their
 /// speed that their neighbours become uneven.
 const DWELLS: [f64; 2] = [1.0 / 3.0, 2.0];
-/// Greatest speed of a faster way, m/s, unless the coat's own is greater: a little less than the least that a controller
-/// accepts (Doosan's, 1 m/s).
+/// Greatest speed of a faster way, m/s: a little less than the least that a controller accepts (Doosan's, 1 m/s). A way may
+/// always be faster than the coat by the factor.
 const MOST_SPEED: f64 = 0.995;
+const ALWAYS_FASTER: f64 = 1.5;
 /// Least dwell of a way of an added stroke, from few strokes to many.
 const KEPT: [f64; 3] = [0.5, 0.25, 0.1];
 /// Least gain in the share of the surface for which strokes, or more strokes, are added.
@@ -99,7 +100,9 @@ pub(super) fn evened(
     }
     // Of a path at 1 m/s.
     let acceleration = coat.acceleration / (speed * speed);
-    let fastest = MOST_SPEED.max(speed).min(MAX_SPEED) / speed;
+    let fastest = (MOST_SPEED / speed)
+        .max(ALWAYS_FASTER)
+        .min(MAX_SPEED / speed);
     let with_dwells = |points: Vec<PathPoint>, deposits: &[&Deposit], start: &[f64]| {
         let (ways, which) = ways_of(&points, DWELLS, fastest);
         let mut dwells = vec![1.0; ways.len()];

@@ -328,9 +328,11 @@ fn parts_are_numbered_once_robots_are_answered_and_keep_their_numbers() {
     let folder = tempfile::tempdir().expect("a folder");
     let parts = folder.path().join("other parts");
     copy_library(&parts);
-    let mut harness = open_with(USUAL, options(folder.path()));
-    let choose = Action::Chosen(DialogRequest::Library, parts.clone());
-    cause(&mut harness, choose);
+    let options = WindowOptions {
+        library: Some(parts.clone()),
+        ..options(folder.path())
+    };
+    let mut harness = open_with(USUAL, options);
     let at = turn_on(&mut harness);
     // Without a trigger.
     let stored = LibraryFolder::open(&parts).expect("there");
