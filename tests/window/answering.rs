@@ -21,7 +21,6 @@ use partsight::{
             action::{Action, DialogRequest},
             robot::{AnswerSetup, RobotAction, RobotDialog, RobotPage},
             roles::RoleAction,
-            state::State,
         },
         workspaces::history::HistoryWorkspace,
     },
