@@ -183,9 +183,9 @@ fn the_help_of_the_three_cells_starts_nothing() {
     let said = said_by(&output_with("--help"));
     assert!(said.contains("packaging/three_cells.sh [FOLDER]"), "{said}");
     assert!(!said.contains("set -"), "{said}");
-    let wrong = output_with("--halp");
+    let wrong = output_with("--unheard-of");
     let said = String::from_utf8_lossy(&wrong.stderr);
-    assert!(said.contains("no option --halp"), "{said}");
+    assert!(said.contains("no option --unheard-of"), "{said}");
     let mut left = fs::read_dir(&folder).expect("a folder");
     assert!(left.next().is_none(), "it made a folder");
 }
