@@ -141,6 +141,11 @@ shell-writing-settings = Writing the settings
 
 shell-settings-not-used = The settings in { $path } are not used: { $why }
 shell-settings-set-aside = They were moved to { $path }; the window starts with default settings
+shell-settings-values-not-used = { $keys } in { $path } { $num ->
+    [one] cannot be read and has its default value
+   *[other] cannot be read and have their default values
+}; all other settings are kept
+shell-settings-kept-beside = The file as it was is { $path }
 shell-settings-move-away = Move the file away: it could not be set aside ({ $why })
 shell-settings-not-kept = The settings are not remembered: { $why }
 shell-settings-not-kept-advice = { $advice }; until then settings are not remembered

@@ -141,6 +141,11 @@ shell-writing-settings = Guardando los ajustes
 
 shell-settings-not-used = Los ajustes de { $path } no se usan: { $why }
 shell-settings-set-aside = Se han movido a { $path }; la ventana se abre con los ajustes predeterminados
+shell-settings-values-not-used = { $keys } en { $path } { $num ->
+    [one] no se puede leer y tiene su valor predeterminado
+   *[other] no se pueden leer y tienen sus valores predeterminados
+}; los demás ajustes se conservan
+shell-settings-kept-beside = El archivo tal como estaba es { $path }
 shell-settings-move-away = Mover el archivo a otro lugar: no se pudo apartar ({ $why })
 shell-settings-not-kept = Los ajustes no se recuerdan: { $why }
 shell-settings-not-kept-advice = { $advice }; hasta entonces no se recuerdan los ajustes

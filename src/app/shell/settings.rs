@@ -297,48 +297,62 @@ fn language<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Language>, D::E
 /// Reads the file. A missing one is no error. An unusable one is set aside, which frees its name; one with unusable values
 /// too, and the rest of it is written and used.
 pub fn load(path: &Path) -> (Settings, Option<UserError>) {
-    let bad = match read(path) {
-        Ok(ReadSettings { settings, bad_keys }) if bad_keys.is_empty() => return (settings, None),
+    match read(path) {
         Ok(ReadSettings { settings, bad_keys }) => {
-            let trouble = UserError {
-                what: format!(
-                    "{} in {} cannot be read and {} its default value; all other settings are kept",
-                    bad_keys.join(", "),
-                    path.display(),
-                    if bad_keys.len() == 1 { "has" } else { "have" }
-                ),
-                advice: match set_aside(path) {
-                    Ok(aside) => {
-                        // If this fails, writing the next change reports it.
-                        let _ = save(path, &settings);
-                        format!("The file as it was is {}", aside.display())
-                    }
-                    Err(_) => format!("Correct {} while the window is closed", path.display()),
-                },
-            };
-            return (settings, Some(trouble));
+            let trouble =
+                (!bad_keys.is_empty()).then(|| values_not_used(path, &settings, &bad_keys));
+            (settings, trouble)
         }
         Err(BadSettings::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
-            return (Settings::default(), None);
+            (Settings::default(), None)
         }
-        Err(bad) => bad,
-    };
-    let what = text!(
-        "shell-settings-not-used",
-        path = path.display().to_string(),
-        why = bad.to_string()
-    );
+        Err(bad) => {
+            let what = text!(
+                "shell-settings-not-used",
+                path = path.display().to_string(),
+                why = bad.to_string()
+            );
+            let advice = match set_aside(path) {
+                Ok(aside) => text!(
+                    "shell-settings-set-aside",
+                    path = aside.display().to_string()
+                ),
+                Err(error) => move_away(&error),
+            };
+            (Settings::default(), Some(UserError { what, advice }))
+        }
+    }
+}
+
+/// Keeps a file with unusable values beside, and writes the others to its place.
+fn values_not_used(path: &Path, settings: &Settings, bad_keys: &[String]) -> UserError {
     let advice = match set_aside(path) {
-        Ok(aside) => text!(
-            "shell-settings-set-aside",
-            path = aside.display().to_string()
-        ),
-        Err(error) => text!(
-            "shell-settings-move-away",
-            why = crate::files::words_of(&error)
-        ),
+        Ok(aside) => {
+            // If this fails, writing the next change reports it.
+            let _ = save(path, settings);
+            text!(
+                "shell-settings-kept-beside",
+                path = aside.display().to_string()
+            )
+        }
+        Err(error) => move_away(&error),
     };
-    (Settings::default(), Some(UserError { what, advice }))
+    UserError {
+        what: text!(
+            "shell-settings-values-not-used",
+            keys = bad_keys.join(", "),
+            num = bad_keys.len(),
+            path = path.display().to_string()
+        ),
+        advice,
+    }
+}
+
+fn move_away(error: &io::Error) -> String {
+    text!(
+        "shell-settings-move-away",
+        why = crate::files::words_of(error)
+    )
 }
 
 /// Returns the last size of the window, without reporting problems with the file.

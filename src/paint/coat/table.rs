@@ -122,7 +122,7 @@ const TABLE: &[Parameter<Coat>] = &[
         "How far the gun may lean from the direction in which the part is painted. Raising it follows steep flanks \
          and swings the wrist at corners."),
     number!("acceleration", "Acceleration", Path, Fold, MetresPerSecondSquared, [0.0, 20.0], 1, acceleration,
-        "Largest acceleration of the gun along a stroke, where its speed rises to three times or falls to half the speed above to even out the film. Raising it follows smaller details; 0 keeps the speed constant."),
+        "Largest acceleration of the gun along a stroke, where its speed varies to even out the film. Raising it follows smaller details; 0 keeps the speed constant."),
     number!("flank_lean", "Lean to flanks", Path, Fold, Degrees, [0.0, 60.0], 0, flank_lean,
         "How far the gun leans towards steep flanks in short strokes that are added if less than 95 % of the surface would be within the tolerance. They take much of the path's time; 0 adds none."),
     number!("point_spacing", "Point spacing", Path, Fold, Millimetres, [5.0, 200.0], 0, point_spacing,

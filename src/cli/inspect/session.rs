@@ -1,0 +1,299 @@
+//! Inspects one scene after the other: shows, records, exports and reports each.
+
+use std::{fmt::Display, path::Path, sync::Arc};
+
+#[cfg(feature = "plant")]
+use super::publish;
+use super::{
+    hung::{FollowedFrame, FollowedParts},
+    program, spray,
+};
+#[cfg(feature = "plant")]
+use crate::serve::Found;
+use crate::{
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, marked_simulated},
+        input::{FileAdvice, OpenedScene, before},
+        output::OutputFormat,
+        recipe::show_recipe,
+        record::{HistoryRecorder, SceneOrigin},
+        verdict::{outcome_of, show_in_robot},
+    },
+    error::{Advice, guarded},
+    history::{HungId, NewEntry, Traceability},
+    library::Library,
+    pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
+    report::{CaptureLine, InspectionLine, Picture, ReportFolder, stage_pictures},
+    robot::RobotFrame,
+    stages::{
+        reference::Reference,
+        scene::{EmptyCell, SceneCloud},
+    },
+};
+
+/// State shared by all files or frames of a call.
+pub(super) struct InspectSession {
+    pub(super) library: Library,
+    pub(super) recipe: NamedRecipe,
+    pub(super) trace: Traceability,
+    pub(super) empty_cell: Option<Arc<EmptyCell>>,
+    pub(super) robot: Option<RobotFrame>,
+    pub(super) spray: Option<spray::SprayFile>,
+    pub(super) program: Option<program::CapturedProgram>,
+    pub(super) format: OutputFormat,
+    pub(super) report: Option<ReportFolder>,
+    pub(super) recording: Option<HistoryRecorder>,
+    /// Set for a source whose frames show one part after the other.
+    pub(super) followed: Option<FollowedParts<KeptInspection>>,
+    #[cfg(feature = "plant")]
+    pub(super) publisher: Option<publish::Publisher>,
+    pub(super) mirrored: MirrorTally,
+}
+
+/// An inspection to store and publish once its verdict counts.
+pub(super) struct KeptInspection {
+    /// Entry for the history.
+    entry: Option<NewEntry>,
+    /// Result for the broker.
+    #[cfg(feature = "plant")]
+    found: Option<Found>,
+}
+
+impl InspectSession {
+    pub(super) fn inspect(
+        &mut self,
+        path: &Path,
+        opened: OpenedScene,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
+        let name = path.display().to_string();
+        match opened {
+            Ok((scene, warnings)) => {
+                for warning in &warnings {
+                    console.warn(&format_args!("{name}: {warning}"), &FileAdvice(warning));
+                }
+                self.frame(path, console, |one, console| {
+                    one.inspect_scene(path, scene, None, console)
+                })
+            }
+            // The message names the file.
+            Err(error) => self.unreadable(path, &error, &error, console),
+        }
+    }
+
+    /// Inspects one of many frames: a fault of the program there becomes an error of that frame, and the next one
+    /// follows.
+    pub(super) fn frame(
+        &mut self,
+        path: &Path,
+        console: &mut Console,
+        inspect: impl FnOnce(&mut Self, &mut Console) -> anyhow::Result<Outcome>,
+    ) -> anyhow::Result<Outcome> {
+        guarded(|| inspect(self, console)).unwrap_or_else(|fault| {
+            #[cfg(feature = "plant")]
+            if let Some(publisher) = &mut self.publisher {
+                publisher.failed(&fault);
+            }
+            let shown = format!("{}: {fault}", path.display());
+            self.unreadable(path, &fault, &shown, console)
+        })
+    }
+
+    /// Reports an input that is not a scene; `shown` is the error as text for people.
+    pub(super) fn unreadable(
+        &mut self,
+        path: &Path,
+        error: &impl Advice,
+        shown: &dyn Display,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
+        let name = path.display().to_string();
+        let line = InspectionLine::unreadable(&name, shown).to_json();
+        self.format.unreadable(&name, &line, console);
+        console.note(&format_args!("error: {shown}"));
+        console.note(&format_args!("  to do: {}", error.advice()));
+        if let Some(report) = &mut self.report {
+            report.write(path, &line, &[]).advised()?;
+        }
+        Ok(Outcome::CouldNotRun)
+    }
+
+    /// Inspects a scene; `capture` is known if a source captured it. The report is named after the path.
+    pub(super) fn inspect_scene(
+        &mut self,
+        path: &Path,
+        mut scene: SceneCloud,
+        capture: Option<CaptureLine<'_>>,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
+        let Self {
+            library,
+            recipe,
+            trace,
+            empty_cell,
+            robot,
+            format,
+            report,
+            recording,
+            followed,
+            #[cfg(feature = "plant")]
+            publisher,
+            mirrored,
+            ..
+        } = self;
+        let name = path.display().to_string();
+        before(&mut scene, empty_cell.as_ref(), &name, console);
+        if let Some(followed) = followed {
+            scene.set_known_view(followed.known_view());
+        }
+        let scene = Arc::new(scene);
+        let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
+        mirrored.add(&inspection.verdict);
+        let file_says_simulated = capture.is_none() && scene.cloud.is_simulated;
+        let taken = SceneOrigin {
+            scene: &name,
+            source: capture.as_ref().map_or("file", CaptureLine::source),
+            is_simulated: capture.map_or(file_says_simulated, |c| c.is_simulated()),
+        };
+        let robot = robot.as_ref();
+        let line_of = |inspection: &Inspection| {
+            let mut line = InspectionLine::of(&name, inspection)
+                .by(recipe)
+                .traced(trace)
+                .captured(capture);
+            if file_says_simulated {
+                line = line.of_simulated_file();
+            }
+            line.in_robot(robot, inspection).to_json()
+        };
+        let line = line_of(&inspection);
+        // The table has no room for the mark; reports and history have it.
+        let shown = match format {
+            OutputFormat::Card => marked_simulated(&name, file_says_simulated),
+            _ => name.clone(),
+        };
+        format.inspected(&shown, &line, &inspection, library, console);
+        if let OutputFormat::Card = format {
+            show_recipe(recipe, console);
+        }
+        if let (OutputFormat::Card, Some(robot)) = (format, robot) {
+            show_in_robot(robot, &inspection, library, console);
+        }
+        let outcome = outcome_of(&inspection);
+        let pictures = report.as_ref().map(|_| stage_pictures(&scene, &inspection));
+        // After the verdict is shown, which must not wait for it, and before the exports, any of which may fail.
+        let is_kept = recording.is_some();
+        #[cfg(feature = "plant")]
+        let is_kept = is_kept || publisher.is_some();
+        let kept = |inspection: &Inspection, hung: HungId| KeptInspection {
+            entry: recording.as_ref().map(|recording| {
+                recording.entry(taken, &scene, inspection, &line_of(inspection), hung)
+            }),
+            #[cfg(feature = "plant")]
+            found: (publisher.as_ref()).and_then(|publisher| publisher.found(inspection, recipe)),
+        };
+        if let (true, Some(followed), Some(capture)) = (is_kept, followed, capture) {
+            let frame = FollowedFrame {
+                scene: &scene,
+                taken_at: capture.taken_at(),
+                middle: inspection
+                    .best_reference(library)
+                    .and_then(Reference::middle),
+                accept: &recipe.accept,
+            };
+            let kept = followed.take(&frame, inspection, kept);
+            for kept in kept.into_iter().flatten() {
+                self.keep(kept, console);
+            }
+            // Paths and programs are only written for files.
+            self.write_report(path, &line, pictures)?;
+            return Ok(outcome);
+        }
+        if is_kept {
+            let kept = kept(&inspection, HungId::new());
+            self.keep(kept, console);
+        }
+        let seen = spray::SprayResult {
+            scene: &name,
+            inspection: &inspection,
+            library: &self.library,
+            params: &self.recipe.stand_off,
+        };
+        Ok(match (&self.spray, &self.program, &self.robot) {
+            (Some(spray), _, Some(robot)) => outcome.max(spray.write(&seen, robot, console)?),
+            // A refused part keeps its outcome even if its program was forced.
+            (_, Some(program), Some(robot)) => {
+                outcome.max(program.write(&seen, file_says_simulated, robot, console)?)
+            }
+            _ => {
+                self.write_report(path, &line, pictures)?;
+                outcome
+            }
+        })
+    }
+
+    /// Writes line and pictures of an inspection, if there is a folder for them.
+    fn write_report(
+        &mut self,
+        path: &Path,
+        line: &str,
+        pictures: Option<Vec<Picture>>,
+    ) -> anyhow::Result<()> {
+        if let (Some(report), Some(pictures)) = (&mut self.report, pictures) {
+            report.write(path, line, &pictures).advised()?;
+        }
+        Ok(())
+    }
+
+    /// Passes an inspection to the history and to the publisher.
+    fn keep(&mut self, kept: KeptInspection, console: &Console) {
+        if let (Some(recording), Some(entry)) = (&mut self.recording, kept.entry) {
+            recording.add(entry, console);
+        }
+        #[cfg(feature = "plant")]
+        if let (Some(publisher), Some(found)) = (&mut self.publisher, kept.found) {
+            publisher.publish(found);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_at_which_the_program_fails_is_unreadable_and_the_next_one_comes() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut session = InspectSession {
+            library: Library::default(),
+            recipe: NamedRecipe::default(),
+            trace: Traceability::default(),
+            empty_cell: None,
+            robot: None,
+            spray: None,
+            program: None,
+            format: OutputFormat::Card,
+            report: Some(ReportFolder::make(folder.path()).expect("made")),
+            recording: None,
+            followed: None,
+            #[cfg(feature = "plant")]
+            publisher: None,
+            mirrored: MirrorTally::default(),
+        };
+        let mut console = Console::new();
+        let failed = session.frame(Path::new("a.pcd"), &mut console, |_, _| {
+            panic!("no ray for this pixel")
+        });
+        assert_eq!(failed.expect("it goes on"), Outcome::CouldNotRun);
+        let kept = std::fs::read_to_string(folder.path().join("a.report.json")).expect("its line");
+        assert!(
+            kept.contains("unreadable") && kept.contains("no ray for this pixel"),
+            "{kept}"
+        );
+        let sound = session.frame(Path::new("b.pcd"), &mut console, |one, console| {
+            one.inspect_scene(Path::new("b.pcd"), SceneCloud::default(), None, console)
+        });
+        assert_eq!(sound.expect("inspected"), Outcome::NotAccepted);
+    }
+}
