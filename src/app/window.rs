@@ -21,7 +21,7 @@ use super::{
         robot::RobotCell,
         roles::{self, RoleAction},
         scanner,
-        session::{Source, ThemeChoice, WorkspaceKind},
+        session::{Source, ThemeChoice, UserRole, WorkspaceKind},
         settings,
         settings_file::Memory,
         shift,
@@ -402,11 +402,16 @@ impl Window {
         self.state.session.language.make_current();
         let ctx = ui.ctx().clone();
         let mut actions = Vec::new();
-        if self.state.session.is_operator_view()
+        if self.state.session.role == UserRole::Operator
             && !self.is_behind_dialog(&ctx)
             && let Some(code) = scanner::listen(&ctx)
         {
             self.state.session.trace.set_serial(&code);
+            // Other pages do not show the field.
+            if !self.state.session.is_operator_view() {
+                let entered = text!("operator-serial-entered", serial = code);
+                actions.push(Action::Notify(Notice::done(entered)));
+            }
         }
         let work = self.work();
         if self.state.session.is_operator_view() {

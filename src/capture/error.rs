@@ -220,7 +220,9 @@ impl Advice for CaptureError {
             Self::FolderInUse { .. } => "Name a folder that is not there yet".into(),
             Self::Unwritable { source, .. } => advice_on(source).into(),
             Self::NoThread { .. } => "Close other programs and start again".into(),
-            Self::NotFollowed => "Press Live in the window".into(),
+            Self::NotFollowed => {
+                "Press Live in the window; if its source is a single file or a scan, first choose a camera, a recording or a folder".into()
+            }
             Self::Crashed => "Choose the source again, and report what was done before".into(),
         }
     }

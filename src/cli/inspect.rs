@@ -9,46 +9,33 @@ mod session;
 mod spray;
 
 use std::{
-    fmt::Display,
     ops::ControlFlow,
     path::{Path, PathBuf},
-    sync::Arc,
 };
 
 use clap::Args;
 
-use self::hung::{FollowedFrame, FollowedParts};
+use self::{hung::FollowedParts, session::InspectSession};
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
-    console::{Advised as _, Console, marked_simulated},
+    console::{Advised as _, Console},
     follow::{follow, parse_source},
-    input::{FileAdvice, ImportChoice, OpenedScene, Scenes, before, open_ahead, open_empty_cell},
+    input::{ImportChoice, Scenes, open_ahead, open_empty_cell},
     output::{Columns, OutputFormat},
-    recipe::{RecipeChoice, show_recipe},
-    record::{HistoryChoice, HistoryRecorder, SceneOrigin},
+    recipe::RecipeChoice,
+    record::{HistoryChoice, HistoryRecorder},
     scan::PosesChoice,
     trace::TraceChoice,
-    verdict::{outcome_of, show_in_robot},
 };
 #[cfg(feature = "plant")]
 use super::{database::HistoryToChoice, mqtt::MqttChoice, numbers::NumbersChoice};
 use crate::{
     capture::{FeedItem, SourceSpec},
-    error::{Advice, guarded},
-    history::{HungId, NewEntry, Traceability},
-    library::Library,
-    pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
-    report::{CaptureLine, InspectionLine, Picture, ReportFolder, stage_pictures},
-    robot::RobotFrame,
-    stages::{
-        reference::Reference,
-        scene::{EmptyCell, SceneCloud, scene_from_image},
-    },
+    pipeline::MirrorTally,
+    report::{CaptureLine, ReportFolder},
+    stages::scene::scene_from_image,
 };
-
-#[cfg(feature = "plant")]
-use crate::serve::Found;
 
 /// Recognise the part in captured scenes and say where it is
 #[derive(Debug, Args)]

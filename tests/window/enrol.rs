@@ -385,6 +385,7 @@ fn a_part_that_is_enrolled_already_is_named_as_hard_to_tell_from() {
     capture(&mut harness, PartKind::FrontDoor, Side::Right);
     harness.get_by_label("The two cannot be told apart");
     harness.get_by_label("Replace Door");
+    harness.get_by_label("One more reference of Door");
     capture(&mut harness, PartKind::Fender, Side::Right);
     harness.get_by_label("The two can be told apart");
     harness.get_by_label_contains("Most similar: Door (");

@@ -25,12 +25,13 @@ use partsight::{
         workspaces::history::HistoryWorkspace,
     },
     capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
+    files::save_cloud,
     geometry::rigid::RigidTransform,
     history::StoredVerdict,
     simulate::{PartKind, SensorNoise, Side},
 };
 
-use crate::kit::HangingPart;
+use crate::kit::{HangingPart, facing_part};
 
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, history_of, open, open_with, plain_options, settle, wait_for,
@@ -318,15 +319,17 @@ fn a_capture_during_live_is_an_inspection_of_the_part_that_hangs_there() {
     assert_eq!(num_below(&harness), Some(1), "what Live saw");
     assert_eq!(serial(&harness), "");
 
-    // Once its verdict has counted, the next serial number is of the next part.
+    // A serial number that comes after the verdict is of the part that hangs there; the one after it is of the next part.
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 22]);
     harness.get_by_label("Accepted");
     set_serial(&harness, "4712");
+    sees(&mut harness, &wire, [0.0; 2]);
+    set_serial(&harness, "4713");
     capture(&mut harness, &wire);
-    assert_eq!(newest_of(&mut harness, 3), (true, String::new()));
-    assert_eq!(num_below(&harness), Some(1), "the capture");
-    assert_eq!(serial(&harness), "4712");
+    assert_eq!(newest_of(&mut harness, 3), (true, "4712".to_owned()));
+    assert_eq!(num_below(&harness), Some(2), "the number, and the capture");
+    assert_eq!(serial(&harness), "4713");
 }
 
 #[test]
@@ -537,8 +540,13 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
 
 #[test]
 fn a_single_file_is_not_followed_and_that_is_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("fender.pcd");
+    let scene = facing_part(PartKind::Fender, Side::Left, 5);
+    save_cloud(&file, &scene.cloud).expect("written");
     let mut harness = open();
-    act(&mut harness, Action::Open("missing.pcd".into()));
+    act(&mut harness, Action::Open(file));
+    settle(&mut harness);
     let before = harness.state().state().notices.len();
     toggle(&mut harness);
     assert!(!harness.state().state().session.is_live());
@@ -594,7 +602,7 @@ fn live_that_stops_while_something_moves_leaves_no_such_card() {
     harness.get_by_label("Moving");
     toggle(&mut harness);
     settle(&mut harness);
-    assert!(!says(&harness, "Moving") && !says(&harness, "moving"));
+    assert!(!says(&harness, "Moving") && !says(&harness, "is moving"));
     harness.get_by_label("No verdict");
     harness.get_by_label("Press Capture");
     act(&mut harness, Action::Role(RoleAction::Switch));

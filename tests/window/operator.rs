@@ -9,10 +9,12 @@ use partsight::{
         WindowOptions,
         shell::{
             action::Action,
+            robot::{AnswerSetup, RobotAction},
             roles::RoleAction,
             session::{UserRole, WorkspaceKind},
             settings,
         },
+        workspaces::history::HistoryWorkspace,
     },
     files::save_cloud,
     simulate::{PartKind, Side},
@@ -24,7 +26,7 @@ use super::{
     live::{Step, sees, toggle, wired_options},
     set_up::{
         SMALL, USUAL, WindowHarness, act, drop_file, history_of, open, open_with, plain_options,
-        press, settle, wait_until,
+        press, settle, wait_for, wait_until,
     },
 };
 
@@ -257,6 +259,88 @@ fn the_operator_is_not_told_to_do_what_only_the_engineer_can() {
     assert!(!shows(&harness, "Enrol the part"));
 }
 
+/// Types a code as a scanner does, with Enter at its end.
+fn scan(harness: &mut WindowHarness, code: &str) {
+    for letter in code.chars() {
+        let key = Key::from_name(&letter.to_string()).expect("a key");
+        harness.input_mut().events.push(egui::Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: egui::Modifiers::NONE,
+        });
+        let text = egui::Event::Text(letter.into());
+        harness.input_mut().events.push(text);
+    }
+    harness.key_press(Key::Enter);
+    harness.run_steps(4);
+}
+
+#[test]
+fn a_serial_number_scanned_after_the_verdict_is_of_the_part_that_hangs_there_and_the_next_is_not() {
+    let (options, wire) = wired_options();
+    let mut harness = open_operators(options);
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 22]);
+    harness.get_by_label("OK");
+    scan(&mut harness, "LATE77");
+    assert!(!shows(&harness, "For the next part"));
+    sees(&mut harness, &wire, [0.0; 2]);
+    let serial = |window: &partsight::app::Window| {
+        let history = window.workspace::<HistoryWorkspace>().expect("there");
+        history.state().row(0).map(|row| row.trace.serial.clone())
+    };
+    wait_for(&mut harness, |window| {
+        serial(window).as_deref() == Some("LATE77")
+    });
+    assert_eq!(harness.state().state().session.trace.get().serial, "");
+    // That part has one now.
+    scan(&mut harness, "NEXT8");
+    sees(&mut harness, &wire, [0.0; 2]);
+    harness.get_by_label("For the next part that is inspected");
+    assert_eq!(harness.state().state().session.trace.get().serial, "NEXT8");
+    assert_eq!(serial(harness.state()).as_deref(), Some("LATE77"));
+}
+
+#[test]
+fn a_scanner_is_heard_on_every_page_of_the_operator() {
+    let mut harness = open_operators(plain_options());
+    press(&mut harness, "Wrong part?");
+    let before = harness.state().state().session.theme;
+    scan(&mut harness, "TL471");
+    let session = &harness.state().state().session;
+    assert_eq!(session.trace.get().serial, "TL471");
+    assert_eq!(session.workspace, WorkspaceKind::History);
+    assert!(session.theme == before && !session.is_live());
+    harness.get_by_label("Serial number TL471 entered");
+}
+
+#[test]
+fn an_operator_who_stops_live_sees_that_robots_get_no_frames() {
+    let (options, wire) = wired_options();
+    let mut harness = open_with(SMALL, options);
+    let context = harness.ctx.clone();
+    let setup = AnswerSetup {
+        is_on: true,
+        ..AnswerSetup::default()
+    };
+    harness
+        .state_mut()
+        .act(Action::Robot(RobotAction::Answer(setup)), &context);
+    // Live has started with it.
+    sees(&mut harness, &wire, [0.0; 2]);
+    harness
+        .state_mut()
+        .act(Action::Role(RoleAction::Switch), &context);
+    harness.run_steps(2);
+    let warning = "Robots get no frames: press Live";
+    assert!(!shows(&harness, warning));
+    toggle(&mut harness);
+    harness.run_steps(4);
+    harness.get_by_label(warning);
+}
+
 #[test]
 fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_next_too() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -280,20 +364,7 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
     }
     // No field has the focus. T, L and the digits are shortcuts, but the scanner's input must trigger none.
     let before = harness.state().state().session.theme;
-    for letter in "TL471".chars() {
-        let key = Key::from_name(&letter.to_string()).expect("a key");
-        harness.input_mut().events.push(egui::Event::Key {
-            key,
-            physical_key: None,
-            pressed: true,
-            repeat: false,
-            modifiers: egui::Modifiers::NONE,
-        });
-        let text = egui::Event::Text(letter.into());
-        harness.input_mut().events.push(text);
-    }
-    harness.key_press(Key::Enter);
-    harness.run_steps(4);
+    scan(&mut harness, "TL471");
     let state = harness.state().state();
     assert_eq!(state.session.trace.get().serial, "TL471");
     assert!(state.session.theme == before && !state.session.is_live());

@@ -451,3 +451,33 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     in_enrol(&mut harness, EnrolAction::Undo);
     assert_eq!(library.spray_path("front_door").expect("read"), None);
 }
+
+#[test]
+fn the_list_of_conventions_opens_again_however_it_was_closed() {
+    let mut harness = open();
+    harness.key_press(Key::B);
+    harness.run_steps(4);
+    press(&mut harness, "By hand");
+    let entry = Convention::Kuka.title();
+    let is_open = |harness: &WindowHarness| harness.query_by_label(&entry).is_some();
+    let toggle = |harness: &mut WindowHarness| {
+        let list = harness.get_by_label_contains("Numbers of:");
+        list.click();
+        harness.run_steps(6);
+    };
+    for close in ["Esc", "outside", "list"] {
+        toggle(&mut harness);
+        assert!(is_open(&harness), "before {close}");
+        match close {
+            "Esc" => harness.key_press(Key::Escape),
+            "outside" => harness.get_by_label("Robot").click(),
+            _ => harness.get_by_label_contains("Numbers of:").click(),
+        }
+        harness.run_steps(6);
+        assert!(!is_open(&harness), "after {close}");
+        harness.get_by_label("By hand");
+    }
+    toggle(&mut harness);
+    press(&mut harness, &entry);
+    harness.get_by_label("Numbers of: KUKA A B C");
+}

@@ -76,7 +76,7 @@ fn without_a_pin_a_yes_is_enough() {
         harness.state().state().session.workspace,
         WorkspaceKind::Inspect
     );
-    press(&mut harness, "Not now");
+    press(&mut harness, "Cancel");
     press(&mut harness, "Engineer's view");
     press(&mut harness, "Switch");
     assert_eq!(role(&harness), UserRole::Engineer);
@@ -100,7 +100,7 @@ fn the_rail_leads_the_operator_where_they_may_go_and_keys_still_ask() {
     assert_eq!(tabs(&harness), operators);
     harness.key_press(Key::Num2);
     harness.run_steps(4);
-    press(&mut harness, "Not now");
+    press(&mut harness, "Cancel");
     let front = harness.state().state().session.workspace;
     assert_eq!(front, WorkspaceKind::History);
     // At the foot of the rail.

@@ -64,7 +64,7 @@ fn can_draw() -> bool {
 #[test]
 fn the_card_shows_the_stand_off_in_the_chosen_units() {
     let mut harness = open();
-    harness.get_by_label("Stand-off of the taught path");
+    harness.get_by_label("Stand-off of an assumed path");
     harness.get_by_label("inside the band");
     let state = harness.state().state();
     let shown = state.session.shown.as_ref().expect("a result");

@@ -51,6 +51,7 @@ enrol-distinguishable = Die beiden sind unterscheidbar
 enrol-indistinguishable = Die beiden sind nicht unterscheidbar
 enrol-indistinguishable-advice = Prüfungen beider Teile enden fast gleichauf: das eingelernte ersetzen oder eine Seite aufnehmen, auf der sie sich unterscheiden
 enrol-replace = { $part } ersetzen
+enrol-add-reference = Weitere Referenz von { $part }
 enrol-discard = Verwerfen
 enrol-saving = Wird gespeichert…
 enrol-save-and-replace = Speichern und ersetzen

@@ -9,6 +9,7 @@ inspect-not-recognised = Nicht erkannt
 inspect-no-part = Kein Teil
 inspect-no-verdict = Kein Ergebnis
 inspect-live-stopped = Live wurde beendet, bevor ein Ergebnis galt
+inspect-stopped-moving = beim Beenden von Live hat sich etwas bewegt
 inspect-press-capture = „Aufnehmen“ drücken
 inspect-moving = Bewegung
 inspect-something-moves = vor der Kamera bewegt sich etwas
@@ -36,6 +37,7 @@ inspect-score = Score
 inspect-next = Nächstes: { $part } { $score }
 inspect-threshold = Schwelle { $score }
 inspect-margin = Vorsprung vor dem nächsten { $margin }
+inspect-margin-says = Unterschied der beiden Wahrscheinlichkeiten, wenn nur eines der beiden Teile dort hängen kann; nicht der Unterschied der Scores
 inspect-offset = Versatz zur Standardlage
 inspect-measured-from = Gemessen von { $part }, einer anderen Referenz dieses Teils
 inspect-offset-note = Teilemitte, Kameraachsen · R = Rz·Ry·Rx
@@ -62,7 +64,7 @@ inspect-recipe-modified = { $name } (geändert)
 
 ## Stand-off
 
-inspect-stand-off = Düsenabstand der eingelernten Bahn
+inspect-stand-off = Düsenabstand einer angenommenen Bahn
 inspect-mean = Mittel
 inspect-worst-of = { $value }, max. { $worst }
 inspect-in-band = im Band
@@ -71,7 +73,7 @@ inspect-path-fits = Die Bahn passt auch ohne die Pose
 inspect-path-needs-pose = Das Roboterprogramm muss die Pose auf die Bahn anwenden
 inspect-stand-off-of = Düsenabstand { $mean } von { $nearest } bis { $farthest }
 inspect-no-surface = das eingelernte Teil hat keine Oberfläche mit Normalen
-inspect-none-meets = keine der { $num } eingelernten Düsenpositionen zeigt auf das Teil
+inspect-none-meets = keine der { $num } angenommenen Düsenpositionen zeigt auf das Teil
 
 ## The pose for the robot
 
@@ -116,7 +118,7 @@ inspect-caption-planes = { $points } Punkte · Teil { $part } · { $planes ->
 inspect-caption-shots = { $points } Punkte · Teil { $part } · { $shots } Aufnahmen zusammen
 inspect-no-camera-read = { $scene } · ohne Kamera
 inspect-view-of-scene = 3D-Ansicht der Szene
-inspect-taught-nozzle = Eingelernte Düse
+inspect-taught-nozzle = Angenommene Düse
 inspect-worst = Schlechteste
 inspect-path-in-band = Lackierbahn · { $inside } von { $num } im Band
 
@@ -144,6 +146,7 @@ inspect-says-ranking = Score jedes eingelernten Teils gegenüber der Schwelle
 inspect-says-alignment = mittlerer quadratischer Abstand E je Iteration, logarithmisch
 inspect-stages = Stufen
 inspect-not-reached = nicht erreicht
+inspect-no-picture = kein Bild: Die Punktwolke hat keine Zeilen und Spalten
 inspect-not-examined = nicht untersucht
 inspect-e-stayed-zero = E blieb bei 0
 inspect-ended-at = { $part } endete bei rms { $rms }

@@ -24,6 +24,7 @@ results-ambiguous-pose = was von { $part } sichtbar ist, passt an einer anderen 
 results-unconstrained = die Pose von { $part } ist durch das Sichtbare nicht bestimmt: { $freedom }
 results-uncertain = die Pose von { $part } ist um { $shift } unsicher, zulässig sind { $limit }
 results-unknown-nearest = unbekannt: Kein eingelerntes Teil ist ähnlich; das nächste, { $nearest }, hat den Score { $score }
+results-unknown-alone = unbekannt: Kein eingelerntes Teil ist ähnlich
 results-mirrored = sieht aus wie das Spiegelbild von { $part } (Score { $score }): das Teil der anderen Fahrzeugseite
 results-mirrored-image = passt zu { $part } nur als Spiegelbild (Score { $score }), und { $part } gibt es nur einmal: Vermutlich sind links und rechts im Bild vertauscht
 results-small-margin = { $part } und { $other } passen fast gleich gut (Vorsprung { $margin }, erforderlich { $threshold })

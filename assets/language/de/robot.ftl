@@ -1,6 +1,6 @@
 # The robot's cell
 robot-title = Roboter
-robot-in-use = In Gebrauch
+robot-in-use = Kalibrierung
 robot-by-hand = Von Hand
 robot-from-pairs = Aus Posenpaaren
 robot-load-title = Kalibrierung der Roboterzelle laden

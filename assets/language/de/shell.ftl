@@ -54,6 +54,7 @@ shell-set-pin = PIN festlegen…
 shell-set-pin-says = Mit PIN startet das Fenster in der Bedieneransicht
 shell-change-pin = PIN ändern…
 shell-remove-pin = PIN entfernen
+shell-remove-pin-asked = Die PIN entfernen? Dann kann jeder zur Einrichteransicht wechseln
 shell-lock-after = Sperren nach
 shell-minutes = { $num ->
         [one] { $num } Minute
@@ -69,7 +70,6 @@ shell-next = Weiter
 shell-same-digits = Dieselben Ziffern noch einmal eingeben
 shell-set-the-pin = PIN festlegen
 shell-pin-forgotten = Vergessen? Partsight schließen und in settings.toml die Zeilen unter [pin] löschen
-shell-not-now = Jetzt nicht
 shell-num-digits = { $num } Ziffern
 shell-erase = Löschen
 shell-digit = Ziffer { $digit }
@@ -180,6 +180,8 @@ shell-ok = OK
 
 shell-dismiss = Ausblenden
 shell-read-in-millimetres = Als Millimeter lesen
+shell-too-wide = Die Punkte erstrecken sich über { $extent } m
+shell-too-wide-advice = Die Einheit der Datei prüfen
 shell-undo = Rückgängig
 shell-close-without-saving = Ohne Speichern schließen?
 shell-keep-open = Fenster offen lassen

@@ -51,6 +51,7 @@ enrol-distinguishable = The two can be told apart
 enrol-indistinguishable = The two cannot be told apart
 enrol-indistinguishable-advice = Inspections of either will be a near tie: replace the one that is enrolled, or capture a side on which they differ
 enrol-replace = Replace { $part }
+enrol-add-reference = One more reference of { $part }
 enrol-discard = Discard
 enrol-saving = Saving…
 enrol-save-and-replace = Save and replace

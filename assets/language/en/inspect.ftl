@@ -9,12 +9,13 @@ inspect-not-recognised = Not recognised
 inspect-no-part = No part
 inspect-no-verdict = No verdict
 inspect-live-stopped = Live was stopped before a verdict counted
+inspect-stopped-moving = something was moving when Live was stopped
 inspect-press-capture = Press Capture
 inspect-moving = Moving
 inspect-something-moves = something is moving in front of the camera
 inspect-let-it-hang = Let the part hang still for a second
 inspect-looking = Looking
-inspect-not-long-enough = it was not seen for long enough
+inspect-not-long-enough = it has not been seen for long enough yet
 inspect-it-is-steady = it is steady
 inspect-wait = Wait a moment
 inspect-not-accepted-yet = Not accepted yet
@@ -36,6 +37,7 @@ inspect-score = Score
 inspect-next = Next: { $part } { $score }
 inspect-threshold = threshold { $score }
 inspect-margin = Margin to the next { $margin }
+inspect-margin-says = Difference of the two probabilities if only one of the two parts can hang there; not the difference of the scores
 inspect-offset = Offset from standard position
 inspect-measured-from = Measured from { $part }, another reference of this part
 inspect-offset-note = Part's centre, camera axes · R = Rz·Ry·Rx
@@ -62,7 +64,7 @@ inspect-recipe-modified = { $name } (modified)
 
 ## Stand-off
 
-inspect-stand-off = Stand-off of the taught path
+inspect-stand-off = Stand-off of an assumed path
 inspect-mean = mean
 inspect-worst-of = { $value }, worst { $worst }
 inspect-in-band = inside the band
@@ -71,7 +73,7 @@ inspect-path-fits = The path fits without the pose
 inspect-path-needs-pose = The robot program must apply the pose to the path
 inspect-stand-off-of = Stand-off { $mean } of { $nearest } to { $farthest }
 inspect-no-surface = the enrolled part has no surface with normals
-inspect-none-meets = none of { $num } taught nozzle positions points at the part
+inspect-none-meets = none of { $num } assumed nozzle positions points at the part
 
 ## The pose for the robot
 
@@ -116,7 +118,7 @@ inspect-caption-planes = { $points } points · part { $part } · { $planes ->
 inspect-caption-shots = { $points } points · part { $part } · { $shots } shots together
 inspect-no-camera-read = { $scene } · no camera was read
 inspect-view-of-scene = 3-D view of the scene
-inspect-taught-nozzle = Taught nozzle
+inspect-taught-nozzle = Assumed nozzle
 inspect-worst = Worst
 inspect-path-in-band = Spray path · { $inside } of { $num } in the band
 
@@ -144,6 +146,7 @@ inspect-says-ranking = score of every enrolled part against the threshold
 inspect-says-alignment = mean squared distance E per iteration, logarithmic
 inspect-stages = Stages
 inspect-not-reached = not reached
+inspect-no-picture = no picture: the cloud has no rows and columns
 inspect-not-examined = not examined
 inspect-e-stayed-zero = E stayed at 0
 inspect-ended-at = { $part } ended at rms { $rms }

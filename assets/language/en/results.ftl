@@ -24,6 +24,7 @@ results-ambiguous-pose = the piece of { $part } in sight fits almost equally wel
 results-unconstrained = the pose of { $part } is unconstrained by what is in sight: { $freedom }
 results-uncertain = the pose of { $part } is uncertain by { $shift }, and { $limit } is allowed
 results-unknown-nearest = unknown: no enrolled part is like it; the nearest, { $nearest }, scores { $score }
+results-unknown-alone = unknown: no enrolled part is like it
 results-mirrored = it looks like the mirror image of { $part } (which scores { $score }): the part from the other side of the car
 results-mirrored-image = it fits { $part } only as its mirror image (which scores { $score }), and { $part } has no other side: left and right are probably swapped in the image
 results-small-margin = { $part } and { $other } fit almost equally well (margin { $margin }, needed { $threshold })

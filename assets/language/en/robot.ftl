@@ -1,6 +1,6 @@
 # The robot's cell
 robot-title = Robot
-robot-in-use = In use
+robot-in-use = Calibration
 robot-by-hand = By hand
 robot-from-pairs = From pairs of poses
 robot-load-title = Load the calibration of the robot's cell

@@ -54,6 +54,7 @@ shell-set-pin = Set a PIN…
 shell-set-pin-says = With a PIN the window starts in the operator's view
 shell-change-pin = Change the PIN…
 shell-remove-pin = Remove the PIN
+shell-remove-pin-asked = Remove the PIN? Then anyone can switch to the engineer's view
 shell-lock-after = Lock after
 shell-minutes = { $num ->
         [one] { $num } minute
@@ -69,7 +70,6 @@ shell-next = Next
 shell-same-digits = Enter the same digits again
 shell-set-the-pin = Set the PIN
 shell-pin-forgotten = Forgotten? Close Partsight and delete the lines below [pin] in its settings.toml
-shell-not-now = Not now
 shell-num-digits = { $num } digits
 shell-erase = Erase
 shell-digit = Digit { $digit }
@@ -180,6 +180,8 @@ shell-ok = OK
 
 shell-dismiss = Dismiss
 shell-read-in-millimetres = Read as millimetres
+shell-too-wide = The points span { $extent } m
+shell-too-wide-advice = Check the unit of the file
 shell-undo = Undo
 shell-close-without-saving = Close without saving?
 shell-keep-open = Keep the window open

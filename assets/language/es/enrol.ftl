@@ -51,6 +51,7 @@ enrol-distinguishable = Las dos se pueden distinguir
 enrol-indistinguishable = Las dos no se pueden distinguir
 enrol-indistinguishable-advice = Las inspecciones de una u otra quedarán casi empatadas: sustituir la registrada o capturar un lado en el que se diferencien
 enrol-replace = Sustituir { $part }
+enrol-add-reference = Otra referencia de { $part }
 enrol-discard = Descartar
 enrol-saving = Guardando…
 enrol-save-and-replace = Guardar y sustituir

@@ -9,6 +9,7 @@ inspect-not-recognised = No reconocida
 inspect-no-part = Sin pieza
 inspect-no-verdict = Sin resultado
 inspect-live-stopped = En vivo se detuvo antes de que un resultado contara
+inspect-stopped-moving = algo se movía cuando se detuvo En vivo
 inspect-press-capture = Pulsar Capturar
 inspect-moving = En movimiento
 inspect-something-moves = algo se mueve delante de la cámara
@@ -36,6 +37,7 @@ inspect-score = Puntuación
 inspect-next = Siguiente: { $part } { $score }
 inspect-threshold = umbral { $score }
 inspect-margin = Margen sobre la siguiente { $margin }
+inspect-margin-says = Diferencia de las dos probabilidades si solo puede colgar ahí una de las dos piezas; no es la diferencia de las puntuaciones
 inspect-offset = Desplazamiento respecto a la posición estándar
 inspect-measured-from = Medido desde { $part }, otra referencia de esta pieza
 inspect-offset-note = Centro de la pieza, ejes de la cámara · R = Rz·Ry·Rx
@@ -62,7 +64,7 @@ inspect-recipe-modified = { $name } (modificada)
 
 ## Stand-off
 
-inspect-stand-off = Distancia de boquilla de la trayectoria
+inspect-stand-off = Distancia de boquilla de una trayectoria supuesta
 inspect-mean = media
 inspect-worst-of = { $value }, peor { $worst }
 inspect-in-band = dentro de la banda
@@ -71,7 +73,7 @@ inspect-path-fits = La trayectoria sirve sin la pose
 inspect-path-needs-pose = El programa del robot debe aplicar la pose a la trayectoria
 inspect-stand-off-of = Distancia de boquilla { $mean }, de { $nearest } a { $farthest }
 inspect-no-surface = la pieza registrada no tiene superficie con normales
-inspect-none-meets = ninguna de las { $num } posiciones de boquilla enseñadas apunta a la pieza
+inspect-none-meets = ninguna de las { $num } posiciones de boquilla supuestas apunta a la pieza
 
 ## The pose for the robot
 
@@ -116,7 +118,7 @@ inspect-caption-planes = { $points } puntos · pieza { $part } · { $planes ->
 inspect-caption-shots = { $points } puntos · pieza { $part } · { $shots } tomas juntas
 inspect-no-camera-read = { $scene } · sin cámara
 inspect-view-of-scene = Vista 3D de la escena
-inspect-taught-nozzle = Boquilla enseñada
+inspect-taught-nozzle = Boquilla supuesta
 inspect-worst = Peor
 inspect-path-in-band = Trayectoria de pintura · { $inside } de { $num } en la banda
 
@@ -144,6 +146,7 @@ inspect-says-ranking = puntuación de cada pieza registrada frente al umbral
 inspect-says-alignment = distancia cuadrática media E por iteración, logarítmica
 inspect-stages = Etapas
 inspect-not-reached = no alcanzada
+inspect-no-picture = sin imagen: la nube no tiene filas ni columnas
 inspect-not-examined = sin examinar
 inspect-e-stayed-zero = E se mantuvo en 0
 inspect-ended-at = { $part } terminó en rms { $rms }

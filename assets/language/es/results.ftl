@@ -24,6 +24,7 @@ results-ambiguous-pose = lo que se ve de { $part } encaja casi igual de bien en 
 results-unconstrained = lo que se ve no determina la pose de { $part }: { $freedom }
 results-uncertain = la pose de { $part } tiene una incertidumbre de { $shift }; se admiten { $limit }
 results-unknown-nearest = desconocida: ninguna pieza registrada se le parece; la más parecida, { $nearest }, obtiene { $score }
+results-unknown-alone = desconocida: ninguna pieza registrada se le parece
 results-mirrored = parece la imagen reflejada de { $part } (que obtiene { $score }): la pieza del otro lado del coche
 results-mirrored-image = solo encaja con { $part } como imagen reflejada (que obtiene { $score }), y { $part } no tiene otro lado: es probable que la imagen tenga cambiadas izquierda y derecha
 results-small-margin = { $part } y { $other } encajan casi igual de bien (margen { $margin }, necesario { $threshold })

@@ -1,6 +1,6 @@
 # The robot's cell
 robot-title = Robot
-robot-in-use = En uso
+robot-in-use = Calibración
 robot-by-hand = A mano
 robot-from-pairs = De pares de poses
 robot-load-title = Cargar la calibración de la celda del robot

@@ -54,6 +54,7 @@ shell-set-pin = Definir un PIN…
 shell-set-pin-says = Con un PIN la ventana se abre en la vista del operador
 shell-change-pin = Cambiar el PIN…
 shell-remove-pin = Quitar el PIN
+shell-remove-pin-asked = ¿Quitar el PIN? Entonces cualquiera puede pasar a la vista del técnico
 shell-lock-after = Bloquear tras
 shell-minutes = { $num ->
         [one] { $num } minuto
@@ -69,7 +70,6 @@ shell-next = Siguiente
 shell-same-digits = Introducir de nuevo las mismas cifras
 shell-set-the-pin = Definir el PIN
 shell-pin-forgotten = ¿Olvidado? Cerrar Partsight y borrar las líneas bajo [pin] en su settings.toml
-shell-not-now = Ahora no
 shell-num-digits = { $num } cifras
 shell-erase = Borrar
 shell-digit = Cifra { $digit }
@@ -180,6 +180,8 @@ shell-ok = Aceptar
 
 shell-dismiss = Descartar
 shell-read-in-millimetres = Leer como milímetros
+shell-too-wide = Los puntos abarcan { $extent } m
+shell-too-wide-advice = Comprobar la unidad del archivo
 shell-undo = Deshacer
 shell-close-without-saving = ¿Cerrar sin guardar?
 shell-keep-open = Mantener la ventana abierta

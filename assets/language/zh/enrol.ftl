@@ -51,6 +51,7 @@ enrol-distinguishable = 两者可以区分
 enrol-indistinguishable = 两者无法区分
 enrol-indistinguishable-advice = 检测其中任何一个时得分会非常接近：请替换已注册的零件，或采集两者有差异的一侧
 enrol-replace = 替换 { $part }
+enrol-add-reference = 作为“{ $part }”的附加参考
 enrol-discard = 放弃
 enrol-saving = 正在保存…
 enrol-save-and-replace = 保存并替换

@@ -9,6 +9,7 @@ inspect-not-recognised = 未识别
 inspect-no-part = 无零件
 inspect-no-verdict = 无判定
 inspect-live-stopped = “实时”在判定生效前已停止
+inspect-stopped-moving = 停止“实时”时有物体在移动
 inspect-press-capture = 按“采集”
 inspect-moving = 移动中
 inspect-something-moves = 相机前有物体在移动
@@ -36,6 +37,7 @@ inspect-score = 得分
 inspect-next = 次优：{ $part } { $score }
 inspect-threshold = 阈值 { $score }
 inspect-margin = 与次优的裕度 { $margin }
+inspect-margin-says = 仅可能是两个零件之一时两者概率之差；不是得分之差
 inspect-offset = 相对标准位置的偏移
 inspect-measured-from = 以该零件的另一参考“{ $part }”为基准测量
 inspect-offset-note = 零件中心，相机坐标轴 · R = Rz·Ry·Rx
@@ -62,7 +64,7 @@ inspect-recipe-modified = { $name }（已修改）
 
 ## Stand-off
 
-inspect-stand-off = 示教轨迹的喷距
+inspect-stand-off = 假定轨迹的喷距
 inspect-mean = 平均
 inspect-worst-of = { $value }，最差 { $worst }
 inspect-in-band = 合格范围内
@@ -71,7 +73,7 @@ inspect-path-fits = 无需位姿即可使用该轨迹
 inspect-path-needs-pose = 机器人程序必须将位姿应用于轨迹
 inspect-stand-off-of = 喷距 { $mean }，范围 { $nearest } 至 { $farthest }
 inspect-no-surface = 已注册零件没有带法向的表面
-inspect-none-meets = { $num } 个示教喷嘴位置均未指向零件
+inspect-none-meets = { $num } 个假定喷嘴位置均未指向零件
 
 ## The pose for the robot
 
@@ -113,7 +115,7 @@ inspect-caption-planes = { $points } 个点 · 零件 { $part } · 已移除 { $
 inspect-caption-shots = { $points } 个点 · 零件 { $part } · 合并 { $shots } 次拍摄
 inspect-no-camera-read = { $scene } · 未读取相机
 inspect-view-of-scene = 场景三维视图
-inspect-taught-nozzle = 示教喷嘴
+inspect-taught-nozzle = 假定喷嘴
 inspect-worst = 最差
 inspect-path-in-band = 喷涂轨迹 · { $num } 点中 { $inside } 点在合格范围内
 
@@ -141,6 +143,7 @@ inspect-says-ranking = 各已注册零件的得分与阈值
 inspect-says-alignment = 每次迭代的均方距离 E（对数）
 inspect-stages = 步骤
 inspect-not-reached = 未到达
+inspect-no-picture = 无图像：点云没有行和列
 inspect-not-examined = 未检查
 inspect-e-stayed-zero = E 保持为 0
 inspect-ended-at = { $part } 结束时 rms { $rms }

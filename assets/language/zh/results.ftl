@@ -24,6 +24,7 @@ results-ambiguous-pose = “{ $part }”的可见部分与零件的另一位置�
 results-unconstrained = 可见部分不足以确定“{ $part }”的位姿：{ $freedom }
 results-uncertain = “{ $part }”的位姿不确定度为 { $shift }，允许值为 { $limit }
 results-unknown-nearest = 未知：没有相似的已注册零件；最接近的“{ $nearest }”得分 { $score }
+results-unknown-alone = 未知：没有相似的已注册零件
 results-mirrored = 看起来是“{ $part }”的镜像（得分 { $score }）：车身另一侧的零件
 results-mirrored-image = 仅以镜像形式与“{ $part }”匹配（得分 { $score }），而“{ $part }”不分左右：图像左右可能颠倒
 results-small-margin = “{ $part }”与“{ $other }”的匹配程度几乎相同（裕度 { $margin }，要求 { $threshold }）

@@ -1,6 +1,6 @@
 # The robot's cell
 robot-title = 机器人
-robot-in-use = 当前使用
+robot-in-use = 标定
 robot-by-hand = 手动输入
 robot-from-pairs = 由位姿对计算
 robot-load-title = 加载机器人工位的标定

@@ -110,6 +110,8 @@ pub(in crate::app) fn rejection(why: &Rejection) -> String {
             shift = shift.to_string(),
             limit = limit.to_string()
         ),
+        // Nothing is said of a part that it is next to certainly not.
+        Rejection::Unknown { score, .. } if *score < LEAST_NAMED => text!("results-unknown-alone"),
         Rejection::Unknown { nearest, score } => text!(
             "results-unknown-nearest",
             nearest = nearest,
@@ -187,6 +189,9 @@ pub(in crate::app) fn rejection(why: &Rejection) -> String {
         ),
     }
 }
+
+/// Score below which the nearest part is not named.
+pub(in crate::app) const LEAST_NAMED: f64 = 0.05;
 
 /// Advises what to do about a rejection.
 pub(in crate::app) fn rejection_advice(why: &Rejection) -> String {

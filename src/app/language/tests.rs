@@ -14,8 +14,12 @@ use super::{
     Language,
     catalogue::{Files, files},
     keys, parameters,
+    results::rejection,
 };
-use crate::app::task::{Task, TaskEvent, TaskRunner};
+use crate::{
+    app::task::{Task, TaskEvent, TaskRunner},
+    pipeline::Rejection,
+};
 
 /// Names of a message's variables.
 type Variables = BTreeSet<String>;
@@ -228,4 +232,16 @@ fn counts_choose_the_words_of_their_language() {
         language.make_current();
         assert_eq!([said(1), said(2000)], [one, many]);
     }
+}
+
+#[test]
+fn a_part_that_certainly_does_not_hang_there_is_not_named() {
+    let says = |score: f64| {
+        rejection(&Rejection::Unknown {
+            nearest: "Fender".to_owned(),
+            score,
+        })
+    };
+    assert!(!says(0.004).contains("Fender"));
+    assert!(says(0.3).contains("Fender"));
 }

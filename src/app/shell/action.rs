@@ -6,7 +6,7 @@ use super::{
     closing::Closing,
     live::{self, LiveAction},
     message::Event,
-    notice::Notice,
+    notice::{Notice, NoticeTopic},
     robot::RobotAction,
     roles::{self, RoleAction},
     session::{Source, WorkspaceKind},
@@ -137,6 +137,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
     match action {
         Action::Capture => return state.capture(),
         Action::UseCell(choice) => {
+            state.inspector.former_source = None;
             state.session.source = Source::Cell(choice);
             return live::source_changed(state);
         }
@@ -211,14 +212,8 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
     // The path is remembered, and the next start may be in another working folder.
     let path = path::absolute(&path).unwrap_or(path);
     match ask {
-        DialogRequest::Scene | DialogRequest::Part => {
-            state.session.source = Source::File(path);
-            state.capture()
-        }
-        DialogRequest::Scan => {
-            state.session.source = Source::Scan(ScanFiles::of_folder(path));
-            state.capture()
-        }
+        DialogRequest::Scene | DialogRequest::Part => state.open(Source::File(path)),
+        DialogRequest::Scan => state.open(Source::Scan(ScanFiles::of_folder(path))),
         DialogRequest::Recording => {
             let spec = SourceSpec::Recording(RecordingSpec {
                 folder: path,
@@ -242,10 +237,14 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
     }
 }
 
+/// Removes the notices about this.
+pub(in crate::app) fn settle(state: &mut State, topic: NoticeTopic) {
+    state.notices.retain(|notice| notice.topic != topic);
+}
+
 /// Shows a notice.
 pub(in crate::app) fn notify(state: &mut State, notice: Notice) {
-    // Replace an identical notice.
-    state.notices.retain(|known| *known != notice);
+    state.notices.retain(|known| !known.gives_way_to(&notice));
     state.notices.push(notice);
     let num_over = state.notices.len().saturating_sub(MAX_NOTICES);
     state.notices.drain(..num_over);
@@ -313,12 +312,35 @@ mod tests {
     fn only_the_latest_notices_stay_and_none_twice() {
         let mut state = State::default();
         for number in [0, 1, 2, 3, 4, 5, 5] {
-            apply(&mut state, Action::Notify(Notice::done(number.to_string())));
+            apply(
+                &mut state,
+                Action::Notify(Notice::look(number.to_string(), "")),
+            );
         }
         let what: Vec<_> = state.notices.iter().map(|n| n.what.as_str()).collect();
         assert_eq!(what, ["2", "3", "4", "5"]);
         apply(&mut state, Action::Dismiss(0));
         apply(&mut state, Action::Dismiss(9));
         assert_eq!(state.notices.len(), 3);
+    }
+
+    #[test]
+    fn a_success_replaces_the_former_one_and_a_topic_has_one_notice() {
+        let mut state = State::default();
+        let port =
+            |number: u8| Notice::look(format!("port {number}"), "").about(NoticeTopic::Answering);
+        for notice in [
+            Notice::undoable("Saved"),
+            port(1),
+            Notice::undoable("Undone: Saved"),
+            port(2),
+            Notice::done("Saved again"),
+        ] {
+            apply(&mut state, Action::Notify(notice));
+        }
+        let what: Vec<_> = state.notices.iter().map(|n| n.what.as_str()).collect();
+        assert_eq!(what, ["port 2", "Saved again"]);
+        settle(&mut state, NoticeTopic::Answering);
+        assert_eq!(state.notices.len(), 1);
     }
 }

@@ -6,12 +6,12 @@ use std::{
 };
 
 use super::{
-    action::{Effect, notify},
+    action::{Effect, notify, settle},
     current_trace::CurrentTrace,
     library_loader::{self, LibraryLoader},
     live::{self, FollowedParts},
     message::{Event, ReinspectionPurpose},
-    notice::Notice,
+    notice::{Notice, NoticeTopic},
     session::{Inspecting, Shown, Source, WorkspaceKind},
     state::State,
 };
@@ -48,6 +48,8 @@ pub struct Inspector {
     purpose: ReinspectionPurpose,
     /// Number of frames captured from the simulated cell.
     pub num_captures: u64,
+    /// The source before the file or scan that is being opened; it is used again if that fails.
+    pub former_source: Option<Source>,
     /// True while the window starts, when an opened file may show a part that was inspected before.
     pub is_start: bool,
 }
@@ -73,6 +75,7 @@ impl Inspector {
             generation: 0,
             purpose: ReinspectionPurpose::New,
             num_captures: 0,
+            former_source: None,
             is_start: false,
         }
     }
@@ -94,6 +97,16 @@ impl Inspector {
 }
 
 impl State {
+    /// Opens a file or a scan, which becomes the source unless it cannot be read.
+    pub(in crate::app) fn open(&mut self, source: Source) -> Option<Effect> {
+        let former = std::mem::replace(&mut self.session.source, source);
+        // Enrol opens it by itself.
+        if self.session.workspace != WorkspaceKind::Enrol {
+            self.inspector.former_source.get_or_insert(former);
+        }
+        self.capture()
+    }
+
     /// Takes a scene from the source, to be inspected, or to be enrolled if Enrol is in front. Capturing for inspection stops
     /// following the source.
     pub(in crate::app) fn capture(&mut self) -> Option<Effect> {
@@ -422,11 +435,18 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
         },
         TaskEvent::Failed(error) => {
             state.session.failed = Some(error.clone());
-            notify(state, error.into());
+            let topic = match state.inspector.purpose {
+                ReinspectionPurpose::New | ReinspectionPurpose::Past => NoticeTopic::Scene,
+                ReinspectionPurpose::Repeated | ReinspectionPurpose::Shots => NoticeTopic::Other,
+            };
+            notify(state, Notice::from(error).about(topic));
             // A file that could not be inspected does not count as recent.
             let session = &mut state.session;
             if let Source::File(path) = &session.source {
                 session.recent.retain(|known| known != path);
+            }
+            if let Some(former) = state.inspector.former_source.take() {
+                session.source = former;
             }
         }
     }
@@ -444,12 +464,17 @@ pub(in crate::app) fn show_made(state: &mut State, inspected: Arc<Inspected>) ->
 }
 
 fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
+    state.inspector.former_source = None;
+    if let ReinspectionPurpose::New | ReinspectionPurpose::Past = state.inspector.purpose {
+        settle(state, NoticeTopic::Scene);
+        settle(state, NoticeTopic::Following);
+    }
     for warning in &inspected.warnings {
         let notice = match (warning, &inspected.origin) {
             (CaptureWarning::File(warning), Origin::File { path, .. }) => {
                 Notice::of_file(path, warning)
             }
-            _ => UserError::of(warning).into(),
+            _ => Notice::from(UserError::of(warning)).about(NoticeTopic::Scene),
         };
         notify(state, notice);
     }
@@ -463,7 +488,8 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         remember(&mut state.session.recent, folder);
     }
     for warning in shots.map_or(&[][..], |scan| &scan.fused.warnings) {
-        notify(state, warning.clone().into());
+        let warning = Notice::from(warning.clone());
+        notify(state, warning.about(NoticeTopic::Scene));
     }
     let Inspector {
         generation,
@@ -529,6 +555,23 @@ mod tests {
         assert!(state.session.is_old(), "nothing has come yet");
         apply(&mut state, Action::CancelInspection);
         assert!(!state.session.is_old() && state.session.shown.is_some());
+    }
+
+    #[test]
+    fn after_a_file_that_cannot_be_read_the_former_source_is_used_and_its_notice_goes_with_the_next_scene()
+     {
+        let mut state = State::default();
+        let former = state.session.source.clone();
+        apply(&mut state, Action::Open("a.pcd".into()));
+        apply(&mut state, Action::Open("b.pcd".into()));
+        assert!(state.inspector.run_waiting());
+        update(&mut state);
+        assert_eq!(state.session.source, former);
+        assert!(state.session.failed.is_some() && state.notices.len() == 1);
+        apply(&mut state, Action::Capture);
+        assert!(state.inspector.run_waiting());
+        update(&mut state);
+        assert!(state.notices.is_empty(), "{:?}", state.notices);
     }
 
     #[test]

@@ -224,6 +224,18 @@ fn remember_writing(ctx: &egui::Context, is_writing: bool) -> bool {
     })
 }
 
+/// Texts of the shortcuts, each before the one with Shift, which is matched first.
+fn listed(bindings: impl Iterator<Item = KeyBinding>) -> impl Iterator<Item = [String; 2]> {
+    let mut all: Vec<KeyBinding> = Vec::new();
+    for binding in bindings {
+        let with_shift = all.pop_if(|last| last.key == binding.key && last.modifiers.shift);
+        all.push(binding);
+        all.extend(with_shift);
+    }
+    all.into_iter()
+        .map(|binding| [(binding.keys)(), (binding.does)()])
+}
+
 /// Draws the list of shortcuts.
 pub(in crate::app) fn help(
     ctx: &egui::Context,
@@ -249,8 +261,8 @@ pub(in crate::app) fn help(
             // The scroll bar floats over the right edge of the content.
             ui.set_max_width(ui.available_width() - space::MEDIUM);
             list.show(ui, |ui| {
-                let own = own.iter().map(|own| [(own.keys)(), (own.does)()]);
-                let named = SHORTCUTS.iter().map(|s| [(s.keys)(), (s.does)()]);
+                let own = listed(own.iter().copied());
+                let named = listed(SHORTCUTS.iter().map(Shortcut::binding));
                 let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
                 let of_rail = of_rail.map(|((_, rail), workspace)| [keys(rail), workspace.title()]);
                 let is_enrolling = state.session.workspace == WorkspaceKind::Enrol;

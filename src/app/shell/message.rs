@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{
-    notice::Notice,
+    notice::{Notice, NoticeTopic},
     program_setup::ProgramSetup,
     robot::AnswerSetup,
     session::{RememberedCell, Source, WorkspaceKind},
@@ -26,6 +26,8 @@ pub enum Message {
     Notify(Notice),
     /// Remove this notice, if it is still shown.
     Retract(Notice),
+    /// Remove the notices about this.
+    Settle(NoticeTopic),
     /// Remove the offer to undo from all notices.
     WithdrawUndo,
     /// Copy this to the clipboard.

@@ -80,7 +80,11 @@ pub(in crate::app) fn ui(
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     settings(ui, state, work.is_some(), actions);
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                        robot::chip(ui, robot, &state.session, work.is_some());
+                        let session = &state.session;
+                        let is_following =
+                            session.is_live() && session.workspace != WorkspaceKind::Inspect;
+                        let shares = work.is_some() || is_following;
+                        robot::chip(ui, robot, session, shares);
                         progress(ui, state, work, actions);
                     });
                 });

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use egui::{
-    Align, Button, Color32, ColorImage, Context, Event, FontId, Frame, Galley, Id, Key, Label,
-    Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response, RichText, Sense, Stroke,
-    StrokeKind, TextStyle, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align, Align2, Area, Button, Color32, ColorImage, Context, Event, FontId, Frame, Galley, Id,
+    Key, Label, Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response, RichText,
+    Sense, Stroke, StrokeKind, TextStyle, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo,
+    pos2, vec2,
 };
 use image::RgbImage;
 
@@ -243,14 +244,36 @@ pub(in crate::app) fn shortened(text: &str, most: usize) -> String {
     )
 }
 
-/// Shows a modal dialog.
+/// Shows a modal dialog in the middle of the window.
 pub(in crate::app) fn dialog<R>(
     ctx: &Context,
     name: &str,
     content: impl FnOnce(&mut Ui) -> R,
 ) -> ModalResponse<R> {
     let id = Id::unique(name);
+    dialog_in(ctx, id, Modal::default_area(id), content)
+}
+
+/// Shows a modal dialog whose upper edge stays, however high its pages are.
+pub(in crate::app) fn dialog_below<R>(
+    ctx: &Context,
+    name: &str,
+    top: f32,
+    content: impl FnOnce(&mut Ui) -> R,
+) -> ModalResponse<R> {
+    let id = Id::unique(name);
+    let area = Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, top));
+    dialog_in(ctx, id, area, content)
+}
+
+fn dialog_in<R>(
+    ctx: &Context,
+    id: Id,
+    area: Area,
+    content: impl FnOnce(&mut Ui) -> R,
+) -> ModalResponse<R> {
     let modal = Modal::new(id)
+        .area(area)
         .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
         .show(ctx, content);
     let size = modal.response.rect.size();

@@ -247,7 +247,7 @@ impl InspectSession {
     }
 
     /// Passes an inspection to the history and to the publisher.
-    fn keep(&mut self, kept: KeptInspection, console: &Console) {
+    pub(super) fn keep(&mut self, kept: KeptInspection, console: &Console) {
         if let (Some(recording), Some(entry)) = (&mut self.recording, kept.entry) {
             recording.add(entry, console);
         }

@@ -85,8 +85,26 @@ impl FollowedParts {
         }
     }
 
+    /// True if a serial number entered now is of the next part: none hangs there, or the one that does has its own.
+    pub(super) fn needs_no_serial(&self) -> bool {
+        let hanging = self.rows.id_of_frame(false);
+        let has_serial =
+            |(part, trace): &(HungId, Traceability)| *part == hanging && !trace.serial.is_empty();
+        hanging != *self.rows.id() || self.counted.as_ref().is_some_and(has_serial)
+    }
+
+    /// True if the part that hangs there has a verdict that counts, and a serial number was entered after it.
+    pub(super) fn has_late_serial(&self, current: &CurrentTrace) -> bool {
+        let counts = |(part, trace): &(HungId, Traceability)| {
+            part == self.rows.id() && trace.serial.is_empty()
+        };
+        !self.needs_no_serial()
+            && self.counted.as_ref().is_some_and(counts)
+            && current.has_complete_serial()
+    }
+
     /// The part that a capture of this source shows, which is taken in place of Live, and the traceability of that
-    /// inspection. A part whose verdict has counted keeps its own: the current serial number may be of the next part.
+    /// inspection. A part whose verdict has counted keeps its own serial number: the current one is of the next part.
     pub(in crate::app) fn of_capture(
         &self,
         source: &str,
@@ -99,7 +117,7 @@ impl FollowedParts {
             HungId::new()
         };
         let trace = match &self.counted {
-            Some((counted, trace)) if *counted == part => trace.clone(),
+            Some((counted, trace)) if *counted == part && !trace.serial.is_empty() => trace.clone(),
             _ => current.take(shows_part),
         };
         (part, trace)

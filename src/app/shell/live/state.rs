@@ -19,10 +19,10 @@ use crate::{
         inspection::{inspected::Inspected, library_cache::LibraryCache},
         language::text,
         shell::{
-            action::{DialogRequest, Effect, notify},
+            action::{DialogRequest, Effect, notify, settle},
             current_trace::CurrentTrace,
             message::{Event, ReinspectionPurpose},
-            notice::Notice,
+            notice::{Notice, NoticeTopic},
             session::{Session, Shown, Source, WorkspaceKind},
             state::State,
         },
@@ -30,6 +30,7 @@ use crate::{
         user_error::UserError,
     },
     capture::{SourceSpec, WatchedSpec},
+    error::lock,
     history::Traceability,
     pipeline::live::{LiveParams, MAX_AVERAGED},
 };
@@ -119,6 +120,11 @@ impl Session {
     pub fn is_live(&self) -> bool {
         self.live.is_on
     }
+
+    /// True if a serial number entered now would go to the next part, not to the one that hangs there.
+    pub(in crate::app) fn serial_is_for_next(&self) -> bool {
+        !self.is_live() || lock(&self.live.parts).needs_no_serial()
+    }
 }
 
 impl Source {
@@ -139,6 +145,7 @@ pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Eff
         LiveAction::Toggle => start(state),
         LiveAction::Use(spec) => {
             state.session.live.setup = None;
+            state.inspector.former_source = None;
             state.session.source = Source::Camera(Box::new(spec));
             return source_changed(state);
         }
@@ -184,10 +191,13 @@ fn start(state: &mut State) {
             Source::Scan(_) => text!("live-scan-cannot"),
             _ => text!("live-file-cannot"),
         };
-        notify(state, Notice::look(what, text!("live-cannot-advice")));
+        let notice = Notice::look(what, text!("live-cannot-advice"));
+        notify(state, notice.about(NoticeTopic::Following));
         return;
     }
     state.follower.session += 1;
+    settle(state, NoticeTopic::Following);
+    settle(state, NoticeTopic::Scene);
     dismiss_lost_notice(state);
     state.cancel_inspection();
     follow_source(state);
@@ -419,7 +429,6 @@ mod tests {
             },
         },
         capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
-        error::lock,
         geometry::rigid::RigidTransform,
         history::StoredVerdict,
         kit::HangingPart,

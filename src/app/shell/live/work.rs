@@ -331,6 +331,7 @@ impl<'a> LiveSession<'a> {
         let middle = FinishedInspection::middle(&inspection, &fitted);
         let inputs = format!("{} {}", self.recipe_identity, loaded.shown.identity);
         let mut followed = None;
+        let mut is_traced_late = false;
         // If captures are independent, each is a hung part of its own.
         let mut role = FrameRole::First;
         if let Some(watch) = &mut self.watch {
@@ -351,6 +352,9 @@ impl<'a> LiveSession<'a> {
             role = lock(&self.request.parts).rows.role_of(&frame);
             if role == FrameRole::Nothing {
                 self.see(&frame, arrived);
+                // While it moves, it may be on its way out.
+                is_traced_late = self.standing.counted().is_some()
+                    && lock(&self.request.parts).has_late_serial(&self.request.trace);
             }
         }
         self.num_inspected += 1;
@@ -358,7 +362,7 @@ impl<'a> LiveSession<'a> {
         self.latencies.push_front(arrived.elapsed());
         self.latencies.truncate(NUM_LATENCIES);
 
-        if role == FrameRole::Nothing && !self.context.is_latest_read() {
+        if role == FrameRole::Nothing && !is_traced_late && !self.context.is_latest_read() {
             // The window has not even shown the previous one.
             return Ok(());
         }
@@ -384,6 +388,9 @@ impl<'a> LiveSession<'a> {
                 inputs: &inputs,
             };
             self.see(&frame, arrived);
+        }
+        if is_traced_late {
+            role = FrameRole::Again;
         }
         self.keep(inspected, role, arrived);
         Ok(())
@@ -416,7 +423,10 @@ impl<'a> LiveSession<'a> {
                 parts.counted = Some((summary.hung.clone(), summary.trace.clone()));
             }
             FrameRole::Again => {
-                if let Some((_, trace)) = &parts.counted {
+                if let Some((_, trace)) = &mut parts.counted {
+                    if trace.serial.is_empty() {
+                        trace.serial = self.request.trace.take_late_serial();
+                    }
                     summary.trace = trace.clone();
                 }
             }

@@ -168,6 +168,7 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session) {
         return;
     };
     let advice = match sign {
+        Mark::Look if session.source.followed().is_none() => text!("live-cannot-advice"),
         Mark::Look => text!("robot-answers-without-frames-advice"),
         Mark::Good | Mark::Bad | Mark::Open => String::new(),
     };

@@ -19,7 +19,12 @@ pub use self::work::{AnsweringStatus, LastAnswer};
 use crate::{
     app::{
         language::text,
-        shell::{context::ShellContext, session::Session},
+        shell::{
+            context::ShellContext,
+            message::Message,
+            notice::{Notice, NoticeTopic},
+            session::Session,
+        },
         task::{Task, TaskEvent, TaskRunner},
         ui::widgets::Mark,
         user_error::UserError,
@@ -143,7 +148,7 @@ impl Answering {
         while let Some(event) = self.task.poll() {
             match event {
                 TaskEvent::Partial(status) => {
-                    self.failed = None;
+                    self.settle(cx);
                     self.status = Some(status);
                 }
                 TaskEvent::Done(_) => self.ended(),
@@ -151,13 +156,13 @@ impl Answering {
             }
         }
         let Some((listener, robot)) = wanted(cx.session) else {
-            self.failed = None;
+            self.settle(cx);
             self.end();
             return;
         };
         let is_elsewhere = |failed: &Failure| failed.listener != listener;
         if self.failed.as_ref().is_some_and(is_elsewhere) {
-            self.failed = None;
+            self.settle(cx);
         }
         match &self.run {
             Some(run) if run.listener == listener && !run.is_ending() => {
@@ -185,9 +190,16 @@ impl Answering {
             at: Instant::now(),
         });
         if !is_known {
-            cx.notify(trouble);
+            cx.notify(Notice::from(trouble).about(NoticeTopic::Answering));
         }
         self.ended();
+    }
+
+    /// Forgets the failure and removes its notice.
+    fn settle(&mut self, cx: &mut ShellContext<'_>) {
+        if self.failed.take().is_some() {
+            cx.send(Message::Settle(NoticeTopic::Answering));
+        }
     }
 
     fn start(&mut self, listener: Listener, robot: Arc<RobotFrame>, cx: &ShellContext<'_>) {

@@ -25,6 +25,9 @@ const WIDTH: f32 = 640.0;
 /// pixels.
 const MARGIN: f32 = 220.0;
 
+/// Room above the dialog, for a notice, logical pixels.
+const TOP: f32 = 48.0;
+
 impl RobotCell {
     /// Draws the dialog while it is open; returns the user's actions.
     pub(in crate::app) fn ui(&self, ctx: &Context, session: &Session) -> Vec<RobotAction> {
@@ -33,7 +36,7 @@ impl RobotCell {
         };
         let mut dialog = known.clone();
         let mut caused = Vec::new();
-        let modal = widgets::dialog(ctx, "robot", |ui| {
+        let modal = widgets::dialog_below(ctx, "robot", TOP, |ui| {
             ui.set_width(WIDTH.min(ctx.content_rect().width() - 80.0));
             ui.heading(text!("robot-title"));
             ui.add_space(space::SMALL);

@@ -38,6 +38,8 @@ use crate::{
 pub struct RobotCell {
     in_use: Option<Arc<CellInUse>>,
     dialog: Option<RobotDialog>,
+    /// The dialog as it was closed last, with what was typed by hand.
+    closed: Option<RobotDialog>,
     task: Task<RobotResult>,
     checks: CellChecks,
     answering: Answering,
@@ -148,6 +150,14 @@ impl RobotDialog {
         }
     }
 
+    /// Takes over what was typed for a new calibration.
+    fn take_draft(&mut self, former: Self) {
+        self.name = former.name;
+        self.mount = former.mount;
+        self.convention = former.convention;
+        self.numbers = former.numbers;
+    }
+
     /// Parses the camera's pose.
     pub fn typed(&self) -> Result<WrittenPose, WrittenPoseError> {
         self.read(&self.numbers)
@@ -246,6 +256,7 @@ impl RobotCell {
         Self {
             in_use: None,
             dialog: None,
+            closed: None,
             task: Task::new("robot", runner),
             checks: CellChecks::new(checks, runner),
             answering: Answering::new(runner),
@@ -294,10 +305,14 @@ impl RobotCell {
     pub fn apply(&mut self, action: RobotAction, cx: &mut ShellContext<'_>) {
         match action {
             RobotAction::Toggle if self.dialog.is_none() => {
-                self.dialog = Some(RobotDialog::new(cx.session));
+                let mut dialog = RobotDialog::new(cx.session);
+                if let Some(closed) = self.closed.take() {
+                    dialog.take_draft(closed);
+                }
+                self.dialog = Some(dialog);
             }
             RobotAction::Toggle | RobotAction::Close => {
-                self.dialog = None;
+                self.closed = self.dialog.take();
                 // A closed dialog could not show the result.
                 self.checks.cancel();
             }
@@ -584,6 +599,11 @@ mod tests {
         });
         bench.apply(RobotAction::UseTyped);
         assert!(!bench.work(), "no pose");
+        // What was typed is still there after the dialog was closed.
+        let before = bench.dialog().clone();
+        bench.apply(RobotAction::Close);
+        bench.apply(RobotAction::Toggle);
+        assert_eq!(*bench.dialog(), before);
         bench.edit(|dialog| dialog.numbers = "1200 -400 1900 10 20 30".into());
         bench.apply(RobotAction::UseTyped);
         assert!(bench.work());

@@ -21,7 +21,11 @@ pub(in crate::app) fn dialog(ctx: &Context, state: &State, actions: &mut Vec<Act
     let Some(asked) = &state.roles.asked else {
         return;
     };
-    let asks_pin = state.roles.pin.is_some() || !matches!(asked.question, RoleQuestion::MayI(_));
+    let asks_pin = match asked.question {
+        RoleQuestion::MayI(_) => state.roles.pin.is_some(),
+        RoleQuestion::NewPin | RoleQuestion::NewPinAgain(_) => true,
+        RoleQuestion::RemovePin => false,
+    };
     let (title, says, done) = match asked.question {
         RoleQuestion::MayI(_) if asks_pin => (
             text!("shell-engineers-view"),
@@ -43,6 +47,11 @@ pub(in crate::app) fn dialog(ctx: &Context, state: &State, actions: &mut Vec<Act
             text!("shell-same-digits"),
             text!("shell-set-the-pin"),
         ),
+        RoleQuestion::RemovePin => (
+            text!("shell-engineers-view"),
+            text!("shell-remove-pin-asked"),
+            text!("shell-remove-pin"),
+        ),
     };
     let modal = widgets::dialog(ctx, "role", |ui| {
         ui.set_max_width(3.0 * DIGIT[0] + 2.0 * ui.spacing().item_spacing.x);
@@ -55,7 +64,7 @@ pub(in crate::app) fn dialog(ctx: &Context, state: &State, actions: &mut Vec<Act
         if let Some(wrong) = &asked.wrong {
             let text = RichText::new(wrong).font(font::body_strong());
             ui.label(text.color(theme.warning));
-            if state.roles.pin.is_some() {
+            if matches!(asked.question, RoleQuestion::MayI(_)) {
                 let forgotten = text!("shell-pin-forgotten");
                 ui.label(RichText::new(forgotten).small().weak());
             }
@@ -65,7 +74,7 @@ pub(in crate::app) fn dialog(ctx: &Context, state: &State, actions: &mut Vec<Act
             if widgets::default_button(ui, &done, true) {
                 actions.push(Action::Role(RoleAction::Enter));
             }
-            if text_button(ui, &text!("shell-not-now")).clicked() {
+            if text_button(ui, &text!("shell-cancel")).clicked() {
                 actions.push(Action::Role(RoleAction::Close));
             }
         });

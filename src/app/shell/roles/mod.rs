@@ -97,6 +97,8 @@ pub enum RoleQuestion {
     NewPin,
     /// The new PIN again, to confirm it.
     NewPinAgain(String),
+    /// Whether to remove the PIN.
+    RemovePin,
 }
 
 /// Actions on the roles.
@@ -108,7 +110,7 @@ pub enum RoleAction {
     Lock,
     /// Ask for a new PIN.
     SetPin,
-    /// Remove the PIN.
+    /// Ask whether to remove the PIN.
     RemovePin,
     /// Lock after this many minutes.
     LockAfter(u32),
@@ -153,10 +155,7 @@ pub(in crate::app) fn apply(state: &mut State, action: RoleAction) -> Option<Eff
             notify(state, Notice::done(what));
         }
         RoleAction::SetPin => own.asked = Some(OpenQuestion::about(RoleQuestion::NewPin)),
-        RoleAction::RemovePin => {
-            own.pin = None;
-            notify(state, Notice::done(text!("shell-pin-removed")));
-        }
+        RoleAction::RemovePin => own.asked = Some(OpenQuestion::about(RoleQuestion::RemovePin)),
         RoleAction::LockAfter(minutes) => own.lock_after = minutes,
         RoleAction::Digit(digit) => {
             if let Some(asked) = &mut own.asked
@@ -223,6 +222,10 @@ fn enter(state: &mut State) -> Option<Effect> {
             own.pin = Some(Pin::of(&digits));
             let what = text!("shell-pin-set");
             notify(state, Notice::done(what));
+        }
+        RoleQuestion::RemovePin => {
+            own.pin = None;
+            notify(state, Notice::done(text!("shell-pin-removed")));
         }
     }
     None

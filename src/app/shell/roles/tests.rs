@@ -109,5 +109,8 @@ fn with_a_pin_the_window_starts_as_the_operators_and_locks_again() {
     write(&mut state, "1357");
     assert_eq!(state.roles.lock_timeout(state.session.role), Some(900.0));
     apply(&mut state, RoleAction::RemovePin);
+    assert!(state.roles.pin.is_some(), "it is asked");
+    apply(&mut state, RoleAction::Enter);
+    assert!(state.roles.pin.is_none());
     assert_eq!(state.roles.lock_timeout(state.session.role), None);
 }

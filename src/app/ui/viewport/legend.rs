@@ -7,7 +7,7 @@ use super::{
     scene::ViewScene,
     style::{Colouring, Legend, SCALE_STOPS, ScaleWords, ViewStyle},
 };
-use crate::{app::language::text, units::Metres};
+use crate::app::language::text;
 
 const BAR: Vec2 = Vec2::new(168.0, 8.0);
 const MARGIN: f32 = 14.0;
@@ -25,14 +25,16 @@ pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewS
         Legend::Shown | Legend::Hidden => rect,
     };
     let colours = &style.colours;
+    let (factor, unit, decimals) = style.length_axis;
     match style.colouring {
         Colouring::Height => {
-            let [low, high] = height_range(scene).map(|metres| Metres(f64::from(metres)).mm());
-            let values = [low, f64::midpoint(low, high), high].map(|mm| format!("{mm:.0}"));
+            let [low, high] = height_range(scene).map(|metres| f64::from(metres) * factor);
+            let values = [low, f64::midpoint(low, high), high];
+            let values = values.map(|height| format!("{height:.decimals$}"));
             bar(
                 painter,
                 rect,
-                &text!("view-height-scale"),
+                &text!("view-height-scale", unit = unit),
                 &values,
                 &colours.height_scale,
                 style,
@@ -41,9 +43,9 @@ pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewS
         Colouring::Deviation => {
             let (title, values) = match style.scale_words {
                 ScaleWords::Deviation => {
-                    let end = style.deviation_range.mm();
+                    let end = style.deviation_range.0 * factor;
                     let values = [format!("−{end}"), "0".into(), format!("+{end}")];
-                    (text!("view-deviation-scale"), values)
+                    (text!("view-deviation-scale", unit = unit), values)
                 }
                 ScaleWords::Film { target, range } => {
                     let values = [target.0 - range.0, target.0, target.0 + range.0];

@@ -162,6 +162,8 @@ pub struct ViewStyle {
     pub eye_dome: f32,
     /// Deviation at the ends of the scale, above 0. Larger ones get the end colour.
     pub deviation_range: Metres,
+    /// Factor from metres, unit symbol and decimals of the lengths at the scale.
+    pub length_axis: (f64, &'static str, usize),
     /// What the deviations measure.
     pub scale_words: ScaleWords,
     /// Whether and where the colour scale is drawn.
@@ -178,6 +180,7 @@ impl ViewStyle {
             point_size: PointSize::Metres(Metres::from_mm(4.0)),
             eye_dome: 1.0,
             deviation_range: Metres::from_mm(5.0),
+            length_axis: (1000.0, "mm", 0),
             scale_words: ScaleWords::default(),
             legend: Legend::default(),
         }

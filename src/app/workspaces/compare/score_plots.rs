@@ -17,6 +17,8 @@ use crate::{
 /// Width of a plot with its labels.
 pub(super) const WIDTH: f32 = 238.0;
 const HEIGHT: f32 = 238.0;
+/// Room for the number above a point, logical pixels.
+const NUMBER: f32 = 20.0;
 /// The curve of refusals is dashed: colour must not be the only difference.
 const REFUSED: LineStyle = LineStyle::Dashed { length: 6.0 };
 
@@ -87,12 +89,17 @@ pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration) {
         plot.line(Line::new("", places.clone()).color(colour).width(1.5));
         plot.points(Points::new("", places).color(colour).radius(4.0));
     });
-    // Painted over the plot, as the numbers at its upper end extend beyond it.
     for (num, at) in bins {
-        let at = shown.position_from_point(&at.into()) - vec2(0.0, 6.0);
-        let (anchor, font) = (Align2::CENTER_BOTTOM, font::small());
+        let at = shown.position_from_point(&at.into());
+        // Above the plot is its title.
+        let (offset, anchor) = if at.y - NUMBER < shown.frame().top() {
+            (6.0, Align2::CENTER_TOP)
+        } else {
+            (-6.0, Align2::CENTER_BOTTOM)
+        };
+        let at = at + vec2(0.0, offset);
         ui.painter()
-            .text(at, anchor, num.to_string(), font, theme.text);
+            .text(at, anchor, num.to_string(), font::small(), theme.text);
     }
 }
 

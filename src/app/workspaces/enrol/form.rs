@@ -269,10 +269,20 @@ fn likeness(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut Vec<Enr
     }
     let what = text!("enrol-indistinguishable");
     complaint(ui, &what, &text!("enrol-indistinguishable-advice"));
-    if let Ok(name) = PartName::new(&likeness.other)
-        && text_button(ui, &text!("enrol-replace", part = shortened(title, 26))).clicked()
-    {
-        actions.push(EnrolAction::Replace(name));
+    if let Ok(name) = PartName::new(&likeness.other) {
+        let text = text!("enrol-replace", part = shortened(title, 26));
+        if text_button(ui, &text).clicked() {
+            actions.push(EnrolAction::Replace(name.clone()));
+        }
+        let library = session.library.as_deref();
+        let other = library.and_then(|all| all.parts.iter().find(|part| part.name == name));
+        let of = other.and_then(|part| part.reference_of()).unwrap_or(&name);
+        let title = title_of(session, of.as_str());
+        let text = text!("enrol-add-reference", part = shortened(title, 26));
+        let is_chosen = draft.form.reference_of.as_ref() == Some(of);
+        if !is_chosen && text_button(ui, &text).clicked() {
+            actions.push(EnrolAction::Write(Field::ReferenceOf(Some(of.clone()))));
+        }
     }
 }
 

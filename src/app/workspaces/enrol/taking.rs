@@ -19,7 +19,12 @@ use crate::app::{
         source::{Origin, SceneSource},
     },
     language::text,
-    shell::{context::ShellContext, message::Message, notice::Notice, session::Source},
+    shell::{
+        context::ShellContext,
+        message::Message,
+        notice::{Notice, NoticeTopic},
+        session::Source,
+    },
     shots::{Asked, ShotsAction, ShotsFile, source_of},
     user_error::UserError,
 };
@@ -109,6 +114,7 @@ impl EnrolState {
         selection: Arc<Selection>,
         cx: &mut ShellContext<'_>,
     ) {
+        cx.send(Message::Settle(NoticeTopic::Scene));
         for warning in &subject.warnings {
             cx.notify(match &subject.origin {
                 Origin::File { path, .. } => Notice::of_file(path, warning),

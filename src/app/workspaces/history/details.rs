@@ -55,6 +55,8 @@ impl Details {
         };
         self.make(ui, history, past);
         let record = &past.record;
+        // The bar is beside the figures, not over them.
+        ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             verdict(ui, record, session);
             // Remark and label belong to the inspection that stands for the part.

@@ -1,6 +1,7 @@
 //! State of the workspace: the fetched rows, the selected inspection, the last few inspections in memory.
 
 use std::{
+    cell::RefCell,
     collections::{BTreeMap, VecDeque},
     ops::Range,
     path::PathBuf,
@@ -24,7 +25,9 @@ use crate::{
         task::{Task, TaskRunner},
         user_error::UserError,
     },
-    history::{Differences, HungId, Page, Retention, Summary, Usage},
+    history::{
+        Differences, Filter, HistoryBuffer, HungId, Page, Retention, StoredVerdict, Summary, Usage,
+    },
 };
 
 /// Number of inspections kept whole in memory, about 15 MB each with points and pictures. Older ones are repeated.
@@ -369,9 +372,17 @@ impl HistoryState {
                 let now = Zoned::now();
                 let outcomes = keeper.outcomes(&filter.at(&now));
                 let outcomes = outcomes.map_err(|error| UserError::of(&error))?;
-                let title_of = |name: &str| match &library {
-                    Some(library) => library.title_of(name).to_owned(),
-                    None => name.to_owned(),
+                let former_titles = RefCell::new(BTreeMap::new());
+                let title_of = |name: &str| {
+                    let library = library.as_deref();
+                    match library.filter(|library| library.place_of(name).is_some()) {
+                        Some(library) => library.title_of(name).to_owned(),
+                        None => {
+                            let mut titles = former_titles.borrow_mut();
+                            let title = titles.entry(name.to_owned());
+                            title.or_insert_with(|| former_title(&keeper, name)).clone()
+                        }
+                    }
                 };
                 let mut found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
                 let part = filter.part.clone().or_else(|| most_accepted(&outcomes));
@@ -397,6 +408,18 @@ impl HistoryState {
             self.look(cx);
         }
     }
+}
+
+/// The title under which a part was last accepted that the library does not have any more, else its name.
+fn former_title(history: &HistoryBuffer, name: &str) -> String {
+    let accepted = Filter {
+        part: Some(name.to_owned()),
+        verdict: Some(StoredVerdict::Accepted),
+        ..Filter::default()
+    };
+    let page = history.page(&accepted, 0, 1).ok();
+    let row = page.and_then(|page| page.rows.into_iter().next());
+    row.map_or_else(|| name.to_owned(), |row| row.title)
 }
 
 #[cfg(test)]

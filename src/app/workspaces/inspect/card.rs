@@ -1,7 +1,7 @@
 //! The verdict card: which part, accepted or not, where, how certain, and what to do next.
 
 use egui::{
-    Align, Button, Frame, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2,
+    Align, Button, Frame, Label, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, pos2,
     style::ScrollStyle, vec2,
 };
 
@@ -70,6 +70,8 @@ pub(super) fn ui(
     ui.spacing_mut().interact_size.y = 20.0;
     ui.spacing_mut().item_spacing.y = 3.0;
     ui.spacing_mut().scroll = ScrollStyle::thin();
+    // The bar is beside the figures, not over them.
+    ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
     // Keep the verdict visible when the rest is scrolled.
     let headline = Headline::of(inspected, session);
     headline::ui(ui, &headline);
@@ -82,7 +84,11 @@ pub(super) fn ui(
         if let Some(pose) = pose {
             offset(ui, inspected, pose, session.units);
             fit(ui, pose, session.units);
-            if inspection.verdict.is_approximate() {
+            if pose.is_ambiguous() && !inspection.verdict.is_unknown() {
+                let text = text!("inspect-ambiguous");
+                ui.label(RichText::new(text).color(theme.warning));
+            }
+            if inspection.verdict.is_approximate() && !inspection.verdict.is_unknown() {
                 let text = text!("inspect-approximate");
                 ui.label(RichText::new(text).color(theme.warning));
             }
@@ -184,25 +190,29 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     painter.rect_filled(tick, 0.0, theme.text);
     let caption = |text: String| RichText::new(text).small().weak();
     ui.horizontal(|ui| {
-        if let Some(next) = inspected.figures.candidates.get(1) {
-            ui.label(caption(text!(
-                "inspect-next",
-                part = &next.title,
-                score = format!("{:.2}", next.score)
-            )));
-        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.label(caption(text!(
                 "inspect-threshold",
                 score = format!("{:.2}", inspected.recipe.accept.min_score)
             )));
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                if let Some(next) = inspected.figures.candidates.get(1) {
+                    let next = caption(text!(
+                        "inspect-next",
+                        part = &next.title,
+                        score = format!("{:.2}", next.score)
+                    ));
+                    ui.add(Label::new(next).truncate());
+                }
+            });
         });
     });
     if inspected.figures.candidates.len() > 1 {
-        ui.label(caption(text!(
+        let lead = ui.label(caption(text!(
             "inspect-margin",
             margin = format!("{margin:.2}")
         )));
+        lead.on_hover_text(text!("inspect-margin-says"));
     }
 }
 
@@ -299,10 +309,6 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem) {
         &text!("inspect-iterations", num = pose.iterations.len()),
         &by,
     );
-    if pose.is_ambiguous() {
-        let text = text!("inspect-ambiguous");
-        ui.label(RichText::new(text).color(theme.warning));
-    }
 }
 
 fn footer(ui: &mut Ui, inspected: &Inspected, role: UserRole) {

@@ -7,7 +7,8 @@ use crate::{
         inspection::inspected::{Inspected, LiveFrameContext},
         language::{
             results::{
-                rejection, rejection_advice, stored_verdict, unrecognisable, unrecognisable_advice,
+                LEAST_NAMED, rejection, rejection_advice, stored_verdict, unrecognisable,
+                unrecognisable_advice,
             },
             text,
         },
@@ -77,7 +78,9 @@ impl Headline {
                             text!("inspect-not-recognised")
                         },
                         // The reason names the part that it is the mirror image of.
-                        nearest: (!inspected.inspection.verdict.is_mirrored()).then_some(nearest),
+                        nearest: (!inspected.inspection.verdict.is_mirrored()
+                            && best.is_none_or(|best| f64::from(best.score) >= LEAST_NAMED))
+                        .then_some(nearest),
                         is_accepted: false,
                         is_open: false,
                         complaint: Some((rejection(reason), rejection_advice(reason))),
@@ -99,6 +102,13 @@ impl Headline {
         let is_part = matches!(inspected.inspection.verdict, Verdict::Part { .. });
         let nearest = inspected.figures.candidates.first();
         let (title, complaint) = match followed.stillness {
+            MotionState::Moving if !is_live => (
+                text!("inspect-no-verdict"),
+                (
+                    text!("inspect-stopped-moving"),
+                    text!("inspect-press-capture"),
+                ),
+            ),
             _ if !is_live => (
                 text!("inspect-no-verdict"),
                 (

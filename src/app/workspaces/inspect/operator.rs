@@ -336,6 +336,24 @@ fn banner_ui(ui: &mut Ui, banner: &Banner) {
     );
 }
 
+/// Warns that robots are answered, but get no frames.
+fn robots_without_frames(ui: &mut Ui, session: &Session, theme: &Theme) {
+    if !session.answering.is_on || session.is_live() {
+        return;
+    }
+    let says = if session.source.followed().is_some() {
+        text!("operator-robots-without-frames")
+    } else {
+        text!("operator-robots-without-source")
+    };
+    ui.add_space(space::SMALL);
+    ui.horizontal_top(|ui| {
+        let (rect, _) = ui.allocate_exact_size(Vec2::splat(24.0), Sense::hover());
+        mark(ui.painter(), rect.center(), 10.0, Mark::Look, theme);
+        wrapped(ui, &says, &font::far_reason(), theme.warning);
+    });
+}
+
 /// Draws what to do next, and the last parts.
 fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
     let theme = Theme::of(ui);
@@ -353,7 +371,8 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
     };
     wrapped(ui, &banner.next, &next, theme.text);
     ui.add_space(space::MEDIUM);
-    current_trace::fields(ui, &session.trace);
+    current_trace::fields(ui, session);
+    robots_without_frames(ui, session, theme);
     ui.add_space(space::MEDIUM);
     heading(ui, text!("operator-last-parts"));
     ui.add_space(space::SMALL);

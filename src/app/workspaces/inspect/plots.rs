@@ -87,7 +87,12 @@ impl Pictures<'_> {
                 .map(|candidate| self.alignment(candidate, ui, inner, detail)),
         };
         if is_there.is_none() {
-            self.says(painter, inner, &text!("inspect-not-reached"));
+            let says = match panel {
+                // This stage always runs.
+                StagePanel::Segmentation => text!("inspect-no-picture"),
+                _ => text!("inspect-not-reached"),
+            };
+            self.says(painter, inner, &says);
         }
     }
 

@@ -204,6 +204,7 @@ impl SceneView {
             self.styled = session.theme;
         }
         self.style.colouring = colouring;
+        self.style.length_axis = session.units.length_axis();
         self.style.point_size = match &inspected.scan {
             Some(_) => POINT_SIZE,
             None => self.usual_size,
