@@ -69,7 +69,8 @@ class Interrupted(Exception):
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="this system has no timers that send signals")
 def test_a_signal_ends_a_long_call() -> None:
     random = np.random.default_rng(1)
-    source, target = random.normal(size=(2, 60_000, 3))
+    # So many points that their preparation alone takes longer than a call goes without looking for signals.
+    source, target = random.normal(size=(2, 300_000, 3))
     ended_by: list[str] = []
 
     def interrupt(_number: int, _frame: object) -> None:
@@ -84,7 +85,7 @@ def test_a_signal_ends_a_long_call() -> None:
     try:
         with pytest.raises(Interrupted):
             # In processor time: on a busy machine it must not run out before the call.
-            signal.setitimer(signal.ITIMER_VIRTUAL, 0.2)
+            signal.setitimer(signal.ITIMER_VIRTUAL, 0.02)
             partsight.align(source, target, method="icp-ga")
     finally:
         sys.setprofile(None)

@@ -37,7 +37,7 @@ const ALWAYS_FASTER: f64 = 1.5;
 /// Least dwell of a way of an added stroke, from few strokes to many.
 const KEPT: [f64; 3] = [0.5, 0.25, 0.1];
 /// Least gain in the share of the surface for which strokes, or more strokes, are added.
-const WORTH: f64 = 0.005;
+const WORTH: f64 = 0.002;
 /// Speed of the moves between added strokes, as a multiple of the coat's speed.
 const TRAVEL: f64 = 4.0;
 /// Thin points within a width and a depth of the pattern from the aim that are worth a stroke.

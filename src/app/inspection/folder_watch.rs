@@ -47,7 +47,7 @@ impl FolderWatch {
         }
     }
 
-    /// True if the folder has changed since the last call.
+    /// True if the folder has changed since the last call, and once after the watch began.
     pub(in crate::app) fn has_changed(&mut self) -> bool {
         self.task.poll().is_some()
     }
@@ -55,6 +55,8 @@ impl FolderWatch {
 
 fn watch(folder: &Path, context: &TaskContext<()>) -> Result<(), TaskError> {
     let mut before = entries(folder);
+    // The folder may have changed since its content was loaded.
+    context.latest(());
     loop {
         for _ in 0..NUM_TURNS {
             context.check()?;

@@ -30,14 +30,14 @@ pub struct FileRequest {
 }
 
 /// The choice made in a file dialog.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileChoice {
     /// A file to read.
     File,
     /// A folder to read.
     Folder,
     /// A file to write, with this suggested name.
-    NewFile(&'static str),
+    NewFile(String),
     /// A folder to write into.
     FolderToWrite,
 }
@@ -122,12 +122,12 @@ impl DialogLock {
     }
 
     /// Folder in which typing a path starts.
-    fn folder(&self, choice: FileChoice) -> PathBuf {
+    fn folder(&self, choice: &FileChoice) -> PathBuf {
         let known = self.0.folders.borrow()[usize::from(choice.is_written())].clone();
         known.unwrap_or_else(|| usual_folder(choice))
     }
 
-    fn remember(&self, choice: FileChoice, path: &Path) {
+    fn remember(&self, choice: &FileChoice, path: &Path) {
         let folder = match choice {
             FileChoice::FolderToWrite => path,
             _ => folder_of(path),
@@ -193,7 +193,7 @@ fn answer(request: &FileRequest) -> Answer<PathBuf> {
     for (name, endings) in &request.filters {
         dialog = dialog.add_filter(name, endings);
     }
-    let answer: Answer<rfd::FileHandle> = match request.choice {
+    let answer: Answer<rfd::FileHandle> = match &request.choice {
         FileChoice::File => Box::pin(dialog.pick_file()),
         FileChoice::Folder | FileChoice::FolderToWrite => Box::pin(dialog.pick_folder()),
         FileChoice::NewFile(name) => Box::pin(dialog.set_file_name(name).save_file()),
@@ -235,7 +235,7 @@ impl OpenDialog {
             }
             self.is_typed = true;
             let lock = &self.guard.0;
-            let folder = lock.folder(self.request.choice);
+            let folder = lock.folder(&self.request.choice);
             *lock.typed() = Some(PathEntry::new(self.request.clone(), folder));
             self.waker.egui.request_repaint();
         }
@@ -252,7 +252,7 @@ impl OpenDialog {
 
     /// Creates the folder to write into for a typed path, because writing a file does not create it.
     fn made(&self, path: PathBuf) -> Result<PathBuf, Notice> {
-        let choice = self.request.choice;
+        let choice = &self.request.choice;
         let folder = match choice {
             FileChoice::File | FileChoice::Folder => None,
             FileChoice::NewFile(_) => Some(folder_of(&path)),
@@ -281,13 +281,13 @@ impl OpenDialog {
 }
 
 impl FileChoice {
-    fn is_written(self) -> bool {
+    fn is_written(&self) -> bool {
         matches!(self, Self::NewFile(_) | Self::FolderToWrite)
     }
 }
 
 /// Folder for the first typed path: the home folder to read, a folder of its own to write.
-fn usual_folder(choice: FileChoice) -> PathBuf {
+fn usual_folder(choice: &FileChoice) -> PathBuf {
     let Some(user) = directories::UserDirs::new() else {
         return PathBuf::from("/");
     };
@@ -354,7 +354,7 @@ mod tests {
         drop(failed);
         assert!(lock.typed().is_none() && !lock.is_open());
         // The next path starts there.
-        assert_eq!(lock.folder(FileChoice::File), Path::new("/captures"));
+        assert_eq!(lock.folder(&FileChoice::File), Path::new("/captures"));
         let mut cancelled = closing_after(2 * TOO_QUICK);
         assert!(matches!(
             after_a_slow_frame(&mut cancelled),

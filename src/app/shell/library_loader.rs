@@ -103,6 +103,9 @@ pub(super) fn update(state: &mut State) {
     }
     if let Some(TaskEvent::Done(Some(library)) | TaskEvent::Partial(Some(library))) =
         state.inspector.loader.reloading.poll()
+        // Otherwise another library was chosen meanwhile.
+        && let Some(known) = &state.session.library
+        && known.path == library.path
     {
         let num = library.parts.len();
         state.use_library(&library);

@@ -40,7 +40,7 @@ pub(super) struct PathEntry {
 impl PathEntry {
     /// Starts in this folder.
     pub(super) fn new(request: FileRequest, folder: PathBuf) -> Self {
-        let begun = match request.choice {
+        let begun = match &request.choice {
             // With a separator at the end.
             FileChoice::File | FileChoice::Folder => folder.join(""),
             FileChoice::NewFile(name) => free(&folder, name),
@@ -83,7 +83,7 @@ impl PathEntry {
     }
 
     fn trouble_with(&mut self, path: &Path) -> Option<String> {
-        let trouble = match self.request.choice {
+        let trouble = match &self.request.choice {
             FileChoice::File | FileChoice::NewFile(_) if path.is_dir() => {
                 text!("shell-add-a-name")
             }
@@ -253,7 +253,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("view.png");
         std::fs::write(&file, "mine").expect("written");
-        let mut saved = entry(FileChoice::NewFile("view.png"), folder.path());
+        let mut saved = entry(FileChoice::NewFile("view.png".into()), folder.path());
         let free = folder.path().join("view-2.png");
         assert_eq!(saved.text, free.display().to_string());
         assert!(confirmed(&mut saved, &file).is_pending());

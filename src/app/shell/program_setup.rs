@@ -189,17 +189,11 @@ pub(in crate::app) fn program_files() -> FileFilter {
 }
 
 /// Suggests the name of a program, with the ending of the robot that the convention belongs to.
-pub(in crate::app) fn program_file_name(convention: Convention) -> &'static str {
+pub(in crate::app) fn program_file_name(part: &str, convention: Convention) -> String {
     let all = ProgramFormat::ALL.into_iter();
     let mut all = all.filter(|format| format.convention() == convention);
-    match all.next().unwrap_or(ProgramFormat::Krl) {
-        ProgramFormat::Krl => "paint.src",
-        ProgramFormat::Ls => "paint.ls",
-        ProgramFormat::Rapid => "paint.mod",
-        ProgramFormat::UrScript => "paint.script",
-        ProgramFormat::Jbi => "paint.jbi",
-        ProgramFormat::Drl => "paint.drl",
-    }
+    let format = all.next().unwrap_or(ProgramFormat::Krl);
+    format!("{part}.{}", format.ending())
 }
 
 #[cfg(test)]

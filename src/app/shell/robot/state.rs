@@ -244,7 +244,7 @@ impl RobotFile {
             Self::Checks => FileRequest {
                 title: text!("robot-export-checks-title"),
                 filters: vec![(text!("robot-csv-files"), &["csv"])],
-                choice: FileChoice::NewFile("cell-checks.csv"),
+                choice: FileChoice::NewFile("cell-checks.csv".into()),
             },
         }
     }

@@ -73,7 +73,7 @@ impl AlignFile {
             Self::TableFile => FileRequest {
                 title: text!("align-export-title"),
                 filters: vec![(text!("align-csv-files"), &["csv"])],
-                choice: FileChoice::NewFile("table1.csv"),
+                choice: FileChoice::NewFile("table1.csv".into()),
             },
         }
     }

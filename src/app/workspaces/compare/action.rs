@@ -123,7 +123,7 @@ impl CompareFile {
             Self::ExportRecipe => FileRequest {
                 title: text!("compare-export-title"),
                 filters: vec![recipes()],
-                choice: FileChoice::NewFile("recipe.toml"),
+                choice: FileChoice::NewFile("recipe.toml".into()),
             },
         }
     }

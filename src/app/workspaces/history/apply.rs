@@ -79,7 +79,7 @@ impl HistoryFile {
             Self::Csv => FileRequest {
                 title: text!("history-export-csv-title"),
                 filters: vec![(text!("history-csv-files"), &["csv"])],
-                choice: FileChoice::NewFile("inspections.csv"),
+                choice: FileChoice::NewFile("inspections.csv".into()),
             },
             Self::Cases => FileRequest {
                 title: text!("history-export-cases-title"),

@@ -10,6 +10,7 @@ use crate::{
         shell::{
             file_dialog::{FileChoice, FileRequest},
             program_setup::program_files,
+            session::Session,
         },
         shots::{ShotsAction, ShotsFile},
         ui::viewport::Colouring,
@@ -62,7 +63,13 @@ pub enum InspectFile {
 }
 
 impl InspectFile {
-    pub(super) fn request(self) -> FileRequest {
+    /// The dialog to open; a new file is named after the part that was inspected last.
+    pub(super) fn request(self, session: &Session) -> FileRequest {
+        let shown = session.shown.as_ref();
+        let verdict = shown.map(|shown| &shown.inspected.inspection.verdict);
+        let verdict = verdict.filter(|verdict| !verdict.is_unknown());
+        let part = verdict.and_then(|verdict| verdict.guess());
+        let part = part.unwrap_or("scene");
         match self {
             Self::Report => FileRequest {
                 title: text!("inspect-report-folder"),
@@ -72,7 +79,7 @@ impl InspectFile {
             Self::Picture => FileRequest {
                 title: text!("inspect-save-picture"),
                 filters: vec![(text!("inspect-pictures"), &["png"])],
-                choice: FileChoice::NewFile("view.png"),
+                choice: FileChoice::NewFile(format!("{part}.png")),
             },
             Self::SprayPath => FileRequest {
                 title: text!("inspect-export-path-title"),
@@ -81,7 +88,7 @@ impl InspectFile {
                     ("JSON".into(), &["json"]),
                     program_files(),
                 ],
-                choice: FileChoice::NewFile("spray-path.csv"),
+                choice: FileChoice::NewFile(format!("{part}-path.csv")),
             },
             Self::Shots(file) => file.request(),
         }

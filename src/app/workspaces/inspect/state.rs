@@ -183,7 +183,8 @@ impl InspectState {
             InspectAction::Shots(action) => self.change_shots(action, cx),
             InspectAction::Ask(file) => {
                 let lock = &cx.services.dialogs;
-                self.dialog.open(file, &file.request(), lock, cx.egui);
+                self.dialog
+                    .open(file, &file.request(cx.session), lock, cx.egui);
             }
             InspectAction::Chosen(file, path) => self.chosen(file, path, cx),
         }

@@ -94,13 +94,14 @@ pub enum PaintFile {
 }
 
 impl PaintFile {
-    /// The dialog to open; a program is named as usual for the robot of `convention`.
-    pub(super) fn request(self, convention: Convention) -> FileRequest {
+    /// The dialog to open. A new file is named after the part, a program as usual for the robot of `convention`.
+    pub(super) fn request(self, part: Option<&PartName>, convention: Convention) -> FileRequest {
+        let part = part.map_or("part", PartName::as_str);
         match self {
             Self::Program => FileRequest {
                 title: text!("paint-program-title"),
                 filters: vec![program_files()],
-                choice: FileChoice::NewFile(program_file_name(convention)),
+                choice: FileChoice::NewFile(program_file_name(part, convention)),
             },
             Self::Arm => FileRequest {
                 title: text!("paint-arm-title"),
@@ -115,7 +116,7 @@ impl PaintFile {
             Self::Table => FileRequest {
                 title: text!("paint-export-title"),
                 filters: vec![(text!("paint-csv-files"), &["csv"])],
-                choice: FileChoice::NewFile("path.csv"),
+                choice: FileChoice::NewFile(format!("{part}-path.csv")),
             },
         }
     }

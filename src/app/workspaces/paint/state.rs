@@ -229,7 +229,7 @@ impl PaintState {
             PaintAction::ToggleFilm => self.is_film_shown = !self.is_film_shown,
             PaintAction::Ask(file) => {
                 let lock = &cx.services.dialogs;
-                let request = file.request(cx.session.convention);
+                let request = file.request(self.part(cx.session), cx.session.convention);
                 self.dialog.open(file, &request, lock, cx.egui);
             }
             PaintAction::Chosen(PaintFile::Table, file) => self.write_table(file),

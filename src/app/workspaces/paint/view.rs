@@ -20,9 +20,9 @@ use crate::{
         ui::{
             theme::space,
             viewport::{
-                Colouring, DrawnShape, Legend, Line, LineSet, PointSize, Role, ScaleWords,
-                StandardView, TextLabel, ViewCamera, ViewColours, ViewDirection, ViewError,
-                ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
+                Colouring, DrawnShape, FitRequest, Legend, Line, LineSet, PointSize, Role,
+                ScaleWords, StandardView, TextLabel, ViewCamera, ViewColours, ViewDirection,
+                ViewError, ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, drawing,
             },
         },
     },
@@ -106,6 +106,10 @@ impl PaintView {
             (PaintTool::Look, ViewTool::Draw(_)) => ViewTool::Look,
             (PaintTool::Look, tool) => tool,
         };
+        // The path extends beyond the part.
+        if self.camera.pending_fit() == Some(FitRequest::Focus) {
+            self.camera.request_fit(FitRequest::Everything);
+        }
         let rect = ui.available_rect_before_wrap();
         let label = text!("paint-view");
         let seen = self
