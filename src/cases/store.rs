@@ -15,7 +15,7 @@ use super::{
 use crate::{
     files::{
         FileError, disk, in_counting_order, lock_exclusively, new_folder, open_regular, read_bytes,
-        sync_folder, user_folders, words_of, write_file,
+        sync_folder, user_data, words_of, write_file,
     },
     history::{FrameRecord, read_frame_by, write_frame},
     stages::scene::SceneCloud,
@@ -64,8 +64,8 @@ impl CaseFolder {
 
     /// Returns the user's own folder of cases, in the system's folder for user data.
     pub fn of_user() -> Result<Self, CaseError> {
-        let folders = user_folders().ok_or(CaseError::NoUserFolder)?;
-        Ok(Self::at(folders.data_dir().join("cases")))
+        let folder = user_data().ok_or(CaseError::NoUserFolder)?;
+        Ok(Self::at(folder.join("cases")))
     }
 
     /// Returns the folder's path.

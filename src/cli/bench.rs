@@ -111,8 +111,8 @@ pub(super) struct BenchArgs {
     /// For live: duration in minutes
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1440))]
     minutes: u64,
-    /// For soak: number of frames, at least 20000, so that every part hangs there once in the first fifth, the warm-up
-    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(20_000..=1_000_000_000))]
+    /// For soak: number of frames, at least 100000, so that every part hangs there and the history's cache fills in the first fifth, the warm-up. A library with few parts makes it quicker
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(100_000..=1_000_000_000))]
     frames: u64,
     /// For table1: only this part; may be given several times
     #[arg(long, value_name = "NAME")]

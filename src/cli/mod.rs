@@ -37,8 +37,10 @@ mod trace;
 mod verdict;
 
 use std::{
+    panic::resume_unwind,
     path::{Path, PathBuf},
     process::ExitCode,
+    thread,
 };
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -127,6 +129,17 @@ impl From<Outcome> for ExitCode {
 
 /// Runs the command, and shows an error with its advice.
 pub fn run(cli: Cli) -> Outcome {
+    // MinGW's mathematical functions compute with the x87, and Windows gives the first thread another precision than all
+    // others: a command that shared its work among several would depend on which of them did what. The window computes
+    // nothing on the first thread, and its event loop needs it.
+    if cfg!(all(windows, target_env = "gnu")) && cli.command.is_some() {
+        let ended = thread::spawn(|| run_here(cli)).join();
+        return ended.unwrap_or_else(|panic| resume_unwind(panic));
+    }
+    run_here(cli)
+}
+
+fn run_here(cli: Cli) -> Outcome {
     let mut console = Console::new();
     if cli.command.is_some() {
         console.start_waiting();

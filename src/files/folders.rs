@@ -1,13 +1,37 @@
 //! Crash-safe writing of folders, and the user's own folders.
 
-use std::{fs::File, io, path::Path};
+use std::{
+    env,
+    fs::File,
+    io,
+    path::{Path, PathBuf},
+};
 
 use directories::ProjectDirs;
 
 use super::disk;
 
-/// Returns the system's folders for this program's data and settings of the user; `None` if the system has none.
-pub(crate) fn user_folders() -> Option<ProjectDirs> {
+/// The environment variable that names another folder for the user's data and settings.
+const OWN_FOLDER: &str = "PARTSIGHT_DATA";
+
+/// Returns the folder for this program's data of the user; `None` if the system has none.
+pub(crate) fn user_data() -> Option<PathBuf> {
+    own_folder().or_else(|| Some(system_folders()?.data_dir().to_owned()))
+}
+
+/// Returns the path of the user's settings; `None` if the system has no folder for it.
+#[cfg(feature = "window")]
+pub(crate) fn user_settings() -> Option<PathBuf> {
+    let folder = own_folder().or_else(|| Some(system_folders()?.config_dir().to_owned()))?;
+    Some(folder.join("settings.toml"))
+}
+
+fn own_folder() -> Option<PathBuf> {
+    let folder = env::var_os(OWN_FOLDER)?;
+    (!folder.is_empty()).then(|| folder.into())
+}
+
+fn system_folders() -> Option<ProjectDirs> {
     ProjectDirs::from("", "", "partsight")
 }
 

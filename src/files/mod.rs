@@ -57,8 +57,10 @@ pub use self::depth_camera::{DepthCamera, StoredOrientation, Turn};
 pub(crate) use self::depth_png::read_picture;
 pub use self::depth_png::write_depth_png;
 pub use self::error::{Expected, FileError, NoFile};
+#[cfg(feature = "window")]
+pub(crate) use self::folders::user_settings;
 pub(crate) use self::folders::{
-    file_name, folder_of, new_folder, sync_folder, user_folders, write_file,
+    file_name, folder_of, new_folder, sync_folder, user_data, write_file,
 };
 pub(crate) use self::names::{nearest_name, stays_inside};
 

@@ -16,7 +16,7 @@ use std::{
 
 use rusqlite::{Connection, OpenFlags, config::DbConfig};
 
-use crate::files::{disk, open_lock, open_regular, user_folders};
+use crate::files::{disk, open_lock, open_regular, user_data};
 
 use super::{
     error::HistoryError,
@@ -66,8 +66,7 @@ pub struct OnlyRead {
 
 /// Returns the folder of the user's own history.
 pub fn users_folder() -> Result<PathBuf, HistoryError> {
-    let folders = user_folders().ok_or(HistoryError::NoUserFolder)?;
-    Ok(folders.data_dir().to_owned())
+    user_data().ok_or(HistoryError::NoUserFolder)
 }
 
 impl History {

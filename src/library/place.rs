@@ -18,7 +18,7 @@ use super::{
     store::LibraryFolder,
 };
 use crate::{
-    files::{disk, new_folder, read_picture, sync_folder, user_folders},
+    files::{disk, new_folder, read_picture, sync_folder, user_data},
     stages::reference::ReferenceParams,
 };
 
@@ -162,8 +162,8 @@ fn open_filled(path: &Path) -> Result<LibraryFolder, LibraryError> {
 }
 
 fn user_path() -> Result<PathBuf, LibraryError> {
-    let folders = user_folders().ok_or(LibraryError::NoUserFolder)?;
-    Ok(folders.data_dir().join("library"))
+    let folder = user_data().ok_or(LibraryError::NoUserFolder)?;
+    Ok(folder.join("library"))
 }
 
 /// Creates the user's library, completely or not at all.

@@ -10,7 +10,7 @@ use super::{
     recipe_error::RecipeError,
 };
 use crate::{
-    files::{FileError, disk, folder_of, read_text, sync_folder, write_atomically},
+    files::{FileError, disk, folder_of, read_text, sync_folder, user_data, write_atomically},
     library::PartName,
 };
 
@@ -52,9 +52,8 @@ impl RecipeFolder {
 
     /// The user's own folder, beside the library in the system's folder for user data.
     pub fn of_user() -> Result<Self, RecipeError> {
-        let folders =
-            directories::ProjectDirs::from("", "", "partsight").ok_or(RecipeError::NoUserFolder)?;
-        Ok(Self::at(folders.data_dir().join("recipes")))
+        let folder = user_data().ok_or(RecipeError::NoUserFolder)?;
+        Ok(Self::at(folder.join("recipes")))
     }
 
     /// Path of the folder.

@@ -124,6 +124,8 @@ fn causes_are_said_once_in_words_with_advice_that_fits() {
             ],
             "a file of that name is there",
         ),
+        // Windows has the message above for it.
+        #[cfg(unix)]
         (
             &[
                 "inspect",
@@ -139,6 +141,7 @@ fn causes_are_said_once_in_words_with_advice_that_fits() {
             &["inspect", "parts", "--library", "parts"],
             "a folder, expected a file",
         ),
+        #[cfg(unix)]
         (
             &["inspect", "/dev/null", "--library", "parts"],
             "not a regular file",

@@ -42,6 +42,10 @@ impl Workplace {
             .env_remove("WAYLAND_DISPLAY")
             .env("XDG_DATA_HOME", self.path("data"))
             .env("HOME", self.folder.path());
+        if cfg!(windows) {
+            // Its folders are not those of these variables.
+            command.env("PARTSIGHT_DATA", self.path("data/partsight"));
+        }
         command
     }
 

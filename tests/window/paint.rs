@@ -128,7 +128,7 @@ fn what_is_drawn_around_gets_no_paint_and_ctrl_z_brings_it_back() {
     let (_, less) = figures(&harness);
     assert!(less < 0.95 * whole, "{less} of {whole}");
     press(&mut harness, "Keep out: brush");
-    draw(&mut harness, &[(0.45, 0.45), (0.5, 0.5), (0.55, 0.5)]);
+    draw(&mut harness, &[(0.45, 0.35), (0.5, 0.36), (0.55, 0.37)]);
     assert!(own(&harness).design.regions.len() > 2);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run_steps(2);

@@ -31,7 +31,7 @@ use crate::{
     },
     capture::SourceSpec,
     error::Advice as _,
-    files::{advice_on, disk, open_regular, user_folders, write_atomically},
+    files::{advice_on, disk, open_regular, user_settings, write_atomically},
     history::Traceability,
     pipeline::{NamedRecipe, Recipe, RecipeLabel},
     robot::Convention,
@@ -254,7 +254,7 @@ impl Settings {
 
 /// Path of the user's settings, if the system has a place for them.
 pub fn users_file() -> Option<PathBuf> {
-    Some(user_folders()?.config_dir().join("settings.toml"))
+    user_settings()
 }
 
 /// Why a settings file was not used.

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use egui::{
-    Align, Align2, Area, Button, Color32, ColorImage, Context, Event, FontId, Frame, Galley, Id,
-    Key, Label, Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response, RichText,
-    Sense, Stroke, StrokeKind, TextStyle, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo,
-    pos2, vec2,
+    Align, Align2, Area, Button, Color32, ColorImage, ComboBox, Context, Event, FontId, Frame,
+    Galley, Id, Key, Label, Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response,
+    RichText, Sense, Stroke, StrokeKind, TextStyle, TextureHandle, TextureOptions, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 use image::RgbImage;
 
@@ -242,6 +242,27 @@ pub(in crate::app) fn shortened(text: &str, most: usize) -> String {
         head.iter().collect::<String>(),
         tail.iter().collect::<String>()
     )
+}
+
+/// Draws a list that drops down below a button with the chosen entry. `label` is its accessible name.
+pub(in crate::app) fn drop_down(
+    ui: &mut Ui,
+    label: &str,
+    chosen: &str,
+    width: f32,
+    entries: impl FnOnce(&mut Ui),
+) -> Response {
+    let shown = ComboBox::from_id_salt("drop-down")
+        .selected_text(chosen.to_owned())
+        .width(width)
+        .show_ui(ui, |ui| {
+            // A click within one frame brings the dialog it is in to the front, over the list that it opens.
+            ui.ctx().move_to_top(ui.layer_id());
+            entries(ui);
+        });
+    let response = shown.response;
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, label));
+    response
 }
 
 /// Shows a modal dialog in the middle of the window.

@@ -75,12 +75,27 @@ impl SmallCell {
     /// Every how many of the Kinect's rows and columns one is kept.
     const STEP: usize = 4;
 
-    fn pictures() -> Arc<[DepthFrame]> {
-        let seeds = 0..4;
-        let setups = seeds.flat_map(|seed| {
-            PartKind::ALL.map(|kind| CellSetup::with_part(kind, Side::Left, 0, seed))
-        });
-        setups.map(|setup| smaller(&frame(&setup).frame)).collect()
+    /// Every how many rounds of the enrolled parts one that is not enrolled hangs there.
+    const UNKNOWN_EVERY: u64 = 7;
+    const NUM_ROUNDS: u64 = 28;
+
+    /// Frames of the enrolled parts; a small library makes for cheap ones.
+    fn pictures(load: &LibraryLoad) -> Arc<[DepthFrame]> {
+        let is_enrolled = |kind: &PartKind| {
+            load.parts
+                .iter()
+                .any(|part| part.name.as_str() == kind.name())
+        };
+        let (enrolled, others): (Vec<_>, Vec<_>) = PartKind::ALL.into_iter().partition(is_enrolled);
+        let mut setups = Vec::new();
+        for seed in 0..Self::NUM_ROUNDS {
+            let other = others.get((seed / Self::UNKNOWN_EVERY) as usize);
+            let other = other.filter(|_| seed % Self::UNKNOWN_EVERY == 0);
+            let kinds = enrolled.iter().chain(other);
+            setups.extend(kinds.map(|kind| CellSetup::with_part(*kind, Side::Left, 0, seed)));
+        }
+        let frames = setups.iter();
+        frames.map(|setup| smaller(&frame(setup).frame)).collect()
     }
 }
 
@@ -206,7 +221,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         num_accepted: 0,
         num_in_history: 0,
     };
-    let (pictures, num_frames) = (SmallCell::pictures(), args.frames);
+    let (pictures, num_frames) = (SmallCell::pictures(&load), args.frames);
     console.line(&format_args!(
         "Simulated: {num_frames} frames of {} by {} pixels, the history in {}.",
         pictures[0].intrinsics.width,

@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::{CalibrationError, CameraPlace, CellCalibration, Origin, numbers_text};
 use crate::{
-    files::{FileError, crc32, disk, read_text, user_folders, write_atomically},
+    files::{FileError, crc32, disk, read_text, user_data, write_atomically},
     geometry::rigid::{from_row_major, row_major},
     robot::hand_eye::Mount,
 };
@@ -260,6 +260,6 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
 
 /// The path of the cell's calibration if none is named: `cell.toml` in the folder for user data.
 pub fn default_path() -> Result<PathBuf, CalibrationError> {
-    let folders = user_folders().ok_or(CalibrationError::NoUserFolder)?;
-    Ok(folders.data_dir().join("cell.toml"))
+    let folder = user_data().ok_or(CalibrationError::NoUserFolder)?;
+    Ok(folder.join("cell.toml"))
 }

@@ -15,7 +15,7 @@ use super::{CellBaseline, CellCheck, CellLimits, CellView, view::PlanePatch};
 use crate::{
     error::Advice,
     files::{
-        FileContent, FileError, crc32, disk, lock_exclusively, open, read_text, user_folders,
+        FileContent, FileError, crc32, disk, lock_exclusively, open, read_text, user_data,
         write_atomically, write_pcd,
     },
     geometry::cloud::is_finite,
@@ -118,8 +118,8 @@ impl CellCheckFolder {
 
     /// The user's own folder, beside the calibration in the system's folder for user data.
     pub fn of_user() -> Result<Self, CellCheckError> {
-        let folders = user_folders().ok_or(CellCheckError::NoUserFolder)?;
-        Ok(Self::at(folders.data_dir().join("cell-check")))
+        let folder = user_data().ok_or(CellCheckError::NoUserFolder)?;
+        Ok(Self::at(folder.join("cell-check")))
     }
 
     /// Path of the folder.

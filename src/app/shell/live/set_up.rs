@@ -9,7 +9,7 @@ use crate::{
         shell::{action::Action, state::State},
         ui::{
             theme::space,
-            widgets::{self, text_button},
+            widgets::{self, drop_down, text_button},
         },
     },
     capture::{CellScene, SimulatedPose, SimulatedSpec, SourceSpec},
@@ -70,23 +70,13 @@ pub(in crate::app) fn set_up(ctx: &Context, state: &State, actions: &mut Vec<Act
 
 fn rows(ui: &mut Ui, spec: &mut SimulatedSpec) {
     row(ui, text!("live-what-hangs"), |ui| {
-        egui::ComboBox::from_id_salt("scene")
-            .selected_text(scene_title(spec.scene))
-            .width(240.0)
-            .show_ui(ui, |ui| {
-                for scene in scenes(spec.scene) {
-                    ui.selectable_value(&mut spec.scene, scene, scene_title(scene));
-                }
-            })
-            .response
-            .widget_info(|| {
-                let title = scene_title(spec.scene);
-                egui::WidgetInfo::labeled(
-                    egui::Role::ComboBox,
-                    true,
-                    text!("live-hangs", what = title),
-                )
-            });
+        let chosen = scene_title(spec.scene);
+        let label = text!("live-hangs", what = &chosen);
+        drop_down(ui, &label, &chosen, 240.0, |ui| {
+            for scene in scenes(spec.scene) {
+                ui.selectable_value(&mut spec.scene, scene, scene_title(scene));
+            }
+        });
     });
     row(ui, text!("live-side"), |ui| {
         for side in Side::ALL {

@@ -1,6 +1,6 @@
 //! The page for typing the camera's pose.
 
-use egui::{ComboBox, RichText, Ui};
+use egui::{RichText, Ui};
 
 use super::{
     dialog::{mounts, name, told, use_it},
@@ -10,7 +10,10 @@ use super::{
 use crate::{
     app::{
         language::text,
-        ui::{theme::space, widgets::Mark},
+        ui::{
+            theme::space,
+            widgets::{Mark, drop_down},
+        },
         user_error::UserError,
     },
     robot::{Convention, calibration::CameraPlace},
@@ -63,17 +66,10 @@ pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAc
 
 fn convention(ui: &mut Ui, convention: &mut Convention) {
     let chosen = *convention;
-    let response = ComboBox::from_id_salt("typed convention")
-        .selected_text(chosen.title())
-        .width(240.0)
-        .show_ui(ui, |ui| {
-            for other in Convention::ALL {
-                ui.selectable_value(convention, other, other.title());
-            }
-        })
-        .response;
-    response.widget_info(|| {
-        let text = text!("robot-numbers-are-of", convention = chosen.title());
-        egui::WidgetInfo::labeled(egui::Role::ComboBox, true, text)
+    let label = text!("robot-numbers-are-of", convention = chosen.title());
+    drop_down(ui, &label, chosen.title(), 240.0, |ui| {
+        for other in Convention::ALL {
+            ui.selectable_value(convention, other, other.title());
+        }
     });
 }

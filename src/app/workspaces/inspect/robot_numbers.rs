@@ -1,6 +1,6 @@
 //! The card's section on the pose for a robot: in one convention, and always with its frame.
 
-use egui::{Align, ComboBox, Layout, RichText, Ui};
+use egui::{Align, Layout, RichText, Ui};
 
 use super::action::InspectAction;
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
-            widgets::{heading, row},
+            widgets::{drop_down, heading, row},
         },
     },
     geometry::rigid::RigidTransform,
@@ -130,20 +130,14 @@ pub(super) fn ui(
 
 fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<InspectAction>) {
     let mut convention = chosen;
-    let response = ComboBox::from_id_salt("convention")
-        .selected_text(chosen.title())
-        .width(ui.available_width())
-        .show_ui(ui, |ui| {
-            for other in Convention::ALL {
-                ui.selectable_value(&mut convention, other, other.title());
-            }
-        })
-        .response;
-    response.widget_info(|| {
-        let text = text!("inspect-convention-of", name = chosen.title());
-        egui::WidgetInfo::labeled(egui::Role::ComboBox, true, text)
-    });
-    response.on_hover_text(text!("inspect-convention-says"));
+    let label = text!("inspect-convention-of", name = chosen.title());
+    let width = ui.available_width();
+    drop_down(ui, &label, chosen.title(), width, |ui| {
+        for other in Convention::ALL {
+            ui.selectable_value(&mut convention, other, other.title());
+        }
+    })
+    .on_hover_text(text!("inspect-convention-says"));
     if convention != chosen {
         actions.push(InspectAction::UseConvention(convention));
     }
