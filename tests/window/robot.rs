@@ -459,7 +459,7 @@ fn the_list_of_conventions_opens_again_however_it_was_closed() {
     harness.run_steps(4);
     press(&mut harness, "By hand");
     let entry = Convention::Kuka.title();
-    let is_open = |harness: &WindowHarness| harness.query_by_label(&entry).is_some();
+    let is_open = |harness: &WindowHarness| harness.query_by_label(entry).is_some();
     // Pressed and released within one frame, as a slow computer sees it.
     let toggle = |harness: &mut WindowHarness| {
         let pos = harness.get_by_label_contains("Numbers of:").rect().center();
@@ -486,6 +486,6 @@ fn the_list_of_conventions_opens_again_however_it_was_closed() {
         harness.get_by_label("By hand");
     }
     toggle(&mut harness);
-    press(&mut harness, &entry);
+    press(&mut harness, entry);
     harness.get_by_label("Numbers of: KUKA A B C");
 }

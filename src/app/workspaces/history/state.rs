@@ -375,14 +375,13 @@ impl HistoryState {
                 let former_titles = RefCell::new(BTreeMap::new());
                 let title_of = |name: &str| {
                     let library = library.as_deref();
-                    match library.filter(|library| library.place_of(name).is_some()) {
-                        Some(library) => library.title_of(name).to_owned(),
-                        None => {
-                            let mut titles = former_titles.borrow_mut();
-                            let title = titles.entry(name.to_owned());
-                            title.or_insert_with(|| former_title(&keeper, name)).clone()
-                        }
+                    let library = library.filter(|library| library.place_of(name).is_some());
+                    if let Some(library) = library {
+                        return library.title_of(name).to_owned();
                     }
+                    let mut titles = former_titles.borrow_mut();
+                    let title = titles.entry(name.to_owned());
+                    title.or_insert_with(|| former_title(&keeper, name)).clone()
                 };
                 let mut found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
                 let part = filter.part.clone().or_else(|| most_accepted(&outcomes));
