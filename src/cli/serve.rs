@@ -318,7 +318,7 @@ fn start(
     let (tell, events) = mpsc::sync_channel(MAX_EVENTS);
     let camera = Arc::clone(camera);
     let on_event = move |event| {
-        // If the queue is full, drop the event: nobody could read so many lines.
+        // Drop the event if the queue is full: nobody could read that many lines.
         let _ = tell.try_send(event);
     };
     let server = Server::start(listeners, settings, move || camera.status(), on_event);

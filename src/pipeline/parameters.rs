@@ -42,7 +42,7 @@ pub enum Group {
     IcpGa,
     /// Limits for accepting a verdict.
     Acceptance,
-    /// Stand-off along the taught path.
+    /// Stand-off along the assumed path.
     StandOff,
 }
 

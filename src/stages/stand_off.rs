@@ -42,7 +42,7 @@ pub struct StandOffParams {
     pub nearest: Metres,
     /// Farthest distance that still coats well, 160..1000 mm.
     pub farthest: Metres,
-    /// Number of rays of the taught path, 10..10 000. Each costs about 2 µs; more rays find smaller worst spots.
+    /// Number of rays of the assumed path, 10..10 000. Each costs about 2 µs; more rays find smaller worst spots.
     pub num_rays: usize,
 }
 
@@ -58,7 +58,7 @@ impl Default for StandOffParams {
     }
 }
 
-/// A taught nozzle position relative to the part as it hangs now; camera space.
+/// An assumed nozzle position relative to the part as it hangs now; camera space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NozzleRay {
     /// Nozzle tip pₑ, metres.
@@ -111,7 +111,7 @@ pub enum StandOffError {
     #[error("the enrolled part has no surface with normals")]
     NoSurface,
     /// The part is nowhere near where the path was taught.
-    #[error("none of {num_taught} taught nozzle positions points at the part")]
+    #[error("none of {num_taught} assumed nozzle positions points at the part")]
     NoneMeets {
         /// Number of rays taught.
         num_taught: usize,

@@ -70,7 +70,7 @@ fn the_card_shows_the_stand_off_in_the_chosen_units() {
     let shown = state.session.shown.as_ref().expect("a result");
     let found = shown.inspected.stand_off.as_ref().expect("a pose");
     let found = found.as_ref().expect("a stand-off").clone();
-    // The part does not hang in its standard position, which the taught path does not consider.
+    // The part does not hang in its standard position, which the assumed path does not consider.
     assert!((found.mean.0 - 0.15).abs() > 0.005, "{}", found.mean);
     harness.get_by_label(&format!(
         "Stand-off {:.1} mm of 100.0 mm to 200.0 mm",

@@ -35,7 +35,7 @@ pub struct SceneFigure {
     pub camera: Option<LineSet>,
     /// Outline and openings of the reference at the found pose.
     pub outline: Option<LineSet>,
-    /// The taught nozzle over the part's middle, and the one with the largest error of its stand-off.
+    /// The assumed nozzle over the part's middle, and the one with the largest error of its stand-off.
     pub nozzles: Option<[NozzleFigure; 2]>,
     /// The part's stored spray path, if there is one.
     pub spray: Option<SprayFigure>,

@@ -5,7 +5,7 @@
 use crate::{
     error::Advice as _,
     history::{KeepFrames, StoredVerdict},
-    pipeline::{RecipeLabel, Rejection, Unrecognisable},
+    pipeline::{RecipeLabel, Rejection, Unrecognisable, is_like},
     robot::cell_check::{CellFinding, CellViewError},
     scan::Excluded,
     simulate::ObjectKind,
@@ -111,7 +111,7 @@ pub(in crate::app) fn rejection(why: &Rejection) -> String {
             limit = limit.to_string()
         ),
         // Nothing is said of a part that it is next to certainly not.
-        Rejection::Unknown { score, .. } if *score < LEAST_NAMED => text!("results-unknown-alone"),
+        Rejection::Unknown { score, .. } if !is_like(*score) => text!("results-unknown-alone"),
         Rejection::Unknown { nearest, score } => text!(
             "results-unknown-nearest",
             nearest = nearest,
@@ -189,9 +189,6 @@ pub(in crate::app) fn rejection(why: &Rejection) -> String {
         ),
     }
 }
-
-/// Score below which the nearest part is not named.
-pub(in crate::app) const LEAST_NAMED: f64 = 0.05;
 
 /// Advises what to do about a rejection.
 pub(in crate::app) fn rejection_advice(why: &Rejection) -> String {

@@ -238,7 +238,7 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
 }
 
 /// Removes the notices about this.
-pub(in crate::app) fn settle(state: &mut State, topic: NoticeTopic) {
+pub(in crate::app) fn remove_notices(state: &mut State, topic: NoticeTopic) {
     state.notices.retain(|notice| notice.topic != topic);
 }
 
@@ -340,7 +340,7 @@ mod tests {
         }
         let what: Vec<_> = state.notices.iter().map(|n| n.what.as_str()).collect();
         assert_eq!(what, ["port 2", "Saved again"]);
-        settle(&mut state, NoticeTopic::Answering);
+        remove_notices(&mut state, NoticeTopic::Answering);
         assert_eq!(state.notices.len(), 1);
     }
 }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    action::{Effect, notify, settle},
+    action::{Effect, notify, remove_notices},
     current_trace::CurrentTrace,
     library_loader::{self, LibraryLoader},
     live::{self, FollowedParts},
@@ -466,8 +466,8 @@ pub(in crate::app) fn show_made(state: &mut State, inspected: Arc<Inspected>) ->
 fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
     state.inspector.former_source = None;
     if let ReinspectionPurpose::New | ReinspectionPurpose::Past = state.inspector.purpose {
-        settle(state, NoticeTopic::Scene);
-        settle(state, NoticeTopic::Following);
+        remove_notices(state, NoticeTopic::Scene);
+        remove_notices(state, NoticeTopic::Following);
     }
     for warning in &inspected.warnings {
         let notice = match (warning, &inspected.origin) {

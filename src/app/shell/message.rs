@@ -27,7 +27,7 @@ pub enum Message {
     /// Remove this notice, if it is still shown.
     Retract(Notice),
     /// Remove the notices about this.
-    Settle(NoticeTopic),
+    RemoveNotices(NoticeTopic),
     /// Remove the offer to undo from all notices.
     WithdrawUndo,
     /// Copy this to the clipboard.

@@ -4,7 +4,7 @@ use std::any::Any;
 
 use super::Window;
 use crate::app::shell::{
-    action::{Action, DialogRequest, settle},
+    action::{Action, DialogRequest, remove_notices},
     context::ShellContext,
     live::LiveAction,
     message::{Message, ReinspectionPurpose},
@@ -86,7 +86,7 @@ impl Window {
         match message {
             Message::Notify(notice) => self.act(Action::Notify(notice), ctx),
             Message::Retract(notice) => self.state.notices.retain(|known| *known != notice),
-            Message::Settle(topic) => settle(&mut self.state, topic),
+            Message::RemoveNotices(topic) => remove_notices(&mut self.state, topic),
             Message::WithdrawUndo => {
                 for notice in &mut self.state.notices {
                     if notice.kind == NoticeKind::Undoable {

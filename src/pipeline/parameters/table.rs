@@ -271,5 +271,5 @@ pub const PARAMETERS: &[Parameter] = &[
         "Farthest distance that still coats well. Raising it forgives more of the path."),
     number!("stand_off.num_rays", "Rays of the path", StandOff, Fold, None, [10.0, 10_000.0], 0,
         |r| r.stand_off.num_rays as f64, |r, v| r.stand_off.num_rays = v.round() as usize,
-        "Points of the taught path that are evaluated. Raising it costs about 2 µs each and finds a smaller worst spot."),
+        "Points of the assumed path that are evaluated. Raising it costs about 2 µs each and finds a smaller worst spot."),
 ];

@@ -19,7 +19,7 @@ use crate::{
         inspection::{inspected::Inspected, library_cache::LibraryCache},
         language::text,
         shell::{
-            action::{DialogRequest, Effect, notify, settle},
+            action::{DialogRequest, Effect, notify, remove_notices},
             current_trace::CurrentTrace,
             message::{Event, ReinspectionPurpose},
             notice::{Notice, NoticeTopic},
@@ -196,8 +196,8 @@ fn start(state: &mut State) {
         return;
     }
     state.follower.session += 1;
-    settle(state, NoticeTopic::Following);
-    settle(state, NoticeTopic::Scene);
+    remove_notices(state, NoticeTopic::Following);
+    remove_notices(state, NoticeTopic::Scene);
     dismiss_lost_notice(state);
     state.cancel_inspection();
     follow_source(state);

@@ -148,7 +148,7 @@ impl Answering {
         while let Some(event) = self.task.poll() {
             match event {
                 TaskEvent::Partial(status) => {
-                    self.settle(cx);
+                    self.forget_failure(cx);
                     self.status = Some(status);
                 }
                 TaskEvent::Done(_) => self.ended(),
@@ -156,13 +156,13 @@ impl Answering {
             }
         }
         let Some((listener, robot)) = wanted(cx.session) else {
-            self.settle(cx);
+            self.forget_failure(cx);
             self.end();
             return;
         };
         let is_elsewhere = |failed: &Failure| failed.listener != listener;
         if self.failed.as_ref().is_some_and(is_elsewhere) {
-            self.settle(cx);
+            self.forget_failure(cx);
         }
         match &self.run {
             Some(run) if run.listener == listener && !run.is_ending() => {
@@ -196,9 +196,9 @@ impl Answering {
     }
 
     /// Forgets the failure and removes its notice.
-    fn settle(&mut self, cx: &mut ShellContext<'_>) {
+    fn forget_failure(&mut self, cx: &mut ShellContext<'_>) {
         if self.failed.take().is_some() {
-            cx.send(Message::Settle(NoticeTopic::Answering));
+            cx.send(Message::RemoveNotices(NoticeTopic::Answering));
         }
     }
 

@@ -114,7 +114,7 @@ impl EnrolState {
         selection: Arc<Selection>,
         cx: &mut ShellContext<'_>,
     ) {
-        cx.send(Message::Settle(NoticeTopic::Scene));
+        cx.send(Message::RemoveNotices(NoticeTopic::Scene));
         for warning in &subject.warnings {
             cx.notify(match &subject.origin {
                 Origin::File { path, .. } => Notice::of_file(path, warning),

@@ -7,8 +7,7 @@ use crate::{
         inspection::inspected::{Inspected, LiveFrameContext},
         language::{
             results::{
-                LEAST_NAMED, rejection, rejection_advice, stored_verdict, unrecognisable,
-                unrecognisable_advice,
+                rejection, rejection_advice, stored_verdict, unrecognisable, unrecognisable_advice,
             },
             text,
         },
@@ -19,7 +18,7 @@ use crate::{
         },
     },
     history::StoredVerdict,
-    pipeline::{Rejection, Verdict, live::MotionState},
+    pipeline::{Rejection, Verdict, is_like, live::MotionState},
 };
 
 /// Texts of the headline.
@@ -79,7 +78,7 @@ impl Headline {
                         },
                         // The reason names the part that it is the mirror image of.
                         nearest: (!inspected.inspection.verdict.is_mirrored()
-                            && best.is_none_or(|best| f64::from(best.score) >= LEAST_NAMED))
+                            && best.is_none_or(|best| is_like(f64::from(best.score))))
                         .then_some(nearest),
                         is_accepted: false,
                         is_open: false,

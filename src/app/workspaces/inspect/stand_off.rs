@@ -1,4 +1,4 @@
-//! The card's section on the stand-off: that of the taught path, against its band.
+//! The card's section on the stand-off: that of an assumed path, against its band.
 
 use egui::{Align2, Rect, RichText, Sense, Ui, pos2, vec2};
 

@@ -40,9 +40,9 @@ pub enum ViewPart {
     Camera,
     /// The enrolled part's outline at the found pose.
     Outline,
-    /// The taught nozzle over the middle of the part.
+    /// The assumed nozzle over the middle of the part.
     NozzleMiddle,
-    /// The taught nozzle with the largest error of stand-off.
+    /// The assumed nozzle with the largest error of stand-off.
     NozzleWorst,
     /// The part's stored spray path, moved to the part's pose.
     SprayPath,

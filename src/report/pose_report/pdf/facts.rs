@@ -161,7 +161,7 @@ impl Rows<'_, '_> {
 
     fn stand_off(&mut self, found: &StandOffBlock) {
         let mm = |metres: f64| typeset(&format!("{:.0}", metres * 1000.0));
-        self.heading("Stand-off of the taught path");
+        self.heading("Stand-off of an assumed path");
         self.row(
             "mean, worst",
             &format!("{}, {} mm", mm(found.mean_m), mm(found.worst_m)),
@@ -177,7 +177,7 @@ impl Rows<'_, '_> {
         );
         self.row("angle, worst", &angles);
         self.note(if found.keeps_the_band {
-            "The path can run as it was taught."
+            "The path fits without the pose."
         } else {
             "The path has to be moved by the pose first."
         });

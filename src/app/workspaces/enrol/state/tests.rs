@@ -73,7 +73,9 @@ impl Bench {
         for message in std::mem::take(&mut self.shell.messages) {
             match message {
                 Message::Notify(notice) => self.notices.push(notice),
-                Message::Settle(topic) => self.notices.retain(|notice| notice.topic != topic),
+                Message::RemoveNotices(topic) => {
+                    self.notices.retain(|notice| notice.topic != topic);
+                }
                 Message::WithdrawUndo => {
                     for notice in &mut self.notices {
                         if notice.kind == NoticeKind::Undoable {
