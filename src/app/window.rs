@@ -251,11 +251,24 @@ impl Window {
         if self.state.closing == Closing::Confirmed {
             return true;
         }
-        let mut all = self.workspaces.iter();
-        let unsaved = all.find_map(|workspace| workspace.unsaved());
-        let may_close = unsaved.is_none();
-        self.state.closing = unsaved.map_or(Closing::No, Closing::Asked);
+        let all = self.workspaces.iter();
+        let mut lost: Vec<String> = all.filter_map(|workspace| workspace.unsaved()).collect();
+        lost.extend(self.not_written());
+        let may_close = lost.is_empty();
+        self.state.closing = if may_close {
+            Closing::No
+        } else {
+            Closing::Asked(lost.join("\n"))
+        };
         may_close
+    }
+
+    /// Describes the inspections that the history cannot write, if any.
+    fn not_written(&self) -> Option<String> {
+        let history = self.services.library_cache.history();
+        // Without a failure, those that wait are about to be written.
+        let num = history.next_try().map_or(0, |_| history.num_waiting());
+        (num > 0).then(|| text!("shell-not-written", num = num))
     }
 
     /// Sends an event to every workspace.
@@ -378,6 +391,9 @@ impl Window {
         for kind in WorkspaceKind::ALL {
             self.lend(kind, ctx, Workspace::update);
         }
+        let history = self.workspace::<HistoryWorkspace>();
+        let is_failing = history.is_some_and(|history| history.state().trouble.is_some());
+        self.state.session.is_history_failing = is_failing;
         shift::update(&mut self.state, self.services.library_cache.history(), ctx);
         if let Some(action) = self.with_robot(ctx, RobotCell::update) {
             self.act(Action::Robot(action), ctx);

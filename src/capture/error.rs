@@ -209,10 +209,9 @@ impl Advice for CaptureError {
             Self::Genicam(error) => error.advice(),
             Self::OpenNi(error) => error.advice(),
             Self::Realsense(error) => error.advice(),
-            Self::NoFrames { path } => format!(
-                "Give the folder that holds the frames; partsight capture --out {} makes one",
-                path.display()
-            ),
+            Self::NoFrames { .. } => {
+                "Give the folder that holds the frames, or record a source into one first".into()
+            }
             Self::NewerRecording { .. } => "Update Partsight on this computer".into(),
             Self::DamagedRecording { .. } => {
                 "Copy the recording again from where it was made".into()

@@ -89,20 +89,23 @@ impl<'a> PastCases<'a> {
         Ok(())
     }
 
-    /// Summarises in English what was written and what was not.
-    pub fn in_words(&self) -> String {
-        let mut words = format!("{} kept as cases", self.num_kept);
-        for (num, why) in [
+    /// Summarises in English what was written to the folder of this name, and what was not.
+    pub fn in_words(&self, folder: &str) -> String {
+        let cases = if self.num_kept == 1 { "case" } else { "cases" };
+        let written = format!("{} {cases} written to {folder}", self.num_kept);
+        let left_out = [
             (self.num_without_truth, "without a true label"),
-            (self.num_without_frame, "whose frame is not kept"),
-            (self.num_scans, "that are scans"),
-            (self.problems.len(), "whose frame cannot be read"),
-        ] {
-            if num > 0 {
-                words = format!("{words}, {num} {why}");
-            }
+            (self.num_without_frame, "without a kept frame"),
+            (self.num_scans, "of a scan"),
+            (self.problems.len(), "with an unreadable frame"),
+        ];
+        let left_out = left_out.into_iter().filter(|(num, _)| *num > 0);
+        let left_out: Vec<String> = left_out.map(|(num, why)| format!("{num} {why}")).collect();
+        if left_out.is_empty() {
+            written
+        } else {
+            format!("{written}; left out: {}", left_out.join(", "))
         }
-        words
     }
 }
 

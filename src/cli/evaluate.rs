@@ -79,15 +79,16 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
     let list = folder.list().advised()?;
     if list.cases.is_empty() && list.problems.is_empty() {
         let path = args.folder.display();
-        let what = if args.folder.is_dir() {
-            "there are no cases"
+        // Cases must not get into a folder of something else.
+        let (what, folder) = if args.folder.is_dir() {
+            ("there are no cases", "NEW_FOLDER".to_owned())
         } else {
-            "there is no such folder"
+            ("there is no such folder", path.to_string())
         };
         return Err(advised_error(
             format!("{path}: {what}"),
             format!(
-                "Keep some in the window's Compare, or make some: partsight simulate --cases {path}"
+                "Keep some in the window's Compare, or make some: partsight simulate --cases {folder}"
             ),
         ));
     }

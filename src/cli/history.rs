@@ -276,7 +276,7 @@ pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<O
 
 /// Warns about a name that is not enrolled: it may be right, but is more often mistyped.
 fn note_if_unknown(part: &str, library: &LibraryChoice, console: &mut Console) {
-    let Ok(load) = library.load_some(&ReferenceParams::default(), console) else {
+    let Ok((place, load)) = library.load_placed(&ReferenceParams::default(), console) else {
         return;
     };
     let enrolled: BTreeSet<&str> = load
@@ -287,7 +287,8 @@ fn note_if_unknown(part: &str, library: &LibraryChoice, console: &mut Console) {
     if !enrolled.contains(part) {
         let enrolled: Vec<&str> = enrolled.into_iter().collect();
         console.note(&format_args!(
-            "no enrolled part is named {part}; the label is set nevertheless; enrolled: {}",
+            "no part in the library {} is named {part}; the label is set nevertheless; enrolled there: {}",
+            place.location(),
             enrolled.join(", ")
         ));
     }

@@ -9,16 +9,18 @@ use std::{
 
 use clap::{Args, builder::PossibleValuesParser};
 
-use super::console::{Advised as _, Console, with_advice};
+use super::console::{Advised as _, Console, advised_error, with_advice};
 use crate::{
     capture::Image,
+    cases::CaseFolder,
     error::Advice,
     files::{
         self, FileContent, FileError, FileWarning,
         import::{ImportOptions, LengthUnit, UpAxis},
     },
     geometry::cloud::PointCloud,
-    robot::{Convention, WrittenPose, parse_written_pose},
+    library::LibraryFolder,
+    robot::{Convention, WrittenPose, parse_nozzle, parse_written_pose},
     stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image},
 };
 
@@ -136,6 +138,11 @@ pub(super) fn parse_robot_pose(text: &str) -> Result<WrittenPose, String> {
     parse_written_pose(text).map_err(|error| with_advice(&error))
 }
 
+/// Parses the pose of a nozzle on the flange for clap.
+pub(super) fn parse_nozzle_pose(text: &str) -> Result<WrittenPose, String> {
+    parse_nozzle(text).map_err(|error| with_advice(&error))
+}
+
 /// Parses the name of a convention for clap.
 pub(super) fn parse_convention(name: &str) -> Result<Convention, String> {
     Convention::by_name(name).ok_or_else(|| {
@@ -168,6 +175,17 @@ pub(super) fn before(
         console.warn(&format_args!("{name}: {other}"), &other);
     }
     scene.empty_cell = cell.cloned();
+}
+
+/// The folder to write cases into; refuses one that holds parts.
+pub(super) fn open_case_folder(path: &Path) -> anyhow::Result<CaseFolder> {
+    if LibraryFolder::open(path).is_ok_and(|folder| folder.is_in_use()) {
+        return Err(advised_error(
+            format!("{} holds parts of a library", path.display()),
+            "Give another folder for the cases",
+        ));
+    }
+    Ok(CaseFolder::at(path))
 }
 
 /// Opens any file with points; a mesh is sampled evenly.

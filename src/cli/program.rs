@@ -8,8 +8,8 @@ use nalgebra::Point3;
 
 use super::{
     Outcome,
-    console::{Advised as _, Console},
-    input::parse_robot_pose,
+    console::{Advised as _, Console, advised_error},
+    input::{parse_nozzle_pose, parse_robot_pose, within},
 };
 use crate::{
     geometry::rigid::RigidTransform,
@@ -30,24 +30,19 @@ pub(super) struct ProgramOptions {
     #[arg(long, value_name = "TOOL", requires = "program")]
     tool: Option<String>,
     /// Pose of the nozzle on the flange, with z in its direction: `kuka X Y Z A B C`, or the 16 numbers of a matrix
-    #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true, requires = "program")]
+    #[arg(long, value_name = "POSE", value_parser = parse_nozzle_pose, allow_hyphen_values = true, requires = "program")]
     nozzle: Option<WrittenPose>,
     /// Number of the digital output that opens the gun
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "program")]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=9999), allow_negative_numbers = true, requires = "program")]
     gun_output: u16,
-    /// Speed where the path sets none, mm/s
-    #[arg(
-        long,
-        value_name = "MM/S",
-        default_value_t = 250.0,
-        requires = "program"
-    )]
+    /// Speed where the path sets none, 1 to 5000 mm/s
+    #[arg(long, value_name = "MM/S", default_value_t = 250.0, value_parser = parse_speed, allow_negative_numbers = true, requires = "program")]
     speed: f64,
-    /// Distance of the approach points from the path's first and last point, mm
-    #[arg(long, value_name = "MM", default_value_t = 100.0, requires = "program")]
+    /// Distance of the approach points from the path's first and last point, 10 to 1000 mm
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = parse_approach, allow_negative_numbers = true, requires = "program")]
     approach: f64,
-    /// Radius within which the robot may cut corners, mm
-    #[arg(long, value_name = "MM", default_value_t = 5.0, requires = "program")]
+    /// Radius within which the robot may cut corners, 0 to 100 mm
+    #[arg(long, value_name = "MM", default_value_t = 5.0, value_parser = |text: &str| within(text, &(0.0..=100.0)), allow_negative_numbers = true, requires = "program")]
     blend: f64,
     /// Check that this arm reaches the path: a name, or a TOML file; needs --nozzle
     #[arg(long, value_name = "ARM", requires_all = ["program", "nozzle"])]
@@ -79,11 +74,11 @@ pub(super) struct CellChoice {
     /// case
     #[arg(long, value_name = "FILE", requires = "arm")]
     obstacles: Option<PathBuf>,
-    /// Minimum distance of gun and arm from part, boxes and floor, mm
-    #[arg(long, value_name = "MM", default_value_t = 20.0, requires = "arm")]
+    /// Minimum distance of gun and arm from part, boxes and floor, 0 to 1000 mm
+    #[arg(long, value_name = "MM", default_value_t = 20.0, value_parser = |text: &str| within(text, &(0.0..=1000.0)), allow_negative_numbers = true, requires = "arm")]
     clearance: f64,
-    /// Radius of the gun around the line from the flange to the nozzle's mouth, mm
-    #[arg(long, value_name = "MM", default_value_t = 50.0, requires = "arm")]
+    /// Radius of the gun around the line from the flange to the nozzle's mouth, 1 to 1000 mm
+    #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = |text: &str| within(text, &(1.0..=1000.0)), allow_negative_numbers = true, requires = "arm")]
     gun_radius: f64,
 }
 
@@ -119,6 +114,16 @@ pub(super) fn parse_format(name: &str) -> Result<ProgramFormat, String> {
     })
 }
 
+/// Parses a speed where the path sets none, mm/s, for clap. Most controllers' own limits are lower.
+pub(super) fn parse_speed(text: &str) -> Result<f64, String> {
+    within(text, &(1.0..=5000.0))
+}
+
+/// Parses the distance of the approach points, mm, for clap.
+pub(super) fn parse_approach(text: &str) -> Result<f64, String> {
+    within(text, &(10.0..=1000.0))
+}
+
 /// A program to write.
 pub(super) struct ProgramFile {
     file: PathBuf,
@@ -140,15 +145,31 @@ pub(super) struct ProgramSubject<'a> {
 }
 
 impl ProgramOptions {
-    /// Prepares writing a program to a file, in this format or in the one of the file's extension.
+    /// Prepares writing a program to a file, in this format or in the one of the file's ending, which must not be that of
+    /// another language.
     pub(super) fn open(
         &self,
         file: &Path,
         format: Option<ProgramFormat>,
     ) -> anyhow::Result<ProgramFile> {
-        let format = match format {
-            Some(format) => format,
-            None => ProgramFormat::of(file).advised()?,
+        let format = match (format, ProgramFormat::of(file)) {
+            (Some(format), Ok(other)) if format != other => {
+                return Err(advised_error(
+                    format!(
+                        "{} is to be {}, but its ending stands for {}",
+                        file.display(),
+                        format.title(),
+                        other.title()
+                    ),
+                    format!(
+                        "End the file's name in .{}, or choose the language {}",
+                        format.ending(),
+                        other.name()
+                    ),
+                ));
+            }
+            (Some(format), _) => format,
+            (None, of_file) => of_file.advised()?,
         };
         let nozzle = self.nozzle.as_ref().map(|written| written.pose);
         let arm = self.arm.as_deref().map(Arm::named).transpose().advised()?;
@@ -196,7 +217,7 @@ impl ProgramFile {
         if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
             console.note(&format_args!("no program was written: {doubt}"));
             let advice = if subject.scene.is_some() {
-                "Capture again, or move part or arm".to_owned()
+                "Capture all of the part again, or move part or arm".to_owned()
             } else {
                 format!(
                     "Run partsight path check {} with the same options to see why, and whether another --base reaches more, or change the path",
@@ -220,12 +241,11 @@ impl ProgramFile {
         };
         let num_parts = program.save(&self.file, self.format).advised()?;
         console.note(&format_args!(
-            "{}: {} points as {}; of {} that aim at what was seen of the part, {} are within the band",
+            "{}: {} points as {}; {}",
             self.file.display(),
             points.len(),
             self.format.title(),
-            carried.points.iter().filter(|point| point.meets.is_some()).count(),
-            carried.num_inside()
+            against_seen(carried)
         ));
         if num_parts > 0 {
             console.note(&format_args!(
@@ -237,4 +257,20 @@ impl ProgramFile {
         }
         Ok(Outcome::Accepted)
     }
+}
+
+/// Says how many points of a carried path are within the band, of those that could be checked against what was seen. Adds
+/// how many could not be, if they are more than the moves beside a part that is seen whole.
+pub(super) fn against_seen(carried: &CarriedPath) -> String {
+    let num = carried.points.len();
+    let num_seen = carried.num_seen();
+    let mut words = format!(
+        "of {num_seen} that aim at what was seen of the part, {} are within the band",
+        carried.num_inside()
+    );
+    if 4 * num_seen < num {
+        let rest = num - num_seen;
+        words = format!("{words}. Not checked against what was seen: the other {rest}");
+    }
+    words
 }

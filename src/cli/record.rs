@@ -178,15 +178,20 @@ impl HistoryRecorder {
         let num_waiting = self.keeper.num_waiting();
         let [num_bare, num_lost] = self.writer.take_dropped();
         for (num, what) in [
-            (num_waiting, "are not in the history"),
-            (num_lost, "are not in the history: the disk is too slow"),
+            (num_waiting, "not in the history"),
+            (num_lost, "not in the history: the disk is too slow"),
             (
                 num_bare,
-                "are in the history without their frames: the disk is too slow",
+                "in the history without frames: the disk is too slow",
             ),
         ] {
             if num > 0 {
-                console.note(&format_args!("warning: {num} inspections {what}"));
+                let inspections_are = if num == 1 {
+                    "inspection is"
+                } else {
+                    "inspections are"
+                };
+                console.note(&format_args!("warning: {num} {inspections_are} {what}"));
             }
         }
     }

@@ -92,6 +92,10 @@ pub(super) struct ServeArgs {
     #[cfg(feature = "plant")]
     #[command(flatten)]
     http: http::HttpArgs,
+    /// Needs a build with the feature plant
+    #[cfg(not(feature = "plant"))]
+    #[arg(long, value_name = "[IP:]PORT", hide = true)]
+    http: Option<String>,
     #[command(flatten)]
     library: LibraryChoice,
     #[cfg(feature = "plant")]
@@ -177,6 +181,13 @@ fn parse_running_source(text: &str) -> Result<SourceSpec, String> {
 const MAX_EVENTS: usize = 64;
 
 pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    #[cfg(not(feature = "plant"))]
+    if args.http.is_some() {
+        return Err(advised_error(
+            "this build has no HTTP",
+            "Build it with the feature plant: cargo build --release --features plant",
+        ));
+    }
     let listeners = args.addresses().into_iter();
     let listeners = listeners.map(|at| Listener::new(at, args.numbers.convention));
     let listeners = listeners.collect::<Result<Vec<_>, _>>().advised()?;

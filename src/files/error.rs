@@ -364,7 +364,10 @@ impl Advice for FileError {
                     "Did you mean {}#{name}? Give one of the names it has",
                     path.display()
                 ),
-                None => format!("Open {} without a name after '#'", path.display()),
+                None if available.is_empty() => {
+                    format!("Open {} without a name after '#'", path.display())
+                }
+                None => "Give one of the names it has after '#'".into(),
             },
             Self::ImportOption { bad, .. } => bad.advice(),
             Self::NeedsMeshName { path, available } => format!(

@@ -11,7 +11,8 @@ use directories::ProjectDirs;
 
 use super::disk;
 
-/// The environment variable that names another folder for the user's data and settings.
+/// The environment variable that names another folder for the user's data and settings. As with those of the system, a
+/// relative path is ignored: it would be another folder in each working folder.
 const OWN_FOLDER: &str = "PARTSIGHT_DATA";
 
 /// Returns the folder for this program's data of the user; `None` if the system has none.
@@ -27,8 +28,8 @@ pub(crate) fn user_settings() -> Option<PathBuf> {
 }
 
 fn own_folder() -> Option<PathBuf> {
-    let folder = env::var_os(OWN_FOLDER)?;
-    (!folder.is_empty()).then(|| folder.into())
+    let folder = PathBuf::from(env::var_os(OWN_FOLDER)?);
+    folder.is_absolute().then_some(folder)
 }
 
 fn system_folders() -> Option<ProjectDirs> {

@@ -25,12 +25,16 @@ pub(super) fn listed(names: &[String], wanted: &str) -> String {
     }
 }
 
-/// Returns the name nearest to `wanted`; the first of equally near ones.
+/// Returns the name nearest to `wanted`, the first of equally near ones; `None` if more than half of the letters differ,
+/// so that it was hardly meant.
 pub(crate) fn nearest_name<'a>(
     names: impl Iterator<Item = &'a str>,
     wanted: &str,
 ) -> Option<&'a str> {
-    nearest_first(names, wanted).first().copied()
+    let nearest = nearest_first(names, wanted).first().copied()?;
+    let wanted = letters_of(wanted);
+    let edits = edits_between(&letters_of(nearest), &wanted);
+    (2 * edits <= wanted.len()).then_some(nearest)
 }
 
 fn nearest_first<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> Vec<&'a str> {
@@ -76,7 +80,9 @@ mod tests {
         assert!(list.starts_with("Door_FL, Door_FR, bolt_"), "{list}");
         assert!(list.ends_with(" and 192 more"), "{list}");
         let all = names.iter().map(String::as_str);
-        assert_eq!(nearest_name(all, "doorfr"), Some("Door_FR"));
+        assert_eq!(nearest_name(all.clone(), "doorfr"), Some("Door_FR"));
+        assert_eq!(nearest_name(all.clone(), "dorfrt"), Some("Door_FR"));
+        assert_eq!(nearest_name(all, "windscreen"), None);
         assert_eq!(listed(&names[..2], ""), "bolt_0, bolt_1");
         assert_eq!(listed(&[], "x"), "no named meshes");
     }

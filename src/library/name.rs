@@ -14,9 +14,6 @@ use crate::error::Advice;
 #[serde(try_from = "String", into = "String")]
 pub struct PartName(String);
 
-/// Maximum length, characters.
-const MAX_LENGTH: usize = 64;
-
 /// Device names that Windows reserves in every folder.
 const RESERVED: [&str; 22] = [
     "con", "prn", "aux", "nul", "com1", "com2", "com3", "com4", "com5", "com6", "com7", "com8",
@@ -61,18 +58,26 @@ pub enum BadName {
     },
 }
 
-impl Advice for BadName {
-    fn advice(&self) -> String {
-        let suggestion = match self {
+impl BadName {
+    /// Returns a valid name, like the bad one if possible.
+    pub fn example(&self) -> String {
+        let alike = match self {
             Self::BadCharacter { name, .. } | Self::BadBeginning { name, .. } => {
                 PartName::proposed(name).map(String::from)
             }
             Self::Reserved { name } => Some(format!("{name}_part")),
             Self::Empty | Self::TooLong { .. } => None,
         };
+        alike.unwrap_or_else(|| "front_door".to_owned())
+    }
+}
+
+impl Advice for BadName {
+    fn advice(&self) -> String {
         format!(
-            "Use up to {MAX_LENGTH} lowercase letters, digits, _ and -, for example {}",
-            suggestion.as_deref().unwrap_or("front_door")
+            "Use up to {} lowercase letters, digits, _ and -, for example {}",
+            PartName::MAX_LENGTH,
+            self.example()
         )
     }
 }
@@ -81,7 +86,29 @@ fn is_allowed(character: char) -> bool {
     matches!(character, 'a'..='z' | '0'..='9' | '_' | '-')
 }
 
+/// Spells an accented letter with letters that are allowed; `None` for any other character.
+fn unaccented(letter: char) -> Option<&'static str> {
+    Some(match letter {
+        'ä' | 'æ' => "ae",
+        'ö' | 'œ' => "oe",
+        'ü' => "ue",
+        'ß' => "ss",
+        'á' | 'à' | 'â' | 'ã' | 'å' => "a",
+        'ç' => "c",
+        'é' | 'è' | 'ê' | 'ë' => "e",
+        'í' | 'ì' | 'î' | 'ï' => "i",
+        'ñ' => "n",
+        'ó' | 'ò' | 'ô' | 'õ' | 'ø' => "o",
+        'ú' | 'ù' | 'û' => "u",
+        'ý' | 'ÿ' => "y",
+        _ => return None,
+    })
+}
+
 impl PartName {
+    /// Maximum length, characters.
+    pub const MAX_LENGTH: usize = 64;
+
     /// Checks a name.
     pub fn new(name: &str) -> Result<Self, BadName> {
         let first = name.chars().next().ok_or(BadName::Empty)?;
@@ -97,10 +124,10 @@ impl PartName {
                 character: first,
             });
         }
-        if name.len() > MAX_LENGTH {
+        if name.len() > Self::MAX_LENGTH {
             return Err(BadName::TooLong {
                 found: name.len(),
-                limit: MAX_LENGTH,
+                limit: Self::MAX_LENGTH,
             });
         }
         if RESERVED.contains(&name) {
@@ -115,17 +142,19 @@ impl PartName {
     pub fn proposed(text: &str) -> Option<Self> {
         let mut kept = String::new();
         for c in text.to_lowercase().chars() {
-            match c {
-                c if is_allowed(c) => kept.push(c),
+            if is_allowed(c) {
+                kept.push(c);
+            } else if let Some(letters) = unaccented(c) {
+                kept.push_str(letters);
+            } else if !kept.ends_with('_') {
                 // One underscore for each run of replaced characters.
-                _ if !kept.ends_with('_') => kept.push('_'),
-                _ => {}
+                kept.push('_');
             }
         }
         let kept: String = kept
             .trim_matches(['_', '-'])
             .chars()
-            .take(MAX_LENGTH)
+            .take(Self::MAX_LENGTH)
             .collect();
         Self::new(kept.trim_end_matches(['_', '-'])).ok()
     }
@@ -210,14 +239,23 @@ mod tests {
         for (title, name) in [
             ("Front door, left", "front_door_left"),
             ("  Grille (2024) ", "grille_2024"),
-            ("Tür", "t_r"),
+            ("Tür", "tuer"),
+            ("Kotflügel links (Booth)", "kotfluegel_links_booth"),
+            ("Außen ÄÖ", "aussen_aeoe"),
+            ("Capó, él", "capo_el"),
+            ("右前 door", "door"),
             ("fender-2_b", "fender-2_b"),
         ] {
             assert_eq!(proposed(title).as_deref(), Some(name));
         }
-        assert_eq!((proposed(", !"), proposed("")), (None, None));
+        for nothing in [", !", "", "右前 涂装"] {
+            assert_eq!(proposed(nothing), None, "{nothing:?}");
+        }
         let long = proposed(&"door ".repeat(30)).expect("a name");
-        assert!(long.len() <= MAX_LENGTH && long.ends_with("door"), "{long}");
+        assert!(
+            long.len() <= PartName::MAX_LENGTH && long.ends_with("door"),
+            "{long}"
+        );
     }
 
     #[test]

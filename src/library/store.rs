@@ -124,6 +124,15 @@ impl LibraryFolder {
         self.path.join(META).is_file()
     }
 
+    /// Returns whether this is in use as a library or as a part: any other folder can be opened as an empty library too.
+    pub fn is_in_use(&self) -> bool {
+        let is_part = |entry: &Entry| entry.path.join(META).is_file();
+        let has_parts = |entries: Vec<Entry>| entries.iter().any(is_part);
+        self.is_itself_a_part()
+            || self.entries().is_ok_and(has_parts)
+            || self.numbers().is_ok_and(|numbers| !numbers.is_empty())
+    }
+
     /// Returns the library that was probably meant by this folder without parts: its parent if it is a part itself,
     /// otherwise its `reference_parts`.
     pub fn probably_meant(&self) -> Option<PathBuf> {

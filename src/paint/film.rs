@@ -6,6 +6,8 @@
 //!
 //! Known limits: only the side that is painted casts shadows.
 
+use std::f64::consts::{FRAC_PI_6, PI, TAU};
+
 use nalgebra::{Point3, Unit, Vector3};
 use serde::Serialize;
 
@@ -13,8 +15,8 @@ use super::{
     coat::Coat,
     error::PaintError,
     region::{KeepOut, are_kept_out},
-    shadow::{DISC, DirectionGrid, Seen},
-    surface::PaintSurface,
+    shadow::{DISC, DirectionGrid, Seen, ViewFromAfar},
+    surface::{PaintSurface, across},
 };
 use crate::{
     geometry::{
@@ -35,14 +37,19 @@ const DOUBLE_ABOVE: f64 = 1.8;
 /// Bars of the histogram, a tenth of the target each; the last includes all that is thicker.
 const NUM_BARS: usize = 20;
 /// Angle beyond the tilt limit up to which a surface still counts as reachable: cos 30° is 0.87 of the film.
-const FACED_WITHIN: f64 = std::f64::consts::FRAC_PI_6;
+const FACED_WITHIN: f64 = FRAC_PI_6;
+/// Step between the tilts in which the gun is looked for, and their number around the upright gun.
+const TILT_STEP: f64 = PI / 36.0;
+const NUM_TURNS: u32 = 24;
+/// The best of these tilts may be off the best one by this.
+const BETWEEN_TILTS: f64 = PI / 90.0;
 
 /// The film on a surface.
 #[derive(Clone, Debug)]
 pub struct Film {
     /// Thickness at each point of the surface, metres.
     pub thickness: Vec<f64>,
-    /// True for points that the gun can face and that are not kept out.
+    /// True for points that the gun can face with nothing in between, and that are not kept out.
     pub is_reachable: Vec<bool>,
     /// Figures of the film.
     pub figures: FilmFigures,
@@ -53,7 +60,7 @@ pub struct Film {
 /// Figures of a film. Shares are of the reachable area.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FilmFigures {
-    /// Share of the surface's area that the gun can face and that is not kept out.
+    /// Share of the surface's area that the gun can face with nothing in between, and that is not kept out.
     pub reachable: f64,
     /// Share within the tolerance of the target.
     pub within: f64,
@@ -148,7 +155,8 @@ pub fn simulate(
     })
 }
 
-/// Returns for each point of the surface whether the gun can face it and it is not kept out.
+/// Returns for each point of the surface whether a gun within the tilt limit can face it with nothing in between, and it
+/// is not kept out.
 pub(super) fn are_reachable(
     surface: &PaintSurface,
     coat: &Coat,
@@ -156,10 +164,37 @@ pub(super) fn are_reachable(
 ) -> Vec<bool> {
     let least = (coat.tilt_limit + FACED_WITHIN).cos();
     let kept_out = are_kept_out(surface, keep_outs);
-    let wanted = surface.normals.iter().zip(kept_out);
-    wanted
-        .map(|(n, is_kept_out)| n.dot(&surface.side) >= least && !is_kept_out)
-        .collect()
+    let is_wanted = |i: &usize| surface.normals[*i].dot(&surface.side) >= least && !kept_out[*i];
+    let mut waiting: Vec<usize> = (0..surface.points.len()).filter(is_wanted).collect();
+    let mut are_reachable = vec![false; surface.points.len()];
+    let least = (FACED_WITHIN + BETWEEN_TILTS).cos();
+    for direction in tilts(&surface.side, coat.tilt_limit) {
+        let faces = |i: &usize| surface.normals[*i].dot(&direction) >= least;
+        if !waiting.iter().any(faces) {
+            continue;
+        }
+        let view = ViewFromAfar::new(surface, &direction);
+        waiting.retain(|i| {
+            are_reachable[*i] = faces(i) && view.sees(*i, coat.stand_off);
+            !are_reachable[*i]
+        });
+    }
+    are_reachable
+}
+
+/// Directions towards guns that are tilted by at most the limit, the upright one first.
+fn tilts(side: &Vector3<f64>, limit: f64) -> impl Iterator<Item = Vector3<f64>> {
+    let x = across(side);
+    let y = side.cross(&x);
+    let num_rings = (limit / TILT_STEP).ceil();
+    let rings = (1..=num_rings as usize).map(move |ring| limit * ring as f64 / num_rings);
+    let turns = (0..NUM_TURNS).map(|turn| TAU * f64::from(turn) / f64::from(NUM_TURNS));
+    let leaned = rings.flat_map(move |tilt| turns.clone().map(move |turn| (tilt, turn)));
+    let side = *side;
+    let leaned = leaned.map(move |(tilt, turn)| {
+        side * tilt.cos() + (x * turn.cos() + y * turn.sin()) * tilt.sin()
+    });
+    std::iter::once(side).chain(leaned)
 }
 
 /// What the gun leaves on its way from one point of a path to the next.
@@ -237,7 +272,7 @@ fn gun_at(a: &PathPoint, b: &PathPoint, share: f64) -> (Point3<f64>, [Vector3<f6
         (None, None) => jet.cross(&(b.nozzle - a.nozzle)),
     };
     let fan = (fan - jet * jet.dot(&fan)).try_normalize(1e-9);
-    let fan = fan.unwrap_or_else(|| super::surface::across(&jet));
+    let fan = fan.unwrap_or_else(|| across(&jet));
     let nozzle = a.nozzle + (b.nozzle - a.nozzle) * share;
     (nozzle, [fan, jet.cross(&fan), jet])
 }
@@ -302,7 +337,7 @@ impl<'a> Jet<'a> {
         for point in seen.iter() {
             let facing = -point.at.dot(&point.normal);
             let growth = coat.gun.film_growth(&point.at, facing);
-            if growth > 0.0 && !grid.hides(seen, point) {
+            if growth > 0.0 && !grid.hides(seen, point, f64::INFINITY) {
                 add(point.index, growth * step.seconds);
             }
         }

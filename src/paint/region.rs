@@ -51,6 +51,12 @@ impl KeepOut {
         }
         Ok(())
     }
+
+    /// Returns whether the region reaches the surface, if only between its points.
+    pub fn touches(&self, surface: &PaintSurface) -> bool {
+        let mut distances = distances(surface, std::slice::from_ref(self));
+        distances.any(|distance| distance < surface.spacing)
+    }
 }
 
 /// Keep-out regions with their polygons in map coordinates.
@@ -99,14 +105,19 @@ impl<'a> KeepOuts<'a> {
 
 /// Returns for each point of a surface whether it is in one of the regions.
 pub(super) fn are_kept_out(surface: &PaintSurface, regions: &[KeepOut]) -> Vec<bool> {
+    let distances = distances(surface, regions);
+    distances.map(|distance| distance < 0.0).collect()
+}
+
+/// Distance of each point of a surface to the nearest region, below 0 inside.
+fn distances(surface: &PaintSurface, regions: &[KeepOut]) -> impl Iterator<Item = f64> {
     let axes = HeightMap::axes_of(surface, &surface.longest);
-    let in_axes = |p: &Point3<f64>| HeightMap::in_axes(surface, &axes, p);
-    let inside = KeepOuts::new(regions, in_axes);
-    let each = surface.points.iter().map(|p| {
+    let in_axes = move |p: &Point3<f64>| HeightMap::in_axes(surface, &axes, p);
+    let regions = KeepOuts::new(regions, in_axes);
+    surface.points.iter().map(move |p| {
         let [u, v, _] = in_axes(p);
-        inside.distance(p, [u, v]) < 0.0
-    });
-    each.collect()
+        regions.distance(p, [u, v])
+    })
 }
 
 /// Distance to a polygon, below 0 inside.
@@ -153,6 +164,21 @@ mod tests {
             assert!(!(is_beside || is_hole) || is_kept_out, "{p}");
             let is_far_from_hole = (p.x - 0.3).hypot(p.y) > 0.0501;
             assert!(!(is_in && is_far_from_hole && is_kept_out), "{p}");
+        }
+    }
+
+    #[test]
+    fn a_region_touches_the_surface_that_it_reaches_if_only_between_the_points() {
+        let surface = crate::paint::surface::tests::plate(1.0, 0.6);
+        let between = surface.points[0] + 0.3 * surface.spacing * surface.longest;
+        for (centre, radius, expected) in [
+            (Point3::origin(), 0.1, true),
+            (between, 0.001, true),
+            (Point3::new(0.0, 0.0, 1.3), 0.1, false),
+            (Point3::new(0.0, 0.0, 1.3), 1.31, true),
+        ] {
+            let sphere = KeepOut::Sphere { centre, radius };
+            assert_eq!(sphere.touches(&surface), expected, "{centre} {radius}");
         }
     }
 

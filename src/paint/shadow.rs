@@ -4,12 +4,15 @@
 //! another disc more than [`TOLERANCE`] before the point. The discs in the jet are sorted into cells of directions from
 //! the mouth, each into all cells that its ball touches, so a ray is tested against the discs of one cell alone. A ray
 //! meets no disc of a smooth surface before the point, however flat its angle, so smooth surfaces do not shadow
-//! themselves. The cells do not change the result: it is the same wherever the part hangs.
+//! themselves. The cells do not change the result: it is the same wherever the part hangs. Seen from far away, the same
+//! discs tell which points the gun sees in a direction.
 //!
 //! Known limits: layers closer to each other than the tolerance cast no shadow. The edge of a shadow is exact to about
 //! the spacing of the points.
 
 use nalgebra::Vector3;
+
+use super::surface::{PaintSurface, across};
 
 /// Radius of a disc in spacings of the points: discs around the corners of a square meet in its middle.
 pub(super) const DISC: f64 = 0.75;
@@ -110,24 +113,64 @@ impl DirectionGrid {
         }
     }
 
-    /// Returns true if a sorted disc hides the point.
-    pub(super) fn hides(&self, all: &[Seen], point: &Seen) -> bool {
+    /// Returns true if a sorted disc hides the point from a place within `reach` of the point, metres.
+    pub(super) fn hides(&self, all: &[Seen], point: &Seen, reach: f64) -> bool {
         let [column, row] = [0, 1].map(|axis| self.cell_at(axis, point.at[axis] / point.at.z));
-        let before = point.at.z - self.tolerance;
+        let depths = point.at.z - reach..point.at.z - self.tolerance;
         let mut next = self.last[row * self.size[0] + column];
         while let Some([disc, previous]) = self.entries.get(next as usize) {
             let other = &all[*disc as usize];
             // No point of a disc is nearer to the mouth than its middle by more than the radius.
-            if other.at.z - self.radius < before
+            if other.at.z - self.radius < depths.end
                 && other
                     .met_by(&point.at, self.radius)
-                    .is_some_and(|depth| depth < before)
+                    .is_some_and(|depth| depths.contains(&depth))
             {
                 return true;
             }
             next = *previous;
         }
         false
+    }
+}
+
+/// The discs of a surface, sorted as seen from far away: the rays are parallel.
+#[derive(Debug)]
+pub(super) struct ViewFromAfar {
+    grid: DirectionGrid,
+    all: Vec<Seen>,
+}
+
+/// Distance of what is far away, metres: a thousand parts.
+const AFAR: f64 = 1000.0;
+
+impl ViewFromAfar {
+    /// Sorts the discs as seen against a direction, a unit vector from the surface.
+    pub(super) fn new(surface: &PaintSurface, direction: &Vector3<f64>) -> Self {
+        let x = across(direction);
+        let axes = [x, x.cross(direction), -direction];
+        let in_view = |v: &Vector3<f64>| Vector3::from(axes.map(|axis| axis.dot(v)));
+        let middle = Vector3::z() * AFAR;
+        let points = surface.points.iter().zip(&surface.normals).enumerate();
+        let all: Vec<Seen> = points
+            .map(|(index, (point, normal))| Seen {
+                index,
+                at: in_view(&(point - surface.middle)) + middle,
+                normal: in_view(normal),
+            })
+            .collect();
+        let spread = [0, 1].map(|axis| {
+            let slopes = all.iter().map(|seen| (seen.at[axis] / seen.at.z).abs());
+            slopes.fold(f64::MIN_POSITIVE, f64::max)
+        });
+        let mut grid = DirectionGrid::new(spread, surface.spacing, AFAR);
+        grid.sort(&all);
+        Self { grid, all }
+    }
+
+    /// Returns true if nothing hides the point from a place this far from it, metres.
+    pub(super) fn sees(&self, point: usize, from: f64) -> bool {
+        !self.grid.hides(&self.all, &self.all[point], from)
     }
 }
 
@@ -189,7 +232,7 @@ mod tests {
                     let expected = is_hidden(seen, &all, spacing);
                     num += 1;
                     num_hidden += usize::from(expected);
-                    num_other += usize::from(expected != grid.hides(&all, seen));
+                    num_other += usize::from(expected != grid.hides(&all, seen, f64::INFINITY));
                 }
             }
         }
@@ -220,6 +263,11 @@ mod tests {
         grid.sort(&all);
         let facing = all.iter().filter(|seen| -seen.at.dot(&seen.normal) > 0.0);
         assert!(facing.clone().count() > 500);
-        assert_eq!(facing.filter(|seen| grid.hides(&all, seen)).count(), 0);
+        assert_eq!(
+            facing
+                .filter(|seen| grid.hides(&all, seen, f64::INFINITY))
+                .count(),
+            0
+        );
     }
 }

@@ -222,6 +222,7 @@ mod tests {
                 score: 1.0,
             }))
         };
+        assert_eq!(mirrored("front_door").guess(), Some("front_door"));
         let mut tally = MirrorTally::default();
         for _ in 0..5 {
             tally.add(&mirrored("fender"));

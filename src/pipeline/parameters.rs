@@ -223,7 +223,7 @@ impl BadValue {
 
 impl Advice for BadValue {
     fn advice(&self) -> String {
-        "The value before it stays".into()
+        "The previous value stays".into()
     }
 }
 
@@ -372,12 +372,12 @@ pub enum SettingError {
     #[error("there is no = between name and value")]
     NoEquals,
     /// There is no parameter of this name.
-    #[error("there is no parameter {name}; the nearest is {nearest}")]
+    #[error("there is no parameter {name}{}", nearest.map(|nearest| format!("; the nearest is {nearest}")).unwrap_or_default())]
     UnknownName {
         /// The name given.
         name: String,
-        /// The name that is most like it.
-        nearest: &'static str,
+        /// The name that is most like it, if one is near.
+        nearest: Option<&'static str>,
     },
     /// Neither a number, nor an option of the parameter.
     #[error("{found} is not a value of {key}, which ranges from {range}")]
@@ -461,13 +461,11 @@ impl<R: Parameters> FromStr for Setting<R> {
     }
 }
 
-/// The key that ends with the name, or else the one most like it.
-fn nearest_key<R: Parameters>(name: &str) -> &'static str {
+/// The key that ends with the name, or else the one most like it, if one is near.
+fn nearest_key<R: Parameters>(name: &str) -> Option<&'static str> {
     let keys = || R::ALL.iter().map(|parameter| parameter.key);
     let ends_so = keys().find(|key| key.rsplit('.').next() == Some(name));
-    ends_so
-        .or_else(|| nearest_name(keys(), name))
-        .expect("there are parameters")
+    ends_so.or_else(|| nearest_name(keys(), name))
 }
 
 #[cfg(test)]
@@ -651,5 +649,6 @@ mod tests {
             let message = refused(text);
             assert!(message.contains(expected), "{text}: {message}");
         }
+        assert_eq!(refused("nosuch=8"), "there is no parameter nosuch");
     }
 }

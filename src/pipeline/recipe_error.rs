@@ -102,7 +102,10 @@ impl Advice for RecipeError {
                 let file = format!("to name a file, write ./{name}");
                 match nearest {
                     Some(nearest) => format!("The nearest name is {nearest}; {file}"),
-                    None => format!("There are no recipes yet: save one, or use {BUILT_IN}; {file}"),
+                    None if available.is_empty() => {
+                        format!("There are no recipes yet: save one, or use {BUILT_IN}; {file}")
+                    }
+                    None => format!("Give one that partsight recipe list shows; {file}"),
                 }
             }
             Self::NoDefault { .. } => {

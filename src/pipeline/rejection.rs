@@ -122,7 +122,7 @@ pub enum Rejection {
     },
     /// The piece in sight fits nearly as well at another place of the same part.
     #[error(
-        "the piece of {part} in sight fits almost equally well at another place of it (margin {margin:.2}, needed \
+        "the piece of {part} in sight fits almost equally well at another place of it (lead over that place {margin:.2}, needed \
          {threshold:.2})"
     )]
     AmbiguousPose {

@@ -80,10 +80,16 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Name of the best guess, accepted or not; `None` if there is no part.
+    /// Name of the best guess, accepted or not; of a mirror image, the part that it is the image of. `None` if there is no
+    /// part.
     pub fn guess(&self) -> Option<&str> {
         match self {
-            Self::Part { part, .. } => Some(part),
+            Self::Part {
+                rejected:
+                    Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }),
+                ..
+            }
+            | Self::Part { part, .. } => Some(part),
             Self::NoPart(_) => None,
         }
     }

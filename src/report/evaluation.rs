@@ -38,7 +38,7 @@ pub fn evaluation_picture(title: &str, evaluation: &Evaluation, threshold: f64) 
     let plot_left = (left + matrix[0]).max(EDGE + 330.0) + GAP;
     let plot_top = EDGE + 84.0;
     let width = plot_left + 2.0 * PLOT + GAP + 2.0 * EDGE;
-    let height = (top + matrix[1] + 60.0).max(plot_top + PLOT + 110.0);
+    let height = (top + matrix[1] + 100.0).max(plot_top + PLOT + 110.0);
     let mut canvas = Canvas::new(width as usize, height as usize, DARK);
     canvas.write(title, 20.0, [EDGE, EDGE + 18.0], Anchor::Left, LIGHT);
     let tally = &confusion.tally;
@@ -121,9 +121,16 @@ fn draw_matrix(canvas: &mut Canvas, confusion: &Confusion, [left, top]: [f64; 2]
         let at = [from[0] + CELL / 2.0, from[1] + CELL / 2.0 + 5.0];
         canvas.write(&text, LETTERS, at, Anchor::Middle, LIGHT);
     }
-    let words = "rows: what it is; columns: what it was accepted as; × wrong, ! refused";
-    let at = [EDGE, top + CELL * rows.len() as f64 + 32.0];
-    canvas.write(words, LETTERS, at, Anchor::Left, DIM_TEXT);
+    // One below the other, as the matrix may be narrow.
+    let mut y = top + CELL * rows.len() as f64 + 32.0;
+    for words in [
+        "rows: what it is",
+        "columns: what it was accepted as",
+        "× wrong, ! refused",
+    ] {
+        canvas.write(words, LETTERS, [EDGE, y], Anchor::Left, DIM_TEXT);
+        y += 20.0;
+    }
 }
 
 #[cfg(test)]
@@ -165,6 +172,10 @@ mod tests {
             let num = image.pixels().filter(|p| **p == look(judgement).0).count();
             assert!(num > 1000, "{judgement:?}: {num} pixels");
         }
+        // The words below the matrix end before the next plot.
+        let gap = (360..405).flat_map(|x| (90..image.height()).map(move |y| (x, y)));
+        let mut pixels = gap.map(|(x, y)| *image.get_pixel(x, y));
+        assert!(pixels.all(|pixel| pixel == DARK));
         evaluation_picture("", &Evaluation::default(), 0.9);
     }
 }

@@ -1,7 +1,11 @@
 //! A robot pose written by a person: the name of its convention, then the numbers. Sixteen bare numbers are a matrix.
 
+use std::ops::RangeInclusive;
+
+use nalgebra::Vector3;
+
 use super::{Convention, ConventionError};
-use crate::{error::Advice, files::Row, geometry::rigid::RigidTransform};
+use crate::{error::Advice, files::Row, geometry::rigid::RigidTransform, units::Metres};
 
 /// A pose that a person wrote, and its convention.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +40,14 @@ pub enum WrittenPoseError {
     /// The numbers are not a pose in their convention.
     #[error(transparent)]
     Numbers(#[from] ConventionError),
+    /// A nozzle where no gun has it, as with lengths in another unit.
+    #[error("the nozzle is {:.3} mm from the flange, expected {:.0} to {:.0} mm", distance.mm(), NOZZLE.start() * 1000.0, NOZZLE.end() * 1000.0)]
+    Nozzle {
+        /// Its distance from the flange.
+        distance: Metres,
+        /// The convention in which it was written.
+        convention: Convention,
+    },
 }
 
 impl Advice for WrittenPoseError {
@@ -47,9 +59,17 @@ impl Advice for WrittenPoseError {
             ),
             Self::NoNumber { .. } => "Write numbers with a point, separated by spaces".into(),
             Self::Numbers(error) => error.advice(),
+            Self::Nozzle { convention, .. } => format!(
+                "Write its position in {}, the unit of {}; 0 0 0 only if the controller's flange frame already is at the nozzle",
+                convention.length_unit().symbol(),
+                convention.name()
+            ),
         }
     }
 }
+
+/// Distances of a nozzle from the flange, metres.
+const NOZZLE: RangeInclusive<f64> = 0.01..=3.0;
 
 /// Reads `kuka 1450 -310 890 10 20 30`, or the 16 numbers of a matrix.
 pub fn parse_written_pose(text: &str) -> Result<WrittenPose, WrittenPoseError> {
@@ -97,6 +117,20 @@ pub fn parse_written_pose(text: &str) -> Result<WrittenPose, WrittenPoseError> {
     })
 }
 
+/// As [`parse_written_pose`], for the pose of a nozzle on the flange: refuses a distance that no gun has. The nozzle is
+/// exactly at the flange if the controller's flange frame was moved there.
+pub fn parse_nozzle(text: &str) -> Result<WrittenPose, WrittenPoseError> {
+    let written = parse_written_pose(text)?;
+    let at = written.pose.translation.vector;
+    if at == Vector3::zeros() || NOZZLE.contains(&at.norm()) {
+        return Ok(written);
+    }
+    Err(WrittenPoseError::Nozzle {
+        distance: Metres(at.norm()),
+        convention: written.convention,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,6 +153,40 @@ mod tests {
         let matrix = parse_written_pose("1 0 0 0.5  0 1 0 0  0 0 1 2  0 0 0 1").expect("a matrix");
         assert_eq!(matrix.convention, Convention::Matrix);
         assert!((matrix.pose.translation.vector.x - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_nozzle_in_the_wrong_unit_is_refused_with_the_unit_of_its_convention() {
+        for text in [
+            "kuka 0 0 250 0 45 0",
+            "universal-robots 0 0 0.25 0 0 0",
+            "kuka 0 0 0 0 45 0",
+        ] {
+            let written = parse_nozzle(text).expect(text);
+            assert_eq!(written, parse_written_pose(text).expect("a pose"));
+        }
+        for (text, distance, unit) in [
+            (
+                "kuka 0 0 0.25 0 45 0",
+                "0.250 mm",
+                "in mm, the unit of kuka",
+            ),
+            (
+                "universal-robots 0 0 250 0 0 0",
+                "250000.000 mm",
+                "in m, the unit of universal-robots",
+            ),
+            (
+                "1 0 0 0  0 1 0 0  0 0 1 250  0 0 0 1",
+                "250000.000 mm",
+                "in m, the unit of matrix",
+            ),
+        ] {
+            let error = parse_nozzle(text).expect_err(text);
+            assert!(error.to_string().contains(distance), "{error}");
+            assert!(error.advice().contains(unit), "{}", error.advice());
+        }
+        assert!(parse_nozzle("kuka").is_err());
     }
 
     #[test]

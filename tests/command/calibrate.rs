@@ -441,7 +441,7 @@ fn a_stored_spray_path_is_carried_into_the_robots_frame() {
         .collect();
     assert_eq!(rows.len(), 4);
     assert!(
-        rows[1].ends_with(",inside,1,") && rows[3].ends_with(",,not seen,1,"),
+        rows[1].ends_with(",inside,1,") && rows[3].ends_with(",,not_seen,1,"),
         "{carried}"
     );
     shop.coded(0, &["inspect", "door.pcd", "--spray", "out.json"]);

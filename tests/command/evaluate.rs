@@ -236,6 +236,23 @@ fn what_cannot_be_evaluated_is_said_in_words() {
     assert_eq!(names(&place), ["cases", "newer.json", "other.json"]);
 }
 
+#[test]
+fn cases_do_not_get_into_a_library() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let before = fs::read_dir(place.path("parts")).expect("listed").count();
+    let err = place.coded(2, &["evaluate", "parts"]).err;
+    assert!(err.contains("simulate --cases NEW_FOLDER"), "{err}");
+    for folder in ["parts", "parts/fender"] {
+        let err = place
+            .coded(2, &["simulate", "--cases", folder, "--num", "1"])
+            .err;
+        assert!(err.contains("holds parts of a library"), "{err}");
+    }
+    let after = fs::read_dir(place.path("parts")).expect("listed").count();
+    assert_eq!(after, before);
+}
+
 /// Each case has its own seed, so that a folder of cases can be reproduced to the last byte.
 #[test]
 fn the_same_arguments_make_the_same_cases() {

@@ -3,7 +3,7 @@
 use std::{
     fs,
     io::{self, Write as _},
-    path::Path,
+    path::{self, Path},
     process::Command,
     sync::Arc,
     time::{Duration, Instant},
@@ -158,6 +158,24 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
         (&newest[0]["number"], &newest[0]["frame_kept"]),
         (&3.into(), &true.into())
     );
+}
+
+#[test]
+fn a_label_that_is_no_part_names_the_library_and_no_case_is_written_into_one() {
+    let place = with_captures();
+    assert_eq!(place.run(&["inspect", "hood.png"]).code, 1);
+    let mistyped = place.accepted(&["history", "label", "1", "frnt_door"]);
+    let library = format!(
+        "partsight{}library is named frnt_door",
+        path::MAIN_SEPARATOR
+    );
+    assert!(mistyped.err.contains(&library), "{}", mistyped.err);
+    let exported = place.accepted(&["history", "export", "--cases", "cases"]);
+    let words = "1 case written to cases";
+    assert!(exported.err.contains(words), "{}", exported.err);
+    let library = "data/partsight/library";
+    let refused = place.coded(2, &["history", "export", "--cases", library]);
+    assert!(refused.err.contains("holds parts"), "{}", refused.err);
 }
 
 #[test]

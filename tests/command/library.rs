@@ -1,6 +1,6 @@
 //! Enrolling parts and managing the library.
 
-use std::fs;
+use std::{fs, path::Path};
 
 use serde_json::Value;
 
@@ -125,16 +125,23 @@ fn a_part_is_enrolled_into_the_users_library_wherever_that_is_done() {
     let list = place.accepted(&["library", "list"]);
     assert!(list.out.contains("(your own): 9 parts"), "{}", list.out);
     // A folder of one's own in place of the system's.
-    let elsewhere = |args: &[&str]| {
+    let with_data = |folder: &Path, args: &[&str]| {
         let mut command = place.command(args);
-        let command = command.env("PARTSIGHT_DATA", place.path("stick"));
+        command.env("PARTSIGHT_DATA", folder);
         command.output().expect("starts")
     };
+    let elsewhere = |args: &[&str]| with_data(&place.path("stick"), args);
     assert!(elsewhere(&["inspect", "grille.pcd"]).status.success());
     assert!(place.path("stick/library/grille/part.toml").exists());
     assert!(place.path("stick/history.sqlite").exists());
     let list = String::from_utf8(elsewhere(&["library", "list"]).stdout).expect("text");
     assert!(list.contains("(your own): 8 parts"), "{list}");
+    assert!(
+        with_data(Path::new("here"), &["library", "list"])
+            .status
+            .success()
+    );
+    assert!(!place.path("here").exists(), "a relative path is ignored");
 }
 
 #[test]

@@ -45,6 +45,19 @@ fn a_sphere_is_kept_out_of_the_paint() {
     let kept = ["--keep-out", "0 0 1300 250"];
     let less = paint(&shop.run(&[&plan[..], &kept].concat()).json());
     assert!(less < 0.95 * whole, "{less} of {whole}");
+    // In metres it would keep nothing out.
+    let metres = ["--keep-out", "0 0 1300 250", "--keep-out", "0 0 1.3 0.25"];
+    let ran = shop.run(&[&plan[..5], &metres].concat());
+    let warning = "warning: --keep-out \"0 0 1.3 0.25\" touches no point of the surface";
+    assert!(ran.err.contains(warning), "{}", ran.err);
+    assert!(
+        ran.err.contains("millimetres") && !ran.err.contains("0 0 1300 250"),
+        "{}",
+        ran.err
+    );
+    // The path is neither written nor stored.
+    let last = ran.out.lines().last().unwrap_or_default();
+    assert!(last.contains("not kept"), "{}", ran.out);
     let no_sphere = ["--keep-out", "0 0 1300"];
     let ran = shop.coded(2, &[&plan[..], &no_sphere].concat());
     assert!(ran.err.contains("four numbers"), "{}", ran.err);
@@ -59,6 +72,8 @@ fn what_cannot_be_planned_is_refused_with_advice_and_writes_nothing() {
     let plan = ["path", "plan", "fender", "--output", "path.csv", "--coat"];
     let ran = shop.coded(2, &[&plan[..], &["primr"]].concat());
     assert!(ran.err.contains("nearest name is primer"), "{}", ran.err);
+    let ran = shop.coded(2, &[&plan[..], &["zinc"]].concat());
+    assert!(ran.err.contains("Give one of primer, "), "{}", ran.err);
     let ran = shop.coded(
         2,
         &[&plan[..], &["primer", "--set", "gun.width=0"]].concat(),
@@ -151,10 +166,11 @@ fn what_is_no_stripe_is_refused_with_advice() {
 #[test]
 fn the_stored_path_is_exported_to_each_controller_unless_the_arm_does_not_reach_it() {
     let shop = Workplace::new();
-    shop.coded(
+    let ran = shop.coded(
         0,
         &["path", "plan", "fender", "--coat", "primer", "--store"],
     );
+    assert!(!ran.out.contains("not kept"), "{}", ran.out);
     let export = ["path", "export", "fender"];
     let ran = shop.coded(2, &[&export[..], &["-o", "paint.src"]].concat());
     assert!(ran.err.contains("where the camera sits"), "{}", ran.err);
@@ -175,6 +191,17 @@ fn the_stored_path_is_exported_to_each_controller_unless_the_arm_does_not_reach_
         }
         assert!(!text.contains("FORCED"));
     }
+    // No controller reads another one's language from the file's ending.
+    let ran = shop.coded(
+        2,
+        &[&export[..], &["--as", "rapid", "-o", "other.src"]].concat(),
+    );
+    assert!(
+        ran.err.contains("stands for KUKA KRL") && ran.err.contains("in .mod"),
+        "{}",
+        ran.err
+    );
+    assert!(!shop.path("other.src").exists());
     // The part is out of the arm's reach, so the earlier program is removed.
     let arm = [
         "-o",

@@ -1,6 +1,7 @@
 //! Programs for a robot's controller.
 
 use std::{
+    fmt::Write as _,
     fs::File,
     time::{Duration, SystemTime},
 };
@@ -300,6 +301,10 @@ fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
         ("# nothing\n", "neither a box nor a floor"),
         ("floor_mm = nan\n", "floor_mm is NaN"),
         ("[[box]]\nname = \"a\"\n", "centre_mm"),
+        (
+            "[[box]]\nname = \"post\"\ncentre_mm = [1.2, 0, 1.9]\nsize_mm = [0.4, 0.4, 1.5]\n",
+            "no side of post is 10 mm or longer",
+        ),
         ("height_mm = 3\n", "height_mm"),
     ] {
         shop.write("bad.toml", text);
@@ -307,9 +312,17 @@ fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
         let is_advised = ran.err.contains("to do: Give each [[box]]");
         assert!(ran.err.contains(wanted) && is_advised, "{}", ran.err);
     }
-    for bad in ["--clearance=nan", "--gun-radius=-5"] {
-        let ran = with(2, &[bad]);
-        assert!(ran.err.contains("to do: Correct it"), "{}", ran.err);
+    for (bad, value, range) in [
+        ("--clearance", "nan", "0 to 1000"),
+        ("--clearance", "5000", "0 to 1000"),
+        ("--gun-radius", "-5", "1 to 1000"),
+        // Without a radius the gun's body would not be checked.
+        ("--gun-radius", "0", "1 to 1000"),
+        ("--speed", "0", "1 to 5000"),
+    ] {
+        let ran = with(2, &[bad, value]);
+        let wanted = format!("expected a number from {range}");
+        assert!(ran.err.contains(&wanted), "{bad} {value}: {}", ran.err);
     }
     // Writing a program checks the same obstacles.
     let program = ["inspect", "door.pcd", "--program", "paint.src"];
@@ -318,7 +331,123 @@ fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
     assert!(ran.err.contains("would collide at"), "{}", ran.err);
     assert!(!shop.path("paint.src").exists());
     shop.coded(0, &[&program[..], &arm, &boxes, &["--force"]].concat());
-    assert!(shop.read("paint.src").contains("FORCED: ABB IRB 4600"));
+    let text = shop.read("paint.src").replace("\r\n; ", " ");
+    for wanted in [
+        "FORCED: ABB IRB 4600",
+        "collisions with part, arm and boxes.toml",
+        "clearance 20.0 mm, gun radius 50.0 mm",
+    ] {
+        assert!(text.contains(wanted), "{wanted}: {text:.1500}");
+    }
+}
+
+#[test]
+fn numbers_of_a_program_are_refused_with_their_range_or_unit() {
+    let shop = shop();
+    store_path(&shop);
+    let export = ["path", "export", "front_door", "-o", "paint.src"];
+    for (option, value, wanted) in [
+        ("--blend", "-5", "expected a number from 0 to 100"),
+        ("--speed", "-5", "expected a number from 1 to 5000"),
+        ("--approach", "5", "expected a number from 10 to 1000"),
+        ("--gun-output", "-5", "0..=9999"),
+        ("--nozzle", "kuka 0 0 0.25 0 45 0", "the unit of kuka"),
+        (
+            "--nozzle",
+            "universal-robots 0 0 250 0 0 0",
+            "the unit of universal-robots",
+        ),
+    ] {
+        let ran = shop.coded(2, &[&export[..], &[option, value]].concat());
+        assert!(ran.err.contains(wanted), "{option}: {}", ran.err);
+        assert!(!ran.err.contains("tip:"), "{}", ran.err);
+    }
+    let check = ["path", "check", "front_door", "--arm", "irb4600"];
+    let nozzle = ["--nozzle", "kuka 0 0 0.25 0 45 0"];
+    let ran = shop.coded(2, &[&check[..], &nozzle].concat());
+    assert!(ran.err.contains("0.250 mm from the flange"), "{}", ran.err);
+    assert!(!shop.path("paint.src").exists());
+}
+
+#[test]
+fn no_program_is_written_for_a_pose_that_another_one_fits_as_well_unless_forced() {
+    let shop = Workplace::new();
+    let cell = "kuka 1200 -400 1900 86 -5 120";
+    shop.coded(0, &["calibrate", "set", cell, "--mount", "eye-to-hand"]);
+    // A square bowl looks the same after a quarter turn.
+    let mut bowl = String::new();
+    for (i, k) in (0..101).flat_map(|i| (0..101).map(move |k| (i, k))) {
+        let [x, y] = [i, k].map(|n| 0.005 * f64::from(n) - 0.25);
+        let z = 1.2 + 0.5 * (x * x + y * y);
+        writeln!(bowl, "{x:.4} {y:.4} {z:.5}").expect("memory");
+    }
+    shop.write("bowl.xyz", &bowl);
+    let library = ["--library", "parts"];
+    let run = |code: i32, args: &[&str]| shop.coded(code, &[args, &library[..]].concat());
+    run(0, &["enrol", "bowl.xyz", "--name", "bowl"]);
+    shop.write(
+        "path.csv",
+        "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n\
+         -40,0,1050,0,0,1\n0,0,1050,0,0,1\n40,0,1050,0,0,1\n",
+    );
+    run(0, &["library", "path", "bowl", "path.csv"]);
+    let inspect = ["inspect", "bowl.xyz", "--program", "paint.src"];
+    let ran = run(1, &inspect);
+    assert!(ran.out.contains("accepted"), "{}", ran.out);
+    let doubt = "another pose of the part fits nearly as well";
+    assert!(ran.err.contains(doubt), "{}", ran.err);
+    assert!(ran.err.contains("--force"), "{}", ran.err);
+    assert!(!shop.path("paint.src").exists());
+    let ran = run(0, &[&inspect[..], &["--force"]].concat());
+    let warning = format!("warning: written by --force: {doubt}");
+    assert!(ran.err.contains(&warning), "{}", ran.err);
+    let header = shop.read("paint.src");
+    assert!(header.contains(&format!("FORCED: {doubt}")), "{header}");
+}
+
+#[test]
+fn both_exports_say_how_much_of_the_path_was_checked_against_what_was_seen() {
+    let shop = shop();
+    let mut path =
+        "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n".to_owned();
+    let mut store = |places: &[f64]| {
+        for x in places {
+            writeln!(path, "{x},150,1130,0,0,1").expect("memory");
+        }
+        shop.write("path.csv", &path);
+        shop.run(&["library", "path", "front_door", "path.csv"]);
+        ["--program", "--spray"].map(|option| {
+            let file = if option == "--spray" {
+                "out.csv"
+            } else {
+                "paint.src"
+            };
+            shop.coded(0, &["inspect", "door.pcd", option, file]).err
+        })
+    };
+    for err in store(&[0.0, 4000.0, 4040.0, 4080.0]) {
+        assert!(
+            err.contains("of 1 that aim at what was seen of the part"),
+            "{err}"
+        );
+        assert!(!err.contains("Not checked"), "{err}");
+    }
+    // The door is less than a quarter of the path.
+    for err in store(&[4120.0]) {
+        let wanted = "within the band. Not checked against what was seen: the other 4";
+        assert!(err.contains(wanted), "{err}");
+    }
+}
+
+#[test]
+fn a_source_is_no_file_to_write_a_program_for() {
+    let shop = shop();
+    let source = ["--source", "simulated:fender", "--frames", "1"];
+    let program = ["--program", "paint.src"];
+    let ran = shop.coded(2, &[&["inspect"], &source[..], &program].concat());
+    let wanted = "--program takes a capture's file, not a source";
+    assert!(ran.err.contains(wanted), "{}", ran.err);
+    assert!(ran.err.contains("partsight capture"), "{}", ran.err);
 }
 
 #[test]

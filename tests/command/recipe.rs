@@ -165,6 +165,11 @@ fn a_recipe_that_cannot_be_used_stops_the_command_with_advice() {
     };
     place.accepted(&["recipe", "save", "glossy"]);
     assert!(with("glosy").contains("nearest name is glossy"));
+    let other = with("abcdefgh");
+    assert!(
+        other.contains("partsight recipe list") && !other.contains("nearest"),
+        "{other}"
+    );
     place.write(
         "bad.toml",
         "schema = 1\nname = \"x\"\n[parameters]\naccept.min_score = 7\n",

@@ -330,6 +330,9 @@ fn what_the_service_cannot_start_with_is_said_with_what_to_do() {
         ran.err
     };
     assert!(err(2, &[]).contains("--as"));
+    if cfg!(not(feature = "plant")) {
+        assert!(err(2, &["--http", "8080"]).contains("--features plant"));
+    }
     assert!(err(2, &["--as", "kuka"]).contains("no calibration"));
     place.accepted(&CALIBRATE);
     let calibrated = ["--as", "kuka", "--calibration", "cell.toml"];

@@ -17,6 +17,7 @@ use partsight::{
         shell::{
             action::Action,
             message::Message,
+            roles::RoleAction,
             session::{ThemeChoice, WorkspaceKind},
         },
         workspaces::{
@@ -373,6 +374,27 @@ fn a_history_that_cannot_be_written_is_said_and_inspections_go_on() {
 }
 
 #[test]
+fn inspections_that_cannot_be_written_are_marked_and_the_window_asks_before_it_closes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let taken = folder.path().join("taken");
+    fs::write(&taken, "a file").expect("written");
+    let mut harness = open_with(SMALL, keeping(&taken));
+    press(&mut harness, "Dismiss");
+    act(&mut harness, Action::Quit);
+    harness.get_by_label("Close without saving?");
+    harness.get_by_label("1 inspection is kept in memory only: the history cannot be written");
+    press(&mut harness, "Keep the window open");
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    harness.get_by_label("Not recorded");
+    drop(harness);
+    let mut harness = open_with(SMALL, keeping(&folder.path().join("kept")));
+    act(&mut harness, Action::Quit);
+    assert!(harness.query_by_label("Close without saving?").is_none());
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    assert!(harness.query_by_label("Not recorded").is_none());
+}
+
+#[test]
 fn what_a_command_inspects_shows_in_an_open_history() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_with(USUAL, keeping(folder.path()));
@@ -612,9 +634,10 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     harness.get_by_label("75.0 %");
     harness.get_by_label("3 × Too low");
     harness.get_by_label("Drift: Fender, left");
-    harness.get_by_label("Score: first 0.97, last 0.97");
-    harness.get_by_label("Fit to the reference, rms: first 1.1 mm, last 2.0 mm");
-    harness.get_by_label("Place of the part: moved by x 0.0 mm, y 0.0 mm, z 0.0 mm");
+    harness.get_by_label("Score: first fifth 0.97, last fifth 0.97 (medians)");
+    harness.get_by_label_contains("rms: first fifth 1.1 mm, last fifth 2.0 mm (medians)");
+    harness
+        .get_by_label_contains("from first to last fifth x 0.0 mm, y 0.0 mm, z 0.0 mm (medians)");
     // The statistics cover the listed parts only.
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: Accepted");
@@ -622,6 +645,22 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     assert!(harness.query_by_label("3 × Too low").is_none());
     press(&mut harness, "Statistics");
     harness.get_by_label_contains("Inspection 13: ");
+}
+
+#[test]
+fn the_filter_offers_parts_of_the_history_that_are_not_in_the_library() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = crate::kit::open_history(folder.path());
+    for (seconds, part) in [(1, "real_door"), (2, "fender"), (3, "real_door")] {
+        let entry = crate::kit::history_entry(seconds, StoredVerdict::Accepted, part);
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let mut harness = open_with(SMALL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    press(&mut harness, "Part · All ▼");
+    press(&mut harness, "Part: real door");
+    harness.get_by_label("2 of 4 parts");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use egui::{
     epaint::{ClippedShape, TextShape},
     vec2,
 };
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
@@ -17,13 +17,16 @@ use partsight::{
             roles::RoleAction,
             session::WorkspaceKind,
         },
-        workspaces::history::{HistoryAction, HistoryWorkspace, ListFilter},
+        workspaces::{
+            enrol::{EnrolAction, EnrolWorkspace, draft::Field},
+            history::{HistoryAction, HistoryWorkspace, ListFilter},
+        },
     },
     history::{Retention, StoredVerdict},
 };
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle,
+    SMALL, USUAL, WindowHarness, act, act_in, enrol_of, open_with, plain_options, press, settle,
 };
 use crate::kit::{history_entry, low_score};
 
@@ -57,6 +60,41 @@ fn the_language_is_the_systems_until_one_is_chosen_and_is_remembered() {
     drop(harness);
     let harness = open_with(USUAL, options());
     harness.get_by_label("Aufnehmen");
+}
+
+#[test]
+fn what_enrol_says_follows_the_language_of_the_window() {
+    let library = tempfile::tempdir().expect("a folder");
+    let options = WindowOptions {
+        library: Some(library.path().to_owned()),
+        language: Some(Language::Chinese),
+        ..WindowOptions::default()
+    };
+    let mut harness = open_with(SMALL, options);
+    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
+    act(&mut harness, Action::Capture);
+    let write = |harness: &mut WindowHarness, field: Field| {
+        act_in(harness, |enrol: &mut EnrolWorkspace, cx| {
+            enrol.state_mut().apply(EnrolAction::Write(field), cx);
+        });
+    };
+    harness.get_by_label("零件, 保留");
+    write(&mut harness, Field::Title("右前 涂装".into()));
+    let draft = enrol_of(&harness).draft.as_ref().expect("a draft");
+    assert_eq!(draft.form.name, "part");
+    write(&mut harness, Field::Name("Part".into()));
+    press(&mut harness, "语言：中文");
+    press(&mut harness, "Deutsch");
+    harness.get_by_label("Teil, behalten");
+    harness.get_by_label("\"Part\" ist kein gültiger Name: er enthält 'P'");
+    write(&mut harness, Field::Name(String::new()));
+    harness.get_by_label("Der Name ist leer");
+    write(&mut harness, Field::Name("part".into()));
+    press(&mut harness, "Speichern");
+    press(&mut harness, "Sprache: Deutsch");
+    press(&mut harness, "English");
+    let card = harness.get_by_label("Enrolled: 右前 涂装");
+    assert_eq!(card.accesskit_node().value().as_deref(), Some("Just saved"));
 }
 
 #[test]
@@ -355,6 +393,23 @@ fn in_every_language_everything_fits_where_it_does_in_english() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn in_no_language_do_the_buttons_of_the_top_bar_touch() {
+    for language in Language::ALL {
+        let harness = shown(language, SMALL, SCENERIES[0]);
+        let buttons = harness.query_all_by_role(egui::Role::Button);
+        let rects = buttons.map(|node| node.rect());
+        let mut rects: Vec<Rect> = rects.filter(|rect| rect.bottom() < 60.0).collect();
+        rects.sort_by(|a, b| a.left().total_cmp(&b.left()));
+        for (left, right) in rects.iter().zip(rects.iter().skip(1)) {
+            assert!(
+                right.left() - left.right() > 3.0,
+                "{language}: {left} {right}"
+            );
+        }
+    }
 }
 
 #[test]

@@ -202,8 +202,7 @@ fn a_coat_is_kept_under_a_name() {
     press(&mut harness, "Propose");
     press(&mut harness, "Coat: primer, changed");
     press(&mut harness, "Save as…");
-    harness.get_by_label("Name of the coat").focus();
-    harness.run_steps(2);
+    // The field has the focus already.
     harness
         .get_by_label("Name of the coat")
         .type_text("booth_3");
@@ -221,9 +220,12 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     let cell = folder.path().join("cell.toml");
     robot::save_calibration(&cell);
     act(&mut harness, Action::Robot(RobotAction::Load(cell)));
-    press(&mut harness, "Arm: No arm: reach is not checked");
+    press(&mut harness, "Arm: No arm");
     press(&mut harness, "ABB IRB 4600-40/2.55");
-    harness.get_by_label_contains("cannot be checked without the nozzle's place");
+    // Below the field for it, above everything else.
+    let message = harness.get_by_label_contains("cannot be checked without the nozzle's place");
+    let below = harness.get_by_label("Obstacles: Only the part");
+    assert!(message.rect().bottom() < below.rect().top());
     let nozzle = |harness: &WindowHarness, text: Option<&str>| {
         let field = harness.get_by_role_and_label(Role::TextInput, "Nozzle on the flange");
         match text {
@@ -268,7 +270,7 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     assert!(!file.exists());
     // Without an arm, reach is not checked.
     press(&mut harness, "Arm: ABB IRB 4600-40/2.55");
-    press(&mut harness, "No arm: reach is not checked");
+    press(&mut harness, "No arm");
     export(&mut harness);
     let program = std::fs::read_to_string(&file).expect("written");
     assert!(program.contains("MODULE"), "{program}");

@@ -399,8 +399,8 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     assert!(carried.points[5].meets.is_none());
     let figure = inspected.view.spray.as_ref().expect("drawn");
     assert_eq!(
-        (figure.num_points, figure.num_inside),
-        (6, carried.num_inside())
+        (figure.num_seen, figure.num_inside),
+        (5, carried.num_inside())
     );
     // The fifth point is too near, and the sixth is beside the door.
     assert_eq!(carried.num_inside(), 4, "{carried:?}");

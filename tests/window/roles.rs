@@ -8,7 +8,7 @@ use partsight::app::{
         action::Action,
         notice::Notice,
         roles::{RoleAction, UserRole},
-        session::WorkspaceKind,
+        session::{Source, WorkspaceKind},
         settings,
     },
 };
@@ -186,6 +186,31 @@ fn enter_presses_the_button_that_a_dialog_proposes() {
     harness.key_press(Key::Enter);
     settle(&mut harness);
     assert!(harness.query_by_label("Apply").is_none());
+}
+
+#[test]
+fn another_source_is_the_engineers_to_choose() {
+    let mut harness = open();
+    set_pin(&mut harness, "2580");
+    act(&mut harness, Action::Role(RoleAction::Lock));
+    act(&mut harness, Action::GoTo(WorkspaceKind::History));
+    harness.get_by_label_contains("Source · ").click();
+    harness.run_steps(8);
+    press(&mut harness, "Radiator support");
+    let source = |harness: &WindowHarness| harness.state().state().session.source.clone();
+    assert_eq!(source(&harness), Source::default());
+    write(&mut harness, "2580", "Unlock");
+    assert_ne!(source(&harness), Source::default());
+}
+
+#[test]
+fn whoever_forgot_the_pin_is_sent_to_the_engineer() {
+    let mut harness = open();
+    set_pin(&mut harness, "2580");
+    act(&mut harness, Action::Role(RoleAction::Lock));
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    write(&mut harness, "2589", "Unlock");
+    harness.get_by_label("Forgotten? Ask the engineer");
 }
 
 #[test]

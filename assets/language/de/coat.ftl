@@ -59,3 +59,6 @@ coat-option-cross-hatch = Kreuzgang
 coat-option-contour = Kontur
 coat-option-principal-axis = Hauptachse
 coat-option-angle = Winkel
+coat-notes-primer = Zweikomponenten-Grundierfüller: dick, festkörperreich, langsam genug zum Füllen.
+coat-notes-base-coat = Wasserbasislack: dünn, festkörperarm, Farbe und Effekt; enge Bahnen gegen Wolken.
+coat-notes-clear-coat = Zweikomponenten-Klarlack: dick und nass, der Glanz kommt von einer gleichmäßigen Schicht.

@@ -184,3 +184,44 @@ enrol-brought-back = { $part } wiederhergestellt
 enrol-stored-path = Lackierbahn mit { $count } Punkten zu { $part } gespeichert
 enrol-removed-path = Lackierbahn von { $part } entfernt
 enrol-undone = Rückgängig gemacht: „{ $what }“
+
+## What is wrong with a name
+enrol-bad-name-empty = der Name ist leer
+enrol-bad-name-long = der Name hat { $found } Zeichen, höchstens { $limit } sind erlaubt
+enrol-bad-name-character = { $name } ist kein gültiger Name: er enthält { $character }
+enrol-bad-name-beginning = { $name } ist kein gültiger Name: er beginnt mit { $character }
+enrol-bad-name-reserved = { $name } ist kein gültiger Name: unter Windows ist er ein Gerätename
+enrol-bad-name-advice = Bis zu { $limit } Kleinbuchstaben ohne Umlaute, Ziffern, _ und - verwenden, zum Beispiel { $example }
+
+## Warnings about a part
+enrol-warning-edge = das Teil reicht bis an den Bildrand, ein Stück davon fehlt vielleicht
+enrol-warning-edge-advice = Die Kamera weiter weg stellen oder das Teil in die Mitte rücken und erneut einlernen
+enrol-warning-background = dies ist vielleicht Hintergrund: { $why }
+enrol-warning-background-advice = Im Bild prüfen; ist es nicht das Teil, stattdessen das Teil nehmen
+enrol-sign-behind = die Fläche liegt auf { $percent } % ihres Randes hinter anderen Flächen
+enrol-sign-cut = der Bildrand schneidet die Fläche auf { $sides } Seiten ab
+enrol-sign-flat = die Fläche ist eben und { $area } m² groß
+enrol-warning-on-background = { $percent } % des Behaltenen liegen auf der Wand, dem Boden oder einer anderen entfernten Ebene
+enrol-warning-on-background-advice = Hintergrund entfernen: eine Prüfung entfernt ihn und vergleicht den Rest
+enrol-warning-apart = { $percent } % des Behaltenen liegen abseits vom Rest
+enrol-warning-apart-advice = Entfernen, was nicht zum Teil gehört
+enrol-warning-unconstrained = die Form legt die Pose nicht fest: { $freedom }
+enrol-warning-unconstrained-advice = Mehr vom Teil einlernen, damit Ecken oder Öffnungen die Pose bestimmen
+enrol-warning-symmetric = das Teil sieht um { $degrees }° gedreht gleich aus, die beiden Posen sind nicht unterscheidbar
+enrol-warning-symmetric-advice = Mit einer Bahn lackieren, die zu beiden Posen passt, oder das Teil verdrehsicher aufhängen
+enrol-warning-unseen = auf { $percent } % des Umrisses der gescannten Fläche endet die Sicht aller Aufnahmen: das Teil geht dort vielleicht weiter
+enrol-warning-unseen-advice = Aufnahmen hinzufügen, die die fehlenden Seiten zeigen, und erneut einlernen
+
+## Why a part cannot be enrolled
+enrol-error-no-outline = die Punktwolke mit { $num } Punkten hat von keiner Seite einen Umriss
+enrol-error-no-outline-advice = Prüfen, ob die Punktwolke die Oberfläche eines einzigen Teils zeigt und in Metern ist
+enrol-error-large = das Teil ist { $found } m groß, erwartet werden höchstens { $limit } m
+enrol-error-large-advice = In Metern exportieren (das sind wohl Millimeter) oder das eine Teil aus der Szene ausschneiden
+enrol-error-points = die Punktwolke hat { $found } Punkte, mindestens { $needed } sind erforderlich
+enrol-error-points-advice = Das Teil aus der Nähe aufnehmen oder die Punktwolke mit mehr Punkten exportieren
+enrol-error-kept = { $found } Punkte werden behalten, mindestens { $needed } sind erforderlich
+enrol-error-kept-advice = Entferntes zurückholen: „Rückgängig“, „Zurücksetzen“ oder „Ergänzen“
+enrol-error-scan = in keiner der { $num } Aufnahmen wurde ein Teil gefunden
+enrol-error-scan-advice = Das Teil mit „Ergänzen“ und Box oder Lasso behalten oder mindestens 10 cm vor dem Hintergrund aufnehmen
+enrol-error-area = das Netz mit { $num } Dreiecken hat keine Fläche
+enrol-error-area-advice = Das Netz mit seinen Flächen erneut exportieren

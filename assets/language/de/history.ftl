@@ -137,8 +137,8 @@ history-total = { $count } Teile, { $share } IO
 history-drift = Verlauf der Messwerte: { $part }
 history-drift-score = Score
 history-drift-fit = Abweichung von der Referenz, RMS
-history-drift-ends = anfangs { $first }, zuletzt { $last }
-history-drift-place = Lage des Teils: verschoben um x { $x }, y { $y }, z { $z }
+history-drift-ends = erstes Fünftel { $first }, letztes Fünftel { $last } (Mediane)
+history-drift-place = Lage des Teils: vom ersten zum letzten Fünftel x { $x }, y { $y }, z { $z } (Mediane)
 
 ## Work and notices
 history-looking = Verlauf wird gelesen

@@ -36,7 +36,7 @@ inspect-copy-pose-says = In der Konvention des Roboters, in der ersten Zeile gen
 inspect-score = Score
 inspect-next = Nächstes: { $part } { $score }
 inspect-threshold = Schwelle { $score }
-inspect-margin = Vorsprung vor dem nächsten { $margin }
+inspect-margin = Vorsprung vor dem nächsten Teil { $margin }
 inspect-margin-says = Unterschied der beiden Wahrscheinlichkeiten, wenn nur eines der beiden Teile dort hängen kann; nicht der Unterschied der Scores
 inspect-offset = Versatz zur Standardlage
 inspect-measured-from = Gemessen von { $part }, einer anderen Referenz dieses Teils
@@ -49,6 +49,7 @@ inspect-pose-uncertainty = Pose-Unsicherheit (95 %)
 inspect-uncertainty = Unsicherheit (95 %)
 inspect-runner-up = zweitbeste Pose
 inspect-times-worse = { $ratio }× schlechter
+inspect-as-good = gleich gut
 inspect-iterations = { $num } Iterationen
 inspect-ambiguous = Eine andere Pose passt ebenso gut: prüfen, wie herum das Teil hängt
 inspect-inspection = Prüfung
@@ -65,9 +66,16 @@ inspect-recipe-modified = { $name } (geändert)
 ## Stand-off
 
 inspect-stand-off = Düsenabstand einer angenommenen Bahn
+inspect-stand-off-stored = Düsenabstand der gespeicherten Bahn
 inspect-mean = Mittel
 inspect-worst-of = { $value }, max. { $worst }
 inspect-in-band = im Band
+inspect-points-in-band = { $inside } von { $num } Punkten
+inspect-points-not-seen = { $count ->
+        [one] An 1 Punkt nicht geprüft
+       *[other] An { $count } Punkten nicht geprüft
+    }, wo die Kamera das Teil nicht sieht
+inspect-path-not-seen = Die Kamera sieht das Teil an keinem Punkt der Bahn
 inspect-angle = Winkel
 inspect-path-fits = Die Bahn passt auch ohne die Pose
 inspect-path-needs-pose = Das Roboterprogramm muss die Pose auf die Bahn anwenden
@@ -179,7 +187,7 @@ inspect-writing-path = Lackierbahn wird geschrieben
 inspect-picture-saved = Bild gespeichert: { $path }
 inspect-no-spray-path = Für das Angezeigte gibt es keine Lackierbahn
 inspect-no-spray-path-advice = Eine beim Teil speichern und ein Teil aufnehmen, das akzeptiert wird
-inspect-path-written = { $path } geschrieben: { $inside } von { $num } Punkten im Band, als { $convention }
+inspect-path-written = { $path } geschrieben: { $inside } von { $num } geprüften Punkten im Band, als { $convention }
 inspect-report-written = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben
 inspect-report-set-aside = { $files }, die Bilder der Stufen und eine Zeile von { $table } in { $folder } geschrieben; die letzte Zeile war unvollständig und liegt jetzt in { $aside }
 inspect-watching-folder = Ordner wird überwacht

@@ -12,7 +12,7 @@ live-recorded = { $num ->
     }
 live-live = Live
 live-playing = Wiedergabe
-live-watching = Ordnerüberwachung
+live-watching = Ordner
 live-is = { $name } · { $what }
 live-lost = getrennt, neuer Versuch
 live-opening = wird geöffnet
@@ -38,6 +38,9 @@ live-file-cannot = Eine einzelne Datei kann nicht verfolgt werden: Sie ändert s
 live-cannot-advice = Im Quellenmenü eine Kamera, eine Aufzeichnung oder einen Ordner wählen
 live-closing = Kamera wird geschlossen
 live-no-more-frames = { $source } hat keine weiteren Bilder
+live-inspects-each = Jede Aufnahme im Ordner wird geprüft, sobald sie gespeichert ist
+live-ended = Live ist beendet: es wurde ein Bild aufgenommen
+live-ended-advice = L drücken, um Live wieder einzuschalten
 live-source-back = Die Quelle ist wieder da
 
 ## Setting up the simulated cell

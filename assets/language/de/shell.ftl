@@ -60,16 +60,16 @@ shell-minutes = { $num ->
         [one] { $num } Minute
        *[other] { $num } Minuten
     }
-shell-enter-pin = PIN eingeben, um Rezept, Schwellen, Bibliothek und Zelle zu ändern
+shell-enter-pin = PIN eingeben, um Rezept, Schwellen, Bibliothek, Zelle und Quelle zu ändern
 shell-unlock = Entsperren
-shell-may-change = In dieser Ansicht lassen sich Rezept, Schwellen, Bibliothek und Zelle ändern
+shell-may-change = In dieser Ansicht lassen sich Rezept, Schwellen, Bibliothek, Zelle und Quelle ändern
 shell-switch = Wechseln
 shell-new-pin = Neue PIN
 shell-new-pin-says = Vier bis acht Ziffern zum Schutz der Einrichteransicht
 shell-next = Weiter
 shell-same-digits = Dieselben Ziffern noch einmal eingeben
 shell-set-the-pin = PIN festlegen
-shell-pin-forgotten = Vergessen? Partsight schließen und in settings.toml die Zeilen unter [pin] löschen
+shell-pin-forgotten = Vergessen? Den Einrichter rufen
 shell-num-digits = { $num } Ziffern
 shell-erase = Löschen
 shell-digit = Ziffer { $digit }
@@ -179,11 +179,17 @@ shell-ok = OK
 ## Notices and closing
 
 shell-dismiss = Ausblenden
+shell-dismiss-all = Alle ausblenden
+shell-more-like-it = { $num } weitere dieser Art
 shell-read-in-millimetres = Als Millimeter lesen
 shell-too-wide = Die Punkte erstrecken sich über { $extent } m
 shell-too-wide-advice = Die Einheit der Datei prüfen
 shell-undo = Rückgängig
 shell-close-without-saving = Ohne Speichern schließen?
+shell-not-written = { $num ->
+        [one] { $num } Prüfung ist nur im Arbeitsspeicher
+       *[other] { $num } Prüfungen sind nur im Arbeitsspeicher
+    }: Der Verlauf ist nicht beschreibbar
 shell-keep-open = Fenster offen lassen
 shell-close-anyway = Ohne Speichern schließen
 
@@ -207,6 +213,7 @@ shell-does-theme = Dunkel oder hell
 shell-does-role = Bediener- oder Einrichteransicht
 shell-does-quit = Fenster schließen
 shell-does-help = Diese Liste
+shell-does-size = Alles größer, kleiner, wie üblich
 shell-does-escape = Vergrößerte Stufe schließen; Box oder Lasso abbrechen
 shell-keys-tab = Tab, Eingabe
 shell-does-tab = Zum nächsten Bedienelement gehen, es drücken
@@ -241,9 +248,10 @@ shell-no-thread = Das System stellt dafür keinen Thread bereit: { $error }
 shell-no-thread-advice = Andere Programme schließen und erneut versuchen
 shell-library-not-loaded = Die Bibliothek konnte nicht geladen werden: { $error }
 shell-library-not-loaded-advice = { $advice }, oder oben rechts eine andere wählen; bis dahin wird nichts erkannt
+shell-library-still-in-use = Die Bibliothek im Speicher wird weiter verwendet: { $error }
 shell-library-inside = Die Bibliothek liegt im Programm und kann nicht geändert werden ({ $reason })
 shell-inside-program = Die Bibliothek liegt im Programm und lässt sich nicht ändern
-shell-inside-program-advice = Partsight mit --library und einem eigenen Ordner starten
+shell-inside-program-advice = Oben rechts einen eigenen Ordner wählen
 shell-choose-library = Oben rechts { $path } wählen
 shell-choose-or-go-on = Oben rechts eine andere wählen oder fortfahren: Das erste gespeicherte Teil wird dort abgelegt
 shell-holds-no-library = { $path } enthält keine Teilebibliothek

@@ -59,3 +59,6 @@ coat-option-cross-hatch = Cross-hatch
 coat-option-contour = Contour
 coat-option-principal-axis = Principal axis
 coat-option-angle = Angle
+coat-notes-primer = Two-component primer filler: thick, high solids, slow enough to fill.
+coat-notes-base-coat = Water-borne base coat: thin, low solids, colour and effect; rows close together against clouds.
+coat-notes-clear-coat = Two-component clear coat: thick and wet, gloss comes from an even film.

@@ -184,3 +184,44 @@ enrol-brought-back = Brought back { $part }
 enrol-stored-path = Stored a spray path of { $count } points with { $part }
 enrol-removed-path = Removed the spray path of { $part }
 enrol-undone = Undone: “{ $what }”
+
+## What is wrong with a name
+enrol-bad-name-empty = the name is empty
+enrol-bad-name-long = the name has { $found } characters, at most { $limit } are allowed
+enrol-bad-name-character = { $name } is not a valid name: it contains { $character }
+enrol-bad-name-beginning = { $name } is not a valid name: it begins with { $character }
+enrol-bad-name-reserved = { $name } is not a valid name: Windows reserves it for a device
+enrol-bad-name-advice = Use up to { $limit } lowercase letters, digits, _ and -, for example { $example }
+
+## Warnings about a part
+enrol-warning-edge = the part reaches the border of the view, so some of it may be missing
+enrol-warning-edge-advice = Move the camera back or centre the part, then enrol it again
+enrol-warning-background = this may be background: { $why }
+enrol-warning-background-advice = Check the picture, and take the part instead if it is not
+enrol-sign-behind = it lies behind other surfaces along { $percent } % of its border
+enrol-sign-cut = the view cuts it off on { $sides } sides
+enrol-sign-flat = it is a flat surface of { $area } m²
+enrol-warning-on-background = { $percent } % of what is kept lies on the wall, the floor or another plane that was removed
+enrol-warning-on-background-advice = Drop what is background: an inspection removes it and compares the rest
+enrol-warning-apart = { $percent } % of what is kept lies apart from the rest
+enrol-warning-apart-advice = Drop what does not belong to the part
+enrol-warning-unconstrained = the shape does not fix the pose: { $freedom }
+enrol-warning-unconstrained-advice = Enrol more of the part, so that corners or openings constrain its pose
+enrol-warning-symmetric = the part looks the same turned by { $degrees }°, so its pose cannot be told from that one
+enrol-warning-symmetric-advice = Paint it with a path that suits both poses, or hang it so that it cannot be turned
+enrol-warning-unseen = { $percent } % of the scanned surface's outline is where the view of every frame ends: the part may continue there
+enrol-warning-unseen-advice = Add frames that show the missing sides, then enrol it again
+
+## Why a part cannot be enrolled
+enrol-error-no-outline = the cloud of { $num } points has no outline from any side
+enrol-error-no-outline-advice = Check that the cloud shows the surface of one part and is in metres
+enrol-error-large = the part spans { $found } m, expected at most { $limit } m
+enrol-error-large-advice = Export it in metres (these look like millimetres), or cut the one part out of its scene
+enrol-error-points = the cloud has { $found } points, at least { $needed } are needed
+enrol-error-points-advice = Capture the part from closer, or export the cloud with more points
+enrol-error-kept = { $found } points are kept, at least { $needed } are needed
+enrol-error-kept-advice = Take back what was dropped: Undo, Reset, or Add
+enrol-error-scan = no part was found in any of the { $num } frames
+enrol-error-scan-advice = Keep the part with Add and a box or a lasso, or capture it at least 10 cm in front of the background
+enrol-error-area = the mesh of { $num } triangles has no area
+enrol-error-area-advice = Export the mesh again with its faces

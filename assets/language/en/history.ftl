@@ -137,8 +137,8 @@ history-total = { $count } parts, { $share } OK
 history-drift = Drift: { $part }
 history-drift-score = Score
 history-drift-fit = Fit to the reference, rms
-history-drift-ends = first { $first }, last { $last }
-history-drift-place = Place of the part: moved by x { $x }, y { $y }, z { $z }
+history-drift-ends = first fifth { $first }, last fifth { $last } (medians)
+history-drift-place = Place of the part: from first to last fifth x { $x }, y { $y }, z { $z } (medians)
 
 ## Work and notices
 history-looking = Looking into the history

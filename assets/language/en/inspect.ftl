@@ -36,7 +36,7 @@ inspect-copy-pose-says = In the robot's convention, named on the first line (Ctr
 inspect-score = Score
 inspect-next = Next: { $part } { $score }
 inspect-threshold = threshold { $score }
-inspect-margin = Margin to the next { $margin }
+inspect-margin = Margin to the next part { $margin }
 inspect-margin-says = Difference of the two probabilities if only one of the two parts can hang there; not the difference of the scores
 inspect-offset = Offset from standard position
 inspect-measured-from = Measured from { $part }, another reference of this part
@@ -49,6 +49,7 @@ inspect-pose-uncertainty = pose uncertainty (95 %)
 inspect-uncertainty = uncertainty (95 %)
 inspect-runner-up = runner-up pose
 inspect-times-worse = { $ratio }× worse
+inspect-as-good = as good
 inspect-iterations = { $num } iterations
 inspect-ambiguous = Another pose fits as well: check which way round the part hangs
 inspect-inspection = Inspection
@@ -65,9 +66,16 @@ inspect-recipe-modified = { $name } (modified)
 ## Stand-off
 
 inspect-stand-off = Stand-off of an assumed path
+inspect-stand-off-stored = Stand-off of the stored path
 inspect-mean = mean
 inspect-worst-of = { $value }, worst { $worst }
 inspect-in-band = inside the band
+inspect-points-in-band = { $inside } of { $num } points
+inspect-points-not-seen = { $count ->
+        [one] Not checked at 1 point
+       *[other] Not checked at { $count } points
+    }, where the camera does not see the part
+inspect-path-not-seen = The camera sees the part at no point of the path
 inspect-angle = angle
 inspect-path-fits = The path fits without the pose
 inspect-path-needs-pose = The robot program must apply the pose to the path
@@ -179,7 +187,7 @@ inspect-writing-path = Writing the spray path
 inspect-picture-saved = Saved the picture { $path }
 inspect-no-spray-path = There is no spray path for the inspection in front
 inspect-no-spray-path-advice = Store one with the part, and capture a part that is accepted
-inspect-path-written = Wrote { $path }: { $inside } of { $num } points within the band, as { $convention }
+inspect-path-written = Wrote { $path }: { $inside } of { $num } checked points within the band, as { $convention }
 inspect-report-written = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }
 inspect-report-set-aside = Wrote { $files }, the pictures of its stages and a row of { $table } to { $folder }; its last row was incomplete and was set aside in { $aside }
 inspect-watching-folder = Watching a folder

@@ -12,7 +12,7 @@ live-recorded = { $num ->
     }
 live-live = Live
 live-playing = Playing
-live-watching = Watching the folder
+live-watching = Watching
 live-is = { $name } · { $what }
 live-lost = lost, reconnecting
 live-opening = opening
@@ -38,6 +38,9 @@ live-file-cannot = A single file cannot be followed: it does not change
 live-cannot-advice = Choose a camera, a recording or a folder in the source menu
 live-closing = Closing the camera
 live-no-more-frames = { $source } has no more frames
+live-inspects-each = Each capture in the folder is inspected as soon as it is saved
+live-ended = Live stopped: one frame was captured
+live-ended-advice = Press L for Live again
 live-source-back = The source is back
 
 ## Setting up the simulated cell

@@ -60,16 +60,16 @@ shell-minutes = { $num ->
         [one] { $num } minute
        *[other] { $num } minutes
     }
-shell-enter-pin = Enter the PIN to change recipe, thresholds, library and cell
+shell-enter-pin = Enter the PIN to change recipe, thresholds, library, cell and source
 shell-unlock = Unlock
-shell-may-change = In this view recipe, thresholds, library and cell can be changed
+shell-may-change = In this view recipe, thresholds, library, cell and source can be changed
 shell-switch = Switch
 shell-new-pin = New PIN
 shell-new-pin-says = Four to eight digits that protect the engineer's view
 shell-next = Next
 shell-same-digits = Enter the same digits again
 shell-set-the-pin = Set the PIN
-shell-pin-forgotten = Forgotten? Close Partsight and delete the lines below [pin] in its settings.toml
+shell-pin-forgotten = Forgotten? Ask the engineer
 shell-num-digits = { $num } digits
 shell-erase = Erase
 shell-digit = Digit { $digit }
@@ -179,11 +179,17 @@ shell-ok = OK
 ## Notices and closing
 
 shell-dismiss = Dismiss
+shell-dismiss-all = Dismiss all
+shell-more-like-it = { $num } more like it
 shell-read-in-millimetres = Read as millimetres
 shell-too-wide = The points span { $extent } m
 shell-too-wide-advice = Check the unit of the file
 shell-undo = Undo
 shell-close-without-saving = Close without saving?
+shell-not-written = { $num ->
+        [one] { $num } inspection is kept in memory only
+       *[other] { $num } inspections are kept in memory only
+    }: the history cannot be written
 shell-keep-open = Keep the window open
 shell-close-anyway = Close without saving
 
@@ -207,6 +213,7 @@ shell-does-theme = Dark or light
 shell-does-role = Operator's or engineer's view
 shell-does-quit = Close the window
 shell-does-help = This list
+shell-does-size = Everything larger, smaller, as usual
 shell-does-escape = Close the enlarged stage; give up a box or lasso
 shell-keys-tab = Tab, Enter
 shell-does-tab = Go to the next control, press it
@@ -241,9 +248,10 @@ shell-no-thread = The system cannot start a thread for this: { $error }
 shell-no-thread-advice = Close other programs and try again
 shell-library-not-loaded = The library could not be loaded: { $error }
 shell-library-not-loaded-advice = { $advice }, or choose another one at the top right; until then nothing is recognised
+shell-library-still-in-use = The library in memory stays in use: { $error }
 shell-library-inside = The library lies inside the program and cannot be changed ({ $reason })
 shell-inside-program = The library lies inside the program and cannot be changed
-shell-inside-program-advice = Start Partsight with --library and a folder of your own
+shell-inside-program-advice = Choose a folder of your own at the top right
 shell-choose-library = Choose { $path } at the top right
 shell-choose-or-go-on = Choose another one at the top right, or go on: the first part that is saved is stored there
 shell-holds-no-library = { $path } holds no library of parts

@@ -59,3 +59,6 @@ coat-option-cross-hatch = Cruzado
 coat-option-contour = Contorno
 coat-option-principal-axis = Eje principal
 coat-option-angle = Ángulo
+coat-notes-primer = Imprimación aparejo de dos componentes: espesa, muchos sólidos, lo bastante lenta para rellenar.
+coat-notes-base-coat = Base bicapa al agua: fina, pocos sólidos, color y efecto; pasadas juntas contra las nubes.
+coat-notes-clear-coat = Barniz de dos componentes: espeso y húmedo; el brillo viene de una película uniforme.

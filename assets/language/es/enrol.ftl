@@ -184,3 +184,44 @@ enrol-brought-back = { $part }: recuperada
 enrol-stored-path = Trayectoria de pintura de { $count } puntos guardada con { $part }
 enrol-removed-path = Trayectoria de pintura de { $part } eliminada
 enrol-undone = Deshecho: «{ $what }»
+
+## What is wrong with a name
+enrol-bad-name-empty = el nombre está vacío
+enrol-bad-name-long = el nombre tiene { $found } caracteres; se permiten como máximo { $limit }
+enrol-bad-name-character = { $name } no es un nombre válido: contiene { $character }
+enrol-bad-name-beginning = { $name } no es un nombre válido: empieza por { $character }
+enrol-bad-name-reserved = { $name } no es un nombre válido: Windows lo reserva para un dispositivo
+enrol-bad-name-advice = Usar hasta { $limit } letras minúsculas sin acentos, cifras, _ y -, por ejemplo { $example }
+
+## Warnings about a part
+enrol-warning-edge = la pieza llega al borde de la imagen: puede faltar un trozo
+enrol-warning-edge-advice = Alejar la cámara o centrar la pieza, y volver a registrarla
+enrol-warning-background = esto puede ser fondo: { $why }
+enrol-warning-background-advice = Comprobarlo en la imagen; si no es la pieza, tomar la pieza en su lugar
+enrol-sign-behind = queda detrás de otras superficies en el { $percent } % de su borde
+enrol-sign-cut = el borde de la imagen la corta por { $sides } lados
+enrol-sign-flat = es una superficie plana de { $area } m²
+enrol-warning-on-background = el { $percent } % de lo conservado está en la pared, el suelo u otro plano eliminado
+enrol-warning-on-background-advice = Quitar lo que es fondo: una inspección lo elimina y compara el resto
+enrol-warning-apart = el { $percent } % de lo conservado está separado del resto
+enrol-warning-apart-advice = Quitar lo que no es de la pieza
+enrol-warning-unconstrained = la forma no fija la pose: { $freedom }
+enrol-warning-unconstrained-advice = Registrar más de la pieza, para que esquinas o aberturas determinen su pose
+enrol-warning-symmetric = la pieza girada { $degrees }° se ve igual, así que las dos poses no se distinguen
+enrol-warning-symmetric-advice = Pintarla con una trayectoria que valga para ambas poses, o colgarla de modo que no se pueda girar
+enrol-warning-unseen = en el { $percent } % del contorno de la superficie escaneada acaba la vista de todas las tomas: la pieza puede continuar ahí
+enrol-warning-unseen-advice = Añadir tomas que muestren los lados que faltan, y volver a registrarla
+
+## Why a part cannot be enrolled
+enrol-error-no-outline = la nube de { $num } puntos no tiene contorno desde ningún lado
+enrol-error-no-outline-advice = Comprobar que la nube muestra la superficie de una sola pieza y está en metros
+enrol-error-large = la pieza abarca { $found } m; se esperan como máximo { $limit } m
+enrol-error-large-advice = Exportarla en metros (parecen milímetros), o recortar la pieza de su escena
+enrol-error-points = la nube tiene { $found } puntos; se necesitan al menos { $needed }
+enrol-error-points-advice = Capturar la pieza desde más cerca, o exportar la nube con más puntos
+enrol-error-kept = se conservan { $found } puntos; se necesitan al menos { $needed }
+enrol-error-kept-advice = Recuperar lo que se quitó: Deshacer, Restablecer o Añadir
+enrol-error-scan = no se encontró ninguna pieza en ninguna de las { $num } tomas
+enrol-error-scan-advice = Conservar la pieza con Añadir y un recuadro o un lazo, o capturarla a 10 cm o más del fondo
+enrol-error-area = la malla de { $num } triángulos no tiene área
+enrol-error-area-advice = Exportar la malla de nuevo con sus caras

@@ -137,8 +137,8 @@ history-total = { $count } piezas, { $share } OK
 history-drift = Deriva: { $part }
 history-drift-score = Puntuación
 history-drift-fit = Ajuste a la referencia, RMS
-history-drift-ends = al principio { $first }, al final { $last }
-history-drift-place = Posición de la pieza: desplazada x { $x }, y { $y }, z { $z }
+history-drift-ends = primer quinto { $first }, último quinto { $last } (medianas)
+history-drift-place = Posición de la pieza: del primer al último quinto x { $x }, y { $y }, z { $z } (medianas)
 
 ## Work and notices
 history-looking = Consultando el historial

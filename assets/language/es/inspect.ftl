@@ -36,7 +36,7 @@ inspect-copy-pose-says = En la convención del robot, indicada en la primera lí
 inspect-score = Puntuación
 inspect-next = Siguiente: { $part } { $score }
 inspect-threshold = umbral { $score }
-inspect-margin = Margen sobre la siguiente { $margin }
+inspect-margin = Margen sobre la siguiente pieza { $margin }
 inspect-margin-says = Diferencia de las dos probabilidades si solo puede colgar ahí una de las dos piezas; no es la diferencia de las puntuaciones
 inspect-offset = Desplazamiento respecto a la posición estándar
 inspect-measured-from = Medido desde { $part }, otra referencia de esta pieza
@@ -49,6 +49,7 @@ inspect-pose-uncertainty = incertidumbre de pose (95 %)
 inspect-uncertainty = incertidumbre (95 %)
 inspect-runner-up = segunda mejor pose
 inspect-times-worse = { $ratio }× peor
+inspect-as-good = igual de buena
 inspect-iterations = { $num } iteraciones
 inspect-ambiguous = Otra pose encaja igual de bien: comprobar en qué sentido cuelga la pieza
 inspect-inspection = Inspección
@@ -65,9 +66,16 @@ inspect-recipe-modified = { $name } (modificada)
 ## Stand-off
 
 inspect-stand-off = Distancia de boquilla de una trayectoria supuesta
+inspect-stand-off-stored = Distancia de boquilla de la trayectoria guardada
 inspect-mean = media
 inspect-worst-of = { $value }, peor { $worst }
 inspect-in-band = dentro de la banda
+inspect-points-in-band = { $inside } de { $num } puntos
+inspect-points-not-seen = { $count ->
+        [one] Sin comprobar en 1 punto
+       *[other] Sin comprobar en { $count } puntos
+    }, donde la cámara no ve la pieza
+inspect-path-not-seen = La cámara no ve la pieza en ningún punto de la trayectoria
 inspect-angle = ángulo
 inspect-path-fits = La trayectoria sirve sin la pose
 inspect-path-needs-pose = El programa del robot debe aplicar la pose a la trayectoria
@@ -179,7 +187,7 @@ inspect-writing-path = Escribiendo la trayectoria de pintura
 inspect-picture-saved = Imagen guardada: { $path }
 inspect-no-spray-path = No hay trayectoria de pintura para lo que se muestra
 inspect-no-spray-path-advice = Guardar una con la pieza y capturar una pieza que se acepte
-inspect-path-written = { $path } escrito: { $inside } de { $num } puntos en la banda, como { $convention }
+inspect-path-written = { $path } escrito: { $inside } de { $num } puntos comprobados en la banda, como { $convention }
 inspect-report-written = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }
 inspect-report-set-aside = Escritos { $files }, las imágenes de sus etapas y una fila de { $table } en { $folder }; su última fila estaba incompleta y se apartó en { $aside }
 inspect-watching-folder = Vigilando una carpeta

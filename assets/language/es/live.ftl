@@ -12,7 +12,7 @@ live-recorded = { $num ->
     }
 live-live = En vivo
 live-playing = Reproducción
-live-watching = Vigilando la carpeta
+live-watching = Vigilando
 live-is = { $name } · { $what }
 live-lost = perdida, reconectando
 live-opening = abriendo
@@ -38,6 +38,9 @@ live-file-cannot = Un archivo suelto no se puede seguir: no cambia
 live-cannot-advice = Elegir una cámara, una grabación o una carpeta en el menú de fuentes
 live-closing = Cerrando la cámara
 live-no-more-frames = { $source } no tiene más imágenes
+live-inspects-each = Cada captura de la carpeta se inspecciona en cuanto se guarda
+live-ended = En vivo ha terminado: se capturó una imagen
+live-ended-advice = Pulsar L para volver a «En vivo»
 live-source-back = La fuente ha vuelto
 
 ## Setting up the simulated cell

@@ -60,16 +60,16 @@ shell-minutes = { $num ->
         [one] { $num } minuto
        *[other] { $num } minutos
     }
-shell-enter-pin = Introducir el PIN para cambiar receta, umbrales, biblioteca y celda
+shell-enter-pin = Introducir el PIN para cambiar receta, umbrales, biblioteca, celda y fuente
 shell-unlock = Desbloquear
-shell-may-change = En esta vista se pueden cambiar receta, umbrales, biblioteca y celda
+shell-may-change = En esta vista se pueden cambiar receta, umbrales, biblioteca, celda y fuente
 shell-switch = Cambiar
 shell-new-pin = Nuevo PIN
 shell-new-pin-says = De cuatro a ocho cifras que protegen la vista del técnico
 shell-next = Siguiente
 shell-same-digits = Introducir de nuevo las mismas cifras
 shell-set-the-pin = Definir el PIN
-shell-pin-forgotten = ¿Olvidado? Cerrar Partsight y borrar las líneas bajo [pin] en su settings.toml
+shell-pin-forgotten = ¿Olvidado? Avisar al técnico
 shell-num-digits = { $num } cifras
 shell-erase = Borrar
 shell-digit = Cifra { $digit }
@@ -179,11 +179,17 @@ shell-ok = Aceptar
 ## Notices and closing
 
 shell-dismiss = Descartar
+shell-dismiss-all = Descartar todos
+shell-more-like-it = { $num } más de este tipo
 shell-read-in-millimetres = Leer como milímetros
 shell-too-wide = Los puntos abarcan { $extent } m
 shell-too-wide-advice = Comprobar la unidad del archivo
 shell-undo = Deshacer
 shell-close-without-saving = ¿Cerrar sin guardar?
+shell-not-written = { $num ->
+        [one] { $num } inspección está solo en memoria
+       *[other] { $num } inspecciones están solo en memoria
+    }: no se puede escribir el historial
 shell-keep-open = Mantener la ventana abierta
 shell-close-anyway = Cerrar sin guardar
 
@@ -207,6 +213,7 @@ shell-does-theme = Oscuro o claro
 shell-does-role = Vista del operador o del técnico
 shell-does-quit = Cerrar la ventana
 shell-does-help = Esta lista
+shell-does-size = Todo más grande, más pequeño, normal
 shell-does-escape = Cerrar la etapa ampliada; abandonar el recuadro o lazo
 shell-keys-tab = Tab, Intro
 shell-does-tab = Ir al control siguiente, pulsarlo
@@ -241,9 +248,10 @@ shell-no-thread = El sistema no proporciona un hilo para esto: { $error }
 shell-no-thread-advice = Cerrar otros programas e intentarlo de nuevo
 shell-library-not-loaded = No se pudo cargar la biblioteca: { $error }
 shell-library-not-loaded-advice = { $advice }, o elegir otra arriba a la derecha; hasta entonces no se reconoce nada
+shell-library-still-in-use = Se sigue usando la biblioteca en memoria: { $error }
 shell-library-inside = La biblioteca está dentro del programa y no se puede cambiar ({ $reason })
 shell-inside-program = La biblioteca está dentro del programa y no se puede modificar
-shell-inside-program-advice = Iniciar Partsight con --library y una carpeta propia
+shell-inside-program-advice = Elegir una carpeta propia arriba a la derecha
 shell-choose-library = Elegir { $path } arriba a la derecha
 shell-choose-or-go-on = Elegir otra arriba a la derecha, o continuar: la primera pieza que se guarde quedará allí
 shell-holds-no-library = { $path } no contiene ninguna biblioteca de piezas

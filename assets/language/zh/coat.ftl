@@ -59,3 +59,6 @@ coat-option-cross-hatch = 交叉
 coat-option-contour = 轮廓
 coat-option-principal-axis = 主轴
 coat-option-angle = 角度
+coat-notes-primer = 双组分底漆：厚、固体含量高、速度足够慢以便填平。
+coat-notes-base-coat = 水性底色漆：薄、固体含量低，提供颜色和效果；行距小以防发花。
+coat-notes-clear-coat = 双组分清漆：厚而湿，光泽来自均匀的漆膜。

@@ -183,3 +183,44 @@ enrol-brought-back = 已恢复 { $part }
 enrol-stored-path = 已为 { $part } 保存含 { $count } 个点的喷涂轨迹
 enrol-removed-path = 已移除 { $part } 的喷涂轨迹
 enrol-undone = 已撤销：“{ $what }”
+
+## What is wrong with a name
+enrol-bad-name-empty = 名称为空
+enrol-bad-name-long = 名称有 { $found } 个字符，最多允许 { $limit } 个
+enrol-bad-name-character = { $name } 不是有效名称：其中包含 { $character }
+enrol-bad-name-beginning = { $name } 不是有效名称：不能以 { $character } 开头
+enrol-bad-name-reserved = { $name } 不是有效名称：Windows 将其保留为设备名
+enrol-bad-name-advice = 请使用小写字母、数字、_ 和 -，最多 { $limit } 个字符，例如 { $example }
+
+## Warnings about a part
+enrol-warning-edge = 零件到达画面边缘，可能缺少一部分
+enrol-warning-edge-advice = 将相机移远或将零件居中，然后重新注册
+enrol-warning-background = 这可能是背景：{ $why }
+enrol-warning-background-advice = 请查看图像；如果不是零件，请改选零件
+enrol-sign-behind = 其边缘的 { $percent } % 位于其他表面之后
+enrol-sign-cut = 画面在 { $sides } 侧将其截断
+enrol-sign-flat = 它是 { $area } m² 的平面
+enrol-warning-on-background = 保留部分的 { $percent } % 位于墙面、地面或其他已移除的平面上
+enrol-warning-on-background-advice = 请去除背景：检测时会将其移除，只比较其余部分
+enrol-warning-apart = 保留部分的 { $percent } % 与其余部分分离
+enrol-warning-apart-advice = 请去除不属于零件的部分
+enrol-warning-unconstrained = 形状不能确定位姿：{ $freedom }
+enrol-warning-unconstrained-advice = 请注册零件的更多部分，使角或开口能约束其位姿
+enrol-warning-symmetric = 零件转动 { $degrees }° 后外观相同，无法区分这两个位姿
+enrol-warning-symmetric-advice = 请使用适合两种位姿的轨迹喷涂，或使零件悬挂后不能转动
+enrol-warning-unseen = 扫描表面轮廓的 { $percent } % 处是所有拍摄的视野边界：零件可能在那里继续延伸
+enrol-warning-unseen-advice = 请添加能看到缺失侧面的拍摄，然后重新注册
+
+## Why a part cannot be enrolled
+enrol-error-no-outline = 含 { $num } 个点的点云从任何一侧都没有轮廓
+enrol-error-no-outline-advice = 请检查点云是否只显示一个零件的表面，并以米为单位
+enrol-error-large = 零件跨度为 { $found } m，应不超过 { $limit } m
+enrol-error-large-advice = 请以米为单位导出（这看起来是毫米），或从场景中截取单个零件
+enrol-error-points = 点云有 { $found } 个点，至少需要 { $needed } 个
+enrol-error-points-advice = 请更近地采集零件，或导出点数更多的点云
+enrol-error-kept = 保留 { $found } 个点，至少需要 { $needed } 个
+enrol-error-kept-advice = 请取回已去除的部分：撤销、重置或添加
+enrol-error-scan = 在 { $num } 次拍摄中均未找到零件
+enrol-error-scan-advice = 请用“添加”和矩形框或套索保留零件，或在距背景至少 10 cm 处采集零件
+enrol-error-area = 含 { $num } 个三角形的网格没有面积
+enrol-error-area-advice = 请重新导出带有面的网格

@@ -132,8 +132,8 @@ history-total = { $count } 个零件，{ $share } OK
 history-drift = 漂移：{ $part }
 history-drift-score = 得分
 history-drift-fit = 与参考的偏差（RMS）
-history-drift-ends = 起初 { $first }，最近 { $last }
-history-drift-place = 零件位置：移动 x { $x }，y { $y }，z { $z }
+history-drift-ends = 前五分之一 { $first }，后五分之一 { $last }（中位数）
+history-drift-place = 零件位置：从前五分之一到后五分之一 x { $x }，y { $y }，z { $z }（中位数）
 
 ## Work and notices
 history-looking = 正在读取历史记录

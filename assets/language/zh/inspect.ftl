@@ -36,7 +36,7 @@ inspect-copy-pose-says = 采用机器人约定，首行注明名称 (Ctrl Shift 
 inspect-score = 得分
 inspect-next = 次优：{ $part } { $score }
 inspect-threshold = 阈值 { $score }
-inspect-margin = 与次优的裕度 { $margin }
+inspect-margin = 与次优零件的裕度 { $margin }
 inspect-margin-says = 仅可能是两个零件之一时两者概率之差；不是得分之差
 inspect-offset = 相对标准位置的偏移
 inspect-measured-from = 以该零件的另一参考“{ $part }”为基准测量
@@ -49,6 +49,7 @@ inspect-pose-uncertainty = 位姿不确定度 (95 %)
 inspect-uncertainty = 不确定度 (95 %)
 inspect-runner-up = 次优位姿
 inspect-times-worse = 差 { $ratio } 倍
+inspect-as-good = 同样好
 inspect-iterations = { $num } 次迭代
 inspect-ambiguous = 另一位姿同样匹配：请确认零件的悬挂方向
 inspect-inspection = 检测
@@ -65,9 +66,13 @@ inspect-recipe-modified = { $name }（已修改）
 ## Stand-off
 
 inspect-stand-off = 假定轨迹的喷距
+inspect-stand-off-stored = 已存轨迹的喷距
 inspect-mean = 平均
 inspect-worst-of = { $value }，最差 { $worst }
 inspect-in-band = 合格范围内
+inspect-points-in-band = { $inside } / { $num } 个点
+inspect-points-not-seen = 有 { $count } 个点相机看不到零件，未检查
+inspect-path-not-seen = 相机在轨迹的任何点都看不到零件
 inspect-angle = 角度
 inspect-path-fits = 无需位姿即可使用该轨迹
 inspect-path-needs-pose = 机器人程序必须将位姿应用于轨迹
@@ -117,7 +122,7 @@ inspect-no-camera-read = { $scene } · 未读取相机
 inspect-view-of-scene = 场景三维视图
 inspect-taught-nozzle = 假定喷嘴
 inspect-worst = 最差
-inspect-path-in-band = 喷涂轨迹 · { $num } 点中 { $inside } 点在合格范围内
+inspect-path-in-band = 喷涂轨迹 · 已检查的 { $num } 点中 { $inside } 点在合格范围内
 
 ## The stages
 

@@ -26,6 +26,9 @@ live-file-cannot = 无法跟踪单个文件：其内容不会变化
 live-cannot-advice = 在来源菜单中选择相机、录制或文件夹
 live-closing = 正在关闭相机
 live-no-more-frames = { $source } 没有更多帧
+live-inspects-each = 文件夹中的每次采集保存后立即检测
+live-ended = 实时检测已停止：采集了一帧
+live-ended-advice = 按 L 重新开始实时检测
 live-source-back = 来源已恢复
 
 ## Setting up the simulated cell

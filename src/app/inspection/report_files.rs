@@ -27,7 +27,7 @@ use crate::{
     },
     robot::{
         Convention, RobotFrame,
-        arm::PlacedArm,
+        arm::{PathCheck, PlacedArm},
         program::{
             Program, ProgramFormat, ProgramSettings, check_reach, is_stale, is_stale_file,
             program_points, remove_previous_program,
@@ -90,12 +90,17 @@ pub(in crate::app) fn spray_path(
                 is_stale(inspected.at.into())
             }
         };
-        if is_stale {
+        let refused = if is_stale {
+            Some((text!("program-stale"), text!("program-stale-advice")))
+        } else if pose.is_ambiguous() {
+            let advice = text!("program-ambiguous-advice");
+            Some((text!("program-ambiguous"), advice))
+        } else {
+            None
+        };
+        if let Some((what, advice)) = refused {
             remove_previous_program(path).map_err(|error| UserError::of(&error))?;
-            return Err(UserError {
-                what: text!("program-stale"),
-                advice: text!("program-stale-advice"),
-            });
+            return Err(UserError { what, advice });
         }
         return program(path, carried, robot, &target?, &subject);
     }
@@ -115,7 +120,7 @@ pub(in crate::app) fn spray_path(
         "inspect-path-written",
         path = path.display().to_string(),
         inside = carried.num_inside(),
-        num = carried.points.len(),
+        num = carried.num_seen(),
         convention = convention.title()
     ))
 }
@@ -161,18 +166,10 @@ pub(in crate::app) fn program(
         }
         None => None,
     };
-    if let Some((arm, reach)) = &reach
-        && reach.num_reached() < reach.points.len()
-    {
-        return Err(UserError {
-            what: text!(
-                "program-not-reached",
-                arm = &arm.arm.name,
-                missed = reach.points.len() - reach.num_reached(),
-                all = reach.points.len()
-            ),
-            advice: text!("program-not-reached-advice"),
-        });
+    let checked = reach.as_ref();
+    let refused = checked.and_then(|(arm, check)| not_reached(&arm.arm.name, check));
+    if let Some(error) = refused {
+        return Err(error);
     }
     let points = program_points(carried, robot, reach.as_ref().map(|(_, reach)| reach));
     let program = Program {
@@ -204,6 +201,20 @@ pub(in crate::app) fn program(
             count = points.len(),
             format = format.title()
         )
+    })
+}
+
+/// The refusal to write a program of a path that the arm of this name does not reach; `None` if it reaches all of it.
+pub(in crate::app) fn not_reached(arm: &str, check: &PathCheck) -> Option<UserError> {
+    let (num_reached, all) = (check.num_reached(), check.points.len());
+    (num_reached < all).then(|| UserError {
+        what: text!(
+            "program-not-reached",
+            arm = arm,
+            missed = all - num_reached,
+            all = all
+        ),
+        advice: text!("program-not-reached-advice"),
     })
 }
 

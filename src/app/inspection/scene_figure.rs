@@ -35,7 +35,8 @@ pub struct SceneFigure {
     pub camera: Option<LineSet>,
     /// Outline and openings of the reference at the found pose.
     pub outline: Option<LineSet>,
-    /// The assumed nozzle over the part's middle, and the one with the largest error of its stand-off.
+    /// The assumed nozzle over the part's middle, and the one with the largest error of its stand-off; none if a path is
+    /// stored.
     pub nozzles: Option<[NozzleFigure; 2]>,
     /// The part's stored spray path, if there is one.
     pub spray: Option<SprayFigure>,
@@ -45,14 +46,14 @@ pub struct SceneFigure {
 #[derive(Debug)]
 pub struct SprayFigure {
     /// The path of the nozzle tip, and each nozzle's ray: solid up to the surface if in the band, else dashed and marked by a
-    /// cross.
+    /// cross. A long path, dashed where the gun is off, has rays only where the camera sees that it leaves the band.
     pub lines: LineSet,
     /// The first position of the nozzle tip, metres.
     pub start: Vec3,
     /// Number of points in the band.
     pub num_inside: usize,
-    /// Number of all points.
-    pub num_points: usize,
+    /// Number of points that the camera could check.
+    pub num_seen: usize,
 }
 
 /// A nozzle in front of the part.
@@ -124,7 +125,9 @@ impl SceneFigure {
             outline: view
                 .zip(camera_from_part)
                 .and_then(|(view, pose)| outline(view, &pose)),
-            nozzles: stand_off.map(|found| [&found.middle, &found.worst].map(NozzleFigure::of)),
+            nozzles: stand_off
+                .filter(|_| spray.is_none())
+                .map(|found| [&found.middle, &found.worst].map(NozzleFigure::of)),
             spray: spray.and_then(SprayFigure::of),
             points,
         }
@@ -137,10 +140,20 @@ impl SprayFigure {
         const UNMET: f32 = 0.15;
         /// Half size of the cross at a nozzle out of the band, metres.
         const CROSS: f32 = 0.008;
+        /// The rays of more points would hide the part.
+        const MOST_RAYS: usize = 150;
         let mouths: Vec<Vec3> = path.points.iter().map(|p| vec3(&p.mouth())).collect();
         let start = *mouths.first()?;
-        let mut lines = vec![Line::new(mouths.clone(), Role::Nozzle).with_width(1.2)];
+        let is_long = path.points.len() > MOST_RAYS;
+        let mut lines = if is_long {
+            strokes(path, &mouths)
+        } else {
+            vec![Line::new(mouths.clone(), Role::Nozzle).with_width(1.2)]
+        };
         for (point, &mouth) in path.points.iter().zip(&mouths) {
+            if is_long && matches!(point.band, BandStatus::Inside | BandStatus::NotSeen) {
+                continue;
+            }
             let along = vec3(&point.direction().into());
             let length = point.meets.map_or(UNMET, |met| met.distance.0 as f32);
             let ray = Line::new([mouth, mouth + along * length], Role::Nozzle);
@@ -159,9 +172,28 @@ impl SprayFigure {
             lines: LineSet::new(lines),
             start,
             num_inside: path.num_inside(),
-            num_points: path.points.len(),
+            num_seen: path.num_seen(),
         })
     }
+}
+
+/// Draws the path of the nozzle tip, dashed where the gun is off.
+fn strokes(path: &CarriedPath, mouths: &[Vec3]) -> Vec<Line> {
+    let mut lines = Vec::new();
+    let mut from = 0;
+    for points in path.points.chunk_by(|a, b| a.is_gun_on == b.is_gun_on) {
+        let end = from + points.len();
+        // The gun stays as it is up to the next point.
+        let line =
+            Line::new(&mouths[from..mouths.len().min(end + 1)], Role::Nozzle).with_width(1.2);
+        lines.push(if points[0].is_gun_on {
+            line
+        } else {
+            line.dashed()
+        });
+        from = end;
+    }
+    lines
 }
 
 fn vec3(p: &Point3<f64>) -> Vec3 {
@@ -226,15 +258,43 @@ fn smoothed(corners: &[Vec3]) -> Vec<Vec3> {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::{
         app::inspection::{
             inspected::{InspectRequest, inspect},
             library_cache::LibraryCache,
             source::{CellChoice, SceneSource},
         },
-        geometry::nearest::KdTree,
+        geometry::{nearest::KdTree, rigid::from_euler_zyx},
         pipeline::Unwatched,
+        robot::spray::CarriedPoint,
     };
+
+    #[test]
+    fn a_long_path_has_rays_only_where_it_is_known_to_leave_the_band() {
+        let num_lines = |num: usize| {
+            let point = |i: usize| CarriedPoint {
+                camera_from_nozzle: from_euler_zyx([0.0, 0.0, 0.0, 0.01 * i as f64, 0.0, 1.0]),
+                part_from_nozzle: RigidTransform::identity(),
+                meets: None,
+                band: match i {
+                    50 => BandStatus::TooFar,
+                    51 => BandStatus::Inside,
+                    _ => BandStatus::NotSeen,
+                },
+                is_gun_on: !(60..70).contains(&i),
+                speed: None,
+                is_round: true,
+            };
+            let points = (0..num).map(point).collect();
+            let figure = SprayFigure::of(&CarriedPath { points }).expect("points");
+            figure.lines.lines().len()
+        };
+        // The path, a ray at each point, and a cross of two lines at each but one.
+        assert_eq!(num_lines(100), 1 + 100 + 2 * 99);
+        // Two strokes and the move between them, and one point with ray and cross.
+        assert_eq!(num_lines(746), 3 + 3);
+    }
 
     #[test]
     fn the_enrolled_outline_lies_on_the_rim_of_the_part() {

@@ -1,9 +1,11 @@
 //! Translates texts that the history stores in English into the language of the window.
 
-use super::results::{rejection, rejection_advice, unrecognisable, unrecognisable_advice};
+use super::results::{
+    is_recognised, rejection, rejection_advice, unrecognisable, unrecognisable_advice,
+};
 use crate::{
     history::{Record, StoredVerdict, Summary},
-    pipeline::{Refusal, RefusalKind},
+    pipeline::{AcceptParams, Refusal, RefusalKind, is_like},
 };
 
 /// Prefix of the title of a mirror image, before the name of the part.
@@ -19,6 +21,9 @@ const CELL: &str = "simulated cell";
 
 /// Translates the title of an inspection.
 pub(in crate::app) fn stored_title(past: &Summary) -> String {
+    if let Some(part) = recognised_part(past) {
+        return text!("results-title-refused", part = part);
+    }
     match (past.verdict, stored_part(past)) {
         (StoredVerdict::NotAccepted, Some(part)) => {
             text!("results-title-not-recognised", part = part)
@@ -26,10 +31,21 @@ pub(in crate::app) fn stored_title(past: &Summary) -> String {
         (StoredVerdict::Unknown, Some(part)) if past.title.starts_with(MIRRORED) => {
             text!("results-title-mirrored", part = part)
         }
+        (StoredVerdict::Unknown, _) if past.score.is_some_and(|[score, _]| !is_like(score)) => {
+            text!("inspect-unknown-part")
+        }
         (StoredVerdict::Unknown, Some(part)) => text!("results-title-unknown", part = part),
         (StoredVerdict::NoPart, _) => text!("results-no-part"),
         _ => past.title.clone(),
     }
+}
+
+/// Returns the title of a part that was recognised and yet not accepted. The limits of its recipe are not in the row: those
+/// of the built-in recipe decide.
+pub(in crate::app) fn recognised_part(past: &Summary) -> Option<&str> {
+    let is_recognised = is_recognised(past.score?, &AcceptParams::default());
+    let is_refused = past.verdict == StoredVerdict::NotAccepted;
+    stored_part(past).filter(|_| is_refused && is_recognised)
 }
 
 /// Returns the title that the best match had at the time of the inspection.
@@ -175,6 +191,32 @@ mod tests {
             "Mirror image of {name}",
         ] {
             assert!(written.contains(title), "{title}");
+        }
+    }
+
+    #[test]
+    fn the_title_of_an_unknown_part_names_no_part_that_it_is_not_like() {
+        let mut past = history_entry(1, StoredVerdict::Unknown, "front_door").record;
+        past.summary.title = "Unknown · nearest Door, left".into();
+        let mut shown = |score| {
+            past.summary.score = Some([score, score]);
+            stored_title(&past.summary)
+        };
+        assert!(shown(0.3).contains("Door, left"));
+        assert!(!shown(0.004).contains("Door, left"));
+    }
+
+    #[test]
+    fn a_part_that_is_only_in_doubt_where_it_is_has_its_name_in_the_title() {
+        let mut past = history_entry(1, StoredVerdict::NotAccepted, "front_door").record;
+        past.summary.title = "Not recognised · nearest Door, left".into();
+        let mut shown = |score| {
+            past.summary.score = Some(score);
+            stored_title(&past.summary)
+        };
+        assert_eq!(shown([0.97, 0.97]), "Door, left · not accepted");
+        for score in [[0.89, 0.97], [0.97, 0.43]] {
+            assert_eq!(shown(score), "Not recognised · nearest Door, left");
         }
     }
 

@@ -17,6 +17,7 @@ macro_rules! text {
 pub(in crate::app) use text;
 
 mod catalogue;
+pub(in crate::app) mod enrolment;
 pub(in crate::app) mod history;
 pub(in crate::app) mod parameters;
 pub(in crate::app) mod results;

@@ -33,6 +33,21 @@ pub(in crate::app) fn coat_group(group: CoatGroup) -> String {
     }
 }
 
+/// Notes of the program's coats.
+const PRIMER: &str = "Two-component primer filler: thick, high solids, slow enough to fill.";
+const BASE_COAT: &str = "Water-borne base coat: thin, low solids, colour and effect; rows close together against clouds.";
+const CLEAR_COAT: &str = "Two-component clear coat: thick and wet, gloss comes from an even film.";
+
+/// Translates the notes of the program's coats, which coats made from them keep; returns any others unchanged.
+pub(in crate::app) fn coat_notes(notes: &str) -> String {
+    match notes {
+        PRIMER => text!("coat-notes-primer"),
+        BASE_COAT => text!("coat-notes-base-coat"),
+        CLEAR_COAT => text!("coat-notes-clear-coat"),
+        own => own.to_owned(),
+    }
+}
+
 /// Parameters whose texts are in the files of the window's languages.
 pub(in crate::app) trait TranslatedParameters: Parameters {
     /// The area of the texts.
@@ -111,6 +126,10 @@ pub(super) fn message_ids() -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        app::language::Language,
+        paint::{BUILT_IN_COATS, built_in_coat},
+    };
 
     fn check_table<R: TranslatedParameters>() {
         for parameter in R::ALL {
@@ -120,6 +139,19 @@ mod tests {
                 assert_eq!(options(parameter), choice.options);
             }
         }
+    }
+
+    #[test]
+    fn the_notes_of_the_programs_coats_are_translated() {
+        let coats = BUILT_IN_COATS.map(|name| built_in_coat(name).expect("a coat"));
+        for coat in &coats {
+            assert_eq!(coat_notes(&coat.notes), coat.notes);
+        }
+        Language::Spanish.make_current();
+        for coat in &coats {
+            assert_ne!(coat_notes(&coat.notes), coat.notes);
+        }
+        assert_eq!(coat_notes("For the roof"), "For the roof");
     }
 
     #[test]

@@ -1,11 +1,12 @@
-//! Texts about results in the language of the window. In English they equal those of the library itself.
+//! Texts about results in the language of the window. In English they equal those of the library itself, except where
+//! those name a command.
 //!
 //! Each kind of result is matched exhaustively, so that a new one does not compile without its text.
 
 use crate::{
     error::Advice as _,
     history::{KeepFrames, StoredVerdict},
-    pipeline::{RecipeLabel, Rejection, Unrecognisable, is_like},
+    pipeline::{AcceptParams, RecipeLabel, Rejection, Unrecognisable, is_like},
     robot::cell_check::{CellFinding, CellViewError},
     scan::Excluded,
     simulate::ObjectKind,
@@ -43,6 +44,11 @@ pub(in crate::app) fn keep_frames(keep: KeepFrames) -> String {
         KeepFrames::NotAccepted => text!("results-keep-not-accepted"),
         KeepFrames::None => text!("results-keep-none"),
     }
+}
+
+/// True if score and margin show which part it is. Whatever else speaks against it, such as its pose, it is called by its name.
+pub(in crate::app) fn is_recognised([score, margin]: [f64; 2], accept: &AcceptParams) -> bool {
+    score >= accept.min_score && margin >= accept.min_margin
 }
 
 /// Explains why a best match is not accepted.
@@ -544,15 +550,24 @@ mod tests {
         units::{Metres, Radians},
     };
 
+    /// Checks that the window gives the library's advice, or advice of its own for the library's command.
+    fn check_advice(own: &str, of_library: &str) {
+        let names_command = |advice: &str| advice.contains("--") || advice.contains("partsight");
+        assert!(!names_command(own), "{own}");
+        if !names_command(of_library) {
+            assert_eq!(own, of_library);
+        }
+    }
+
     #[test]
     fn in_english_the_window_says_what_the_library_says() {
         for why in rejections() {
             assert_eq!(rejection(&why), why.to_string());
-            assert_eq!(rejection_advice(&why), why.advice());
+            check_advice(&rejection_advice(&why), &why.advice());
         }
         for why in unrecognisables() {
             assert_eq!(unrecognisable(&why), why.to_string());
-            assert_eq!(unrecognisable_advice(&why), why.advice());
+            check_advice(&unrecognisable_advice(&why), &why.advice());
         }
         for error in pose_errors() {
             assert_eq!(pose_error(&error), error.to_string());

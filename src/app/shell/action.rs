@@ -58,6 +58,8 @@ pub enum Action {
     ToggleHelp,
     /// Remove the notice at this index.
     Dismiss(usize),
+    /// Remove all notices.
+    DismissAll,
     /// Open the file of the notice at this index again, as the notice offers.
     Reread(usize),
     /// Show a notice.
@@ -156,7 +158,12 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Open(path) => return chosen(state, DialogRequest::Scene, path),
         Action::UseFoundLibrary => state.open_library(None),
         Action::CancelInspection => state.cancel_inspection(),
-        Action::GoTo(workspace) => state.session.workspace = workspace,
+        Action::GoTo(workspace) => {
+            state.session.workspace = workspace;
+            if workspace == WorkspaceKind::Inspect {
+                live::show_unseen(state);
+            }
+        }
         Action::Export => return Some(Effect::Tell(Event::Export)),
         Action::CloseTop => {
             if state.help == HelpPage::Open {
@@ -183,6 +190,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
                 state.notices.remove(place);
             }
         }
+        Action::DismissAll => state.notices.clear(),
         Action::Reread(place) => {
             if place < state.notices.len() {
                 let notice = state.notices.remove(place);
@@ -243,7 +251,10 @@ pub(in crate::app) fn remove_notices(state: &mut State, topic: NoticeTopic) {
 }
 
 /// Shows a notice.
-pub(in crate::app) fn notify(state: &mut State, notice: Notice) {
+pub(in crate::app) fn notify(state: &mut State, mut notice: Notice) {
+    let covered = state.notices.iter();
+    let num_covered: usize = covered.map(|known| known.num_covered_by(&notice)).sum();
+    notice.num_more += num_covered;
     state.notices.retain(|known| !known.gives_way_to(&notice));
     state.notices.push(notice);
     let num_over = state.notices.len().saturating_sub(MAX_NOTICES);
@@ -322,6 +333,22 @@ mod tests {
         apply(&mut state, Action::Dismiss(0));
         apply(&mut state, Action::Dismiss(9));
         assert_eq!(state.notices.len(), 3);
+    }
+
+    #[test]
+    fn troubles_with_one_way_out_are_one_notice_that_counts_them() {
+        let mut state = State::default();
+        let unread = |file: &str| Notice::look(format!("{file} ends early"), "Copy it again");
+        for file in ["a.png", "b.png", "b.png", "c.png"] {
+            apply(&mut state, Action::Notify(unread(file)));
+        }
+        let other = Notice::look("no camera", "Plug it in");
+        apply(&mut state, Action::Notify(other));
+        let shown = state.notices.iter();
+        let shown: Vec<_> = shown.map(|n| (n.what.as_str(), n.num_more)).collect();
+        assert_eq!(shown, [("c.png ends early", 2), ("no camera", 0)]);
+        apply(&mut state, Action::DismissAll);
+        assert!(state.notices.is_empty());
     }
 
     #[test]

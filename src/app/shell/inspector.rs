@@ -12,7 +12,7 @@ use super::{
     live::{self, FollowedParts},
     message::{Event, ReinspectionPurpose},
     notice::{Notice, NoticeTopic},
-    session::{Inspecting, Shown, Source, WorkspaceKind},
+    session::{Inspecting, Shown, Source, UserRole, WorkspaceKind},
     state::State,
 };
 use crate::{
@@ -140,6 +140,14 @@ impl State {
         if self.session.workspace == WorkspaceKind::Enrol {
             return Some(Effect::Take(source, title));
         }
+        if self.session.is_watching() {
+            notify(self, Notice::done(text!("live-inspects-each")));
+            return None;
+        }
+        if self.session.is_live() && self.session.role == UserRole::Operator {
+            let ended = Notice::look(text!("live-ended"), text!("live-ended-advice"));
+            notify(self, ended.about(NoticeTopic::Following));
+        }
         let source = match (source, &self.session.empty_cell) {
             (SceneOrScan::Scene(source), Some(cell)) => {
                 let source = SceneSource::Before(Arc::clone(cell), Box::new(source));
@@ -156,14 +164,12 @@ impl State {
     /// stops following the source.
     fn inspect(&mut self, title: String, job: InspectJob) {
         let trace = self.session.trace.clone();
-        // Each capture of a watched folder shows another part.
-        let is_watched = matches!(self.session.source.followed(), Some(SourceSpec::Watched(_)));
         let part = if self.inspector.is_start {
-            PartAtHand::MaybeSeen
-        } else if self.session.is_live() && !is_watched {
+            PartAtHand::MaybeSeen(CurrentTrace::default())
+        } else if self.session.is_live() {
             PartAtHand::Followed(Arc::clone(&self.session.live.parts), trace)
         } else {
-            PartAtHand::New(trace)
+            PartAtHand::MaybeSeen(trace)
         };
         self.inspect_part(title, job, ReinspectionPurpose::New, part);
     }
@@ -348,8 +354,6 @@ impl State {
 /// Which hung part an inspection belongs to.
 #[derive(Debug)]
 enum PartAtHand {
-    /// A new one, which takes the current serial number.
-    New(CurrentTrace),
     /// The one that hangs before the source, as Live saw it last. One without a verdict that counts, or a new one, takes the
     /// current serial number.
     Followed(Arc<Mutex<FollowedParts>>, CurrentTrace),
@@ -357,8 +361,8 @@ enum PartAtHand {
     Known(HungId, Traceability),
     /// A new one with this traceability.
     Past(Traceability),
-    /// The one inspected before if the file is the same, else a new one.
-    MaybeSeen,
+    /// The one inspected before if the file is the same, else a new one, which takes the current serial number.
+    MaybeSeen(CurrentTrace),
 }
 
 impl PartAtHand {
@@ -389,14 +393,11 @@ fn run(
         }
     };
     let seen = match part {
-        PartAtHand::MaybeSeen => seen_before(&inspected, library_cache.history()),
+        PartAtHand::MaybeSeen(_) => seen_before(&inspected, library_cache.history()),
         _ => None,
     };
     let summary = &mut inspected.entry.record.summary;
     match part {
-        PartAtHand::New(current) => {
-            summary.trace = current.take(summary.verdict != StoredVerdict::NoPart);
-        }
         PartAtHand::Followed(parts, current) => {
             let shows_part = summary.verdict != StoredVerdict::NoPart;
             (summary.hung, summary.trace) =
@@ -404,9 +405,12 @@ fn run(
         }
         PartAtHand::Known(hung, trace) => (summary.hung, summary.trace) = (hung, trace),
         PartAtHand::Past(trace) => summary.trace = trace,
-        PartAtHand::MaybeSeen => {
-            if let Some(seen) = seen {
+        PartAtHand::MaybeSeen(current) => {
+            // With a serial number it is another part.
+            if let Some(seen) = seen.filter(|_| !current.has_complete_serial()) {
                 (summary.hung, summary.trace) = (seen.hung, seen.trace);
+            } else {
+                summary.trace = current.take(summary.verdict != StoredVerdict::NoPart);
             }
         }
     }

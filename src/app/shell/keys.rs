@@ -7,7 +7,7 @@ use super::{
     key_binding::{KeyBinding, Shortcut},
     live::LiveAction,
     robot::RobotAction,
-    roles::RoleAction,
+    roles::{self, RoleAction},
     session::WorkspaceKind,
     state::{HelpPage, State},
 };
@@ -116,8 +116,9 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
 ];
 
 /// Keys of the 3-D view and of the focus, only for the list.
-fn other_keys() -> [[String; 2]; 7] {
+fn other_keys() -> [[String; 2]; 8] {
     [
+        [keys("Ctrl + − 0"), text!("shell-does-size")],
         [text!("shell-keys-tab"), text!("shell-does-tab")],
         [text!("shell-keys-turn"), text!("shell-does-turn")],
         [text!("shell-keys-shift"), text!("shell-does-shift")],
@@ -149,6 +150,18 @@ const RAIL_KEYS: [(Key, &str); 6] = [
 
 /// Part of the window's height that the list leaves free, for heading, button, edges, and a notice above it, logical pixels.
 const HELP_MARGIN: f32 = 230.0;
+
+/// True for the window's keys that act in the operator's view, where a PIN protects the source.
+fn is_operators(binding: &KeyBinding, has_pin: bool) -> bool {
+    let is_with_ctrl = binding.modifiers.command;
+    match binding.key {
+        Key::Space | Key::T | Key::F1 => true,
+        Key::L => !is_with_ctrl,
+        Key::E | Key::K | Key::Q => is_with_ctrl,
+        Key::O => is_with_ctrl && !has_pin,
+        _ => false,
+    }
+}
 
 /// Effect of a key.
 #[derive(Clone, Copy)]
@@ -247,7 +260,7 @@ pub(in crate::app) fn help(
         return;
     }
     let modal = widgets::dialog(ctx, "help", |ui| {
-        ui.set_max_width(520.0);
+        ui.set_max_width(640.0);
         let height = ui.spacing().interact_size.y;
         ui.spacing_mut().interact_size.y = 24.0;
         ui.heading(text!("shell-shortcuts"));
@@ -256,14 +269,20 @@ pub(in crate::app) fn help(
         let list = egui::Grid::new("shortcuts")
             .num_columns(2)
             .spacing(vec2(24.0, 6.0));
+        let is_operator = state.session.is_operator_view();
+        let has_pin = state.roles.pin.is_some();
+        // The scroll bar is beside the list, not over it.
+        ui.spacing_mut().scroll.floating_allocated_width = space::MEDIUM;
         let list_area = ScrollArea::vertical().max_height(room);
         list_area.min_scrolled_height(room).show(ui, |ui| {
-            // The scroll bar floats over the right edge of the content.
-            ui.set_max_width(ui.available_width() - space::MEDIUM);
             list.show(ui, |ui| {
+                let own = if is_operator { &[][..] } else { own };
                 let own = listed(own.iter().copied());
-                let named = listed(SHORTCUTS.iter().map(Shortcut::binding));
+                let named = SHORTCUTS.iter().map(Shortcut::binding);
+                let named = listed(named.filter(|key| !is_operator || is_operators(key, has_pin)));
                 let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
+                let of_rail =
+                    of_rail.filter(|(_, kind)| !is_operator || roles::is_operators(*kind));
                 let of_rail = of_rail.map(|((_, rail), workspace)| [keys(rail), workspace.title()]);
                 let is_enrolling = state.session.workspace == WorkspaceKind::Enrol;
                 let of_picture = is_enrolling.then(picture_keys).into_iter().flatten();

@@ -2,7 +2,12 @@
 
 use std::sync::Arc;
 
-use super::{action::notify, notice::Notice, session::UserRole, state::State};
+use super::{
+    action::{notify, remove_notices},
+    notice::{Notice, NoticeTopic},
+    session::UserRole,
+    state::State,
+};
 use crate::app::{
     inspection::{
         folder_watch::FolderWatch,
@@ -10,6 +15,7 @@ use crate::app::{
     },
     language::text,
     task::{Task, TaskEvent, TaskRunner},
+    user_error::UserError,
 };
 
 /// Keeps the library in use in step with its folder.
@@ -57,6 +63,7 @@ impl LibraryLoader {
         self.reloading
             .start(text!("shell-reloading-library"), move |_| {
                 let changed = library_cache.refresh();
+                let changed = changed.map_err(|error| UserError::of(&error))?;
                 Ok(changed.map(|loaded| Arc::clone(&loaded.shown)))
             });
     }
@@ -101,8 +108,27 @@ pub(super) fn update(state: &mut State) {
         Some(TaskEvent::Failed(error)) => notify(state, error.into()),
         _ => {}
     }
-    if let Some(TaskEvent::Done(Some(library)) | TaskEvent::Partial(Some(library))) =
-        state.inspector.loader.reloading.poll()
+    let library = state.session.library.as_ref();
+    let is_loaded = library.is_some_and(|library| library.unloaded.is_none());
+    let reloaded = match state.inspector.loader.reloading.poll() {
+        Some(TaskEvent::Done(library) | TaskEvent::Partial(library)) => {
+            remove_notices(state, NoticeTopic::Library);
+            library
+        }
+        // A library that was never there is reported already.
+        Some(TaskEvent::Failed(_)) if !is_loaded => None,
+        Some(TaskEvent::Failed(UserError { what, advice })) => {
+            remove_notices(state, NoticeTopic::Library);
+            let what = text!("shell-library-still-in-use", error = what);
+            notify(
+                state,
+                Notice::look(what, advice).about(NoticeTopic::Library),
+            );
+            None
+        }
+        None => None,
+    };
+    if let Some(library) = reloaded
         // Otherwise another library was chosen meanwhile.
         && let Some(known) = &state.session.library
         && known.path == library.path

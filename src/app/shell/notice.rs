@@ -32,12 +32,23 @@ pub enum NoticeTopic {
     Scene,
     /// Whether the source can be followed: removed once a source is followed or another one is shown.
     Following,
+    /// Whether the library can be loaded again: removed once it is.
+    Library,
     /// Whether robots are answered: removed once they are, or are not to be.
     Answering,
+    /// The name entered for a coat: removed once it is changed or the coat is saved.
+    CoatName,
 }
 
-/// A notice for the user.
-#[derive(Clone, Debug, PartialEq, Eq)]
+impl NoticeTopic {
+    /// True if a newer notice about it replaces the former one.
+    fn has_one_notice(self) -> bool {
+        matches!(self, Self::Following | Self::Answering | Self::CoatName)
+    }
+}
+
+/// A notice for the user. Two are equal whatever number of others they stand for.
+#[derive(Clone, Debug, Eq)]
 pub struct Notice {
     /// Decides mark and display time.
     pub kind: NoticeKind,
@@ -49,6 +60,26 @@ pub struct Notice {
     pub advice: String,
     /// The path with the suffix that reads it in millimetres, if that is offered.
     pub in_millimetres: Option<PathBuf>,
+    /// Number of earlier notices that this one stands for, too.
+    pub num_more: usize,
+}
+
+impl PartialEq for Notice {
+    fn eq(&self, other: &Self) -> bool {
+        let Self {
+            kind,
+            topic,
+            what,
+            advice,
+            in_millimetres,
+            num_more: _,
+        } = self;
+        *kind == other.kind
+            && *topic == other.topic
+            && *what == other.what
+            && *advice == other.advice
+            && *in_millimetres == other.in_millimetres
+    }
 }
 
 impl Notice {
@@ -60,6 +91,7 @@ impl Notice {
             what: what.into(),
             advice: advice.into(),
             in_millimetres: None,
+            num_more: 0,
         }
     }
 
@@ -86,11 +118,33 @@ impl Notice {
         Self { topic, ..self }
     }
 
-    /// True if the newer notice makes this one obsolete: one success follows another, or the topic has one notice only.
+    /// True if the newer notice makes this one obsolete: one success follows another, the topic has one notice only, or the
+    /// newer one stands for both.
     pub fn gives_way_to(&self, newer: &Self) -> bool {
-        let has_topic = matches!(self.topic, NoticeTopic::Following | NoticeTopic::Answering);
         let are_successes = self.kind != NoticeKind::Look && newer.kind != NoticeKind::Look;
-        self == newer || are_successes || has_topic && self.topic == newer.topic
+        let is_replaced = self.topic.has_one_notice() && self.topic == newer.topic;
+        self == newer || are_successes || is_replaced || self.is_like(newer)
+    }
+
+    /// True for two troubles, such as two files that cannot be read, with the same way out.
+    fn is_like(&self, other: &Self) -> bool {
+        let are_troubles = self.kind == NoticeKind::Look && other.kind == NoticeKind::Look;
+        are_troubles
+            && self.topic == other.topic
+            && !self.topic.has_one_notice()
+            && !self.advice.is_empty()
+            && self.advice == other.advice
+    }
+
+    /// Counts the notices that the newer one stands for, if this one is among them.
+    pub(super) fn num_covered_by(&self, newer: &Self) -> usize {
+        if self == newer {
+            self.num_more
+        } else if self.is_like(newer) {
+            self.num_more + 1
+        } else {
+            0
+        }
     }
 
     /// Makes a notice that something was done.
@@ -101,6 +155,7 @@ impl Notice {
             what: what.into(),
             advice: String::new(),
             in_millimetres: None,
+            num_more: 0,
         }
     }
 
@@ -121,6 +176,7 @@ impl From<UserError> for Notice {
             what,
             advice,
             in_millimetres: None,
+            num_more: 0,
         }
     }
 }

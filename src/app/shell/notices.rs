@@ -17,6 +17,8 @@ use crate::app::ui::{
 
 /// Margin around the notices, logical pixels.
 const EDGE: f32 = 6.0;
+/// Number of notices that are dismissed one by one.
+const FEW: usize = 2;
 /// Time without motion after which the pointer is at rest, seconds.
 const REST: f32 = 0.6;
 
@@ -93,8 +95,10 @@ pub(in crate::app) fn ui(
         .show(ctx, |ui| {
             ui.set_width(room.width());
             ui.spacing_mut().item_spacing.y = EDGE;
+            let newest = state.notices.len().saturating_sub(1);
             for (place, notice) in state.notices.iter().enumerate() {
-                plate(ui, place, notice, actions);
+                let with_all = place == newest && newest >= FEW;
+                plate(ui, place, notice, with_all, actions);
             }
         });
     let wanted = drawn.response.rect.height() + 2.0 * EDGE;
@@ -115,21 +119,22 @@ fn over_dialog(ctx: &Context, room: Rect, state: &State, actions: &mut Vec<Actio
         .fixed_pos(pos2(room.left(), ctx.content_rect().top() + 2.0))
         .show(ctx, |ui| {
             ui.set_width(room.width());
-            plate(ui, place, notice, actions);
+            plate(ui, place, notice, false, actions);
         });
 }
 
-fn plate(ui: &mut Ui, place: usize, notice: &Notice, actions: &mut Vec<Action>) {
+/// Draws a notice; `with_all` adds a button that dismisses all of them.
+fn plate(ui: &mut Ui, place: usize, notice: &Notice, with_all: bool, actions: &mut Vec<Action>) {
     let theme = Theme::of(ui);
     Frame::new()
         .fill(theme.control)
         .stroke(theme.edge_stroke())
         .corner_radius(ROUNDING)
         .inner_margin(Margin::symmetric(14, 4))
-        .show(ui, |ui| line(ui, place, notice, actions));
+        .show(ui, |ui| line(ui, place, notice, with_all, actions));
 }
 
-fn line(ui: &mut Ui, place: usize, notice: &Notice, actions: &mut Vec<Action>) {
+fn line(ui: &mut Ui, place: usize, notice: &Notice, with_all: bool, actions: &mut Vec<Action>) {
     let theme = Theme::of(ui);
     ui.horizontal(|ui| {
         ui.set_min_height(space::TARGET);
@@ -141,6 +146,9 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, actions: &mut Vec<Action>) {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if text_button(ui, &text!("shell-dismiss")).clicked() {
                 actions.push(Action::Dismiss(place));
+            }
+            if with_all && text_button(ui, &text!("shell-dismiss-all")).clicked() {
+                actions.push(Action::DismissAll);
             }
             let is_offered = notice.in_millimetres.is_some();
             if is_offered && text_button(ui, &text!("shell-read-in-millimetres")).clicked() {
@@ -159,6 +167,9 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, actions: &mut Vec<Action>) {
                     let what = text!("shell-sentence", text = what);
                     ui.label(what);
                     ui.label(RichText::new(&notice.advice).color(theme.warning));
+                }
+                if notice.num_more > 0 {
+                    ui.weak(text!("shell-more-like-it", num = notice.num_more));
                 }
             });
         });

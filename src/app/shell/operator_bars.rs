@@ -85,10 +85,28 @@ fn upper(
         }
         language_menu(ui, state, actions);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            robot::chip(ui, robot, &state.session, work.is_some());
+            let session = &state.session;
+            not_recorded(ui, session);
+            robot::chip(
+                ui,
+                robot,
+                session,
+                work.is_some() || session.is_history_failing,
+            );
             progress(ui, state, work, actions);
         });
     });
+}
+
+/// Draws whether inspections cannot be written.
+fn not_recorded(ui: &mut Ui, session: &Session) {
+    if session.is_history_failing {
+        let theme = Theme::of(ui);
+        line_mark(ui, 16.0, 8.0, Mark::Look);
+        let text = RichText::new(text!("operator-not-recorded")).color(theme.warning);
+        let label = ui.add(egui::Label::new(text).truncate());
+        label.on_hover_text(text!("operator-not-recorded-says"));
+    }
 }
 
 /// Draws the number of parts of this shift, and how many were accepted.

@@ -12,7 +12,7 @@ use crate::{
     robot::{
         Convention,
         arm::{ARM_NAMES, Arm, ArmError, GUN_RADIUS, Obstacles, PlacedArm},
-        parse_written_pose,
+        parse_nozzle,
         program::{PROGRAM_ENDINGS, ProgramFormat, ProgramSettings},
     },
     units::Metres,
@@ -70,7 +70,7 @@ impl ProgramSetup {
     /// Valid clearances, mm.
     pub const CLEARANCE: RangeInclusive<f64> = 0.0..=500.0;
     /// Valid radii of the gun, mm.
-    pub const GUN_RADIUS: RangeInclusive<f64> = 0.0..=500.0;
+    pub const GUN_RADIUS: RangeInclusive<f64> = 1.0..=500.0;
     /// Valid speeds, mm/s.
     pub const SPEED: RangeInclusive<f64> = 1.0..=2000.0;
     /// Valid distances of the approach points, mm.
@@ -143,7 +143,7 @@ impl ProgramSetup {
         if self.nozzle.trim().is_empty() {
             return Ok(None);
         }
-        let written = parse_written_pose(&self.nozzle);
+        let written = parse_nozzle(&self.nozzle);
         let written = written.map_err(|error| UserError::of(&error))?;
         Ok(Some(written.pose))
     }
@@ -188,11 +188,20 @@ pub(in crate::app) fn program_files() -> FileFilter {
     (text!("program-files"), &PROGRAM_ENDINGS)
 }
 
-/// Suggests the name of a program, with the ending of the robot that the convention belongs to.
-pub(in crate::app) fn program_file_name(part: &str, convention: Convention) -> String {
-    let all = ProgramFormat::ALL.into_iter();
-    let mut all = all.filter(|format| format.convention() == convention);
-    let format = all.next().unwrap_or(ProgramFormat::Krl);
+/// Suggests the name of a program, with the ending that the arm's maker uses, else the robot that the convention belongs to.
+pub(in crate::app) fn program_file_name(
+    part: &str,
+    setup: &ProgramSetup,
+    convention: Convention,
+) -> String {
+    // The titles of arms and of languages begin with the maker.
+    let maker = |title: &str| title.split(' ').next().map(str::to_lowercase);
+    let arm = setup.arm_title().and_then(|title| maker(&title));
+    let all = || ProgramFormat::ALL.into_iter();
+    let of_arm = all().find(|format| arm.is_some() && maker(format.title()) == arm);
+    let format = of_arm
+        .or_else(|| all().find(|format| format.convention() == convention))
+        .unwrap_or(ProgramFormat::Krl);
     format!("{part}.{}", format.ending())
 }
 
@@ -216,6 +225,28 @@ mod tests {
         std::fs::write(&file, "name = \"Cell 3\"\n").expect("written");
         assert_eq!(title(&file.display().to_string()), "arm.toml");
         assert_eq!(ProgramSetup::default().arm_title(), None);
+    }
+
+    #[test]
+    fn a_program_has_the_ending_of_the_arms_maker_else_of_the_convention() {
+        let name = |arm: Option<&str>, convention| {
+            let setup = ProgramSetup {
+                arm: arm.map(str::to_owned),
+                ..ProgramSetup::default()
+            };
+            program_file_name("door", &setup, convention)
+        };
+        for (arm, expected) in [
+            ("kr6-r900", "door.src"),
+            ("m-20ia", "door.ls"),
+            ("irb2600", "door.mod"),
+            ("irb4600", "door.mod"),
+            ("gp25", "door.jbi"),
+        ] {
+            assert_eq!(name(Some(arm), Convention::Kuka), expected);
+        }
+        assert_eq!(name(Some("cell.toml"), Convention::Abb), "door.mod");
+        assert_eq!(name(None, Convention::Doosan), "door.drl");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! A barcode scanner: acts as a keyboard that types a code within milliseconds and ends it with Enter.
+//! A barcode scanner: acts as a keyboard that types a code within milliseconds and ends it with Enter or Tab.
 //!
 //! In the operator's view no field needs the focus for it. Typed keys are held back for a moment: a code that ends in time is
 //! the serial number; anything else was typed by hand and is passed on to the shortcuts.
@@ -25,7 +25,12 @@ pub(in crate::app) fn listen(ctx: &Context) -> Option<String> {
         .data_mut(|data| data.remove_temp(id))
         .unwrap_or_default();
     let is_writing = ctx.text_edit_focused();
+    let was_held = !held.events.is_empty();
     let code = ctx.input_mut(|input| held.hold_back(&mut input.events, input.time, is_writing));
+    if was_held && held.events.is_empty() {
+        // What the keys change is drawn in the next frame, for which egui knows no reason: they came earlier.
+        ctx.request_repaint();
+    }
     if !held.events.is_empty() {
         ctx.request_repaint_after_secs(GAP as f32);
         ctx.data_mut(|data| data.insert_temp(id, held));
@@ -47,7 +52,7 @@ impl Held {
                         is_text
                     }
                     Event::Key {
-                        key: Key::Enter,
+                        key: Key::Enter | Key::Tab,
                         pressed: true,
                         ..
                     } if self.text.chars().count() >= LEAST_LETTERS => {
@@ -127,6 +132,36 @@ mod tests {
             }
             assert_eq!(codes, ["TL-4711 B"]);
         }
+    }
+
+    #[test]
+    fn what_keys_of_a_hand_do_is_drawn_without_another_event() {
+        let ctx = Context::default();
+        let delay_after = |time, events| {
+            let input = egui::RawInput {
+                time: Some(time),
+                events,
+                ..egui::RawInput::default()
+            };
+            let mut output = ctx.run_ui(input, |ui| {
+                listen(ui.ctx());
+            });
+            let delay = output.viewport_output[&egui::ViewportId::ROOT].repaint_delay;
+            output.viewport_output.clear();
+            output.drop_without_applying_deltas();
+            delay
+        };
+        for time in [0.1, 0.2, 0.3, 0.4] {
+            delay_after(time, Vec::new());
+        }
+        assert!(!delay_after(0.5, Vec::new()).is_zero());
+        delay_after(1.0, vec![key(Key::T), Event::Text("t".into())]);
+        // egui draws a few frames after any input.
+        for time in [1.02, 1.04, 1.06] {
+            delay_after(time, Vec::new());
+        }
+        assert!(!delay_after(1.08, Vec::new()).is_zero(), "held back");
+        assert!(delay_after(1.2, Vec::new()).is_zero());
     }
 
     #[test]

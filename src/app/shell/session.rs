@@ -82,6 +82,8 @@ pub struct Session {
     pub shift_starts: ShiftStarts,
     /// The parts of this shift, counted in the operator's view.
     pub shift: ShiftParts,
+    /// True while the history cannot write inspections, which stay in memory.
+    pub is_history_failing: bool,
     /// The workspace in front.
     pub workspace: WorkspaceKind,
 }

@@ -113,11 +113,10 @@ fn live_button(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     };
     let name = text!("shell-live");
     let text = RichText::new(&name).font(font::body_strong()).color(colour);
-    let key = RichText::new("L").small().color(key);
     let button = Button::selectable(is_live, text)
         .frame_when_inactive(true)
-        .shortcut_text(key)
         .min_size(Vec2::splat(space::TARGET));
+    let button = with_key(ui, button, "L", key);
     let response = ui.add(button);
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_live, &name));
     let says = if is_live {

@@ -250,13 +250,13 @@ impl RayCurves<'_> {
 }
 
 /// Plots curves over moments in time order, with dates along the axis. `written` formats a value; the vertical range spans at
-/// least `least_span`.
+/// least `least_span` and ends at `most`.
 pub(in crate::app) fn over_time(
     ui: &mut Ui,
     at: &[Zoned],
     title: &str,
     curves: &[(&str, &[f32], Color32)],
-    (written, least_span): (&dyn Fn(f64) -> String, f64),
+    (written, least_span, most): (&dyn Fn(f64) -> String, f64, f64),
     theme: &Theme,
 ) {
     let size = vec2(ui.available_width(), OVER_TIME);
@@ -270,10 +270,8 @@ pub(in crate::app) fn over_time(
     let dates = at.iter().enumerate().step_by(step);
     let dates = dates.map(|(place, at)| (place as f64, at.strftime("%m-%d %H:%M").to_string()));
     let known = curves.iter().flat_map(|(_, values, _)| *values);
-    let [low, high] = range_of(known.filter(|value| value.is_finite()));
-    // Noise must not look as large as a drift.
-    let spare = 0.5 * (least_span - (high - low)).max(0.1 * (high - low));
-    let [low, high] = [low - spare, high + spare];
+    let range = range_of(known.filter(|value| value.is_finite()));
+    let [low, high] = range_around(range, least_span, most);
     let axes = Axes {
         title: vec![(title.to_owned(), theme.text)],
         across: Axis::new([0.0, last as f64], dates.collect()),
@@ -318,6 +316,13 @@ pub(in crate::app) fn over_time(
     }
 }
 
+/// Widens a range a little, or to `least_span`, but not beyond `most`.
+fn range_around([low, high]: [f64; 2], least_span: f64, most: f64) -> [f64; 2] {
+    // Noise must not look as large as a drift.
+    let spare = 0.5 * (least_span - (high - low)).max(0.1 * (high - low));
+    [low - spare, (high + spare).min(most)]
+}
+
 /// Makes a curve of values at 0, 1, 2…
 pub(in crate::app) fn curve(values: &[f32], colour: Color32) -> Line<'static> {
     let points = PlotPoints::from_ys_f32(values);
@@ -358,5 +363,18 @@ fn line(points: &[Pos2], stroke: Stroke, style: LineStyle) -> Vec<Shape> {
         LineStyle::Dotted { spacing } => {
             Shape::dotted_line(points, stroke.color, spacing, stroke.width)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_of_scores_ends_at_one() {
+        let [low, high] = range_around([0.92, 0.99], 0.1, 1.0);
+        assert!(low < 0.92 && high.total_cmp(&1.0).is_eq(), "{low} {high}");
+        let [low, high] = range_around([0.5, 0.75], 0.1, f64::INFINITY);
+        assert!(low < 0.5 && high > 0.75, "{low} {high}");
     }
 }

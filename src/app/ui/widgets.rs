@@ -84,6 +84,46 @@ pub(in crate::app) fn row(ui: &mut Ui, name: &str, value: &str) {
     });
 }
 
+/// Draws a name on the left and a path on the right, shortened to the room; hovering shows all of it.
+pub(in crate::app) fn path_row(ui: &mut Ui, name: &str, path: &str) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().interact_size.y = 0.0;
+        ui.weak(name);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let font = TextStyle::Body.resolve(ui.style());
+            let shown = fitted_path(ui.painter(), path, &font, ui.available_width());
+            let label = ui.add(Label::new(shown).truncate());
+            label.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, path));
+            label.on_hover_text(path);
+        });
+    });
+}
+
+/// Leaves out the first folders of a path that is wider than the room: the name of the file is at its end. Keeps what stands
+/// before the path, up to the last dot between words.
+pub(in crate::app) fn fitted_path(
+    painter: &Painter,
+    text: &str,
+    font: &FontId,
+    room: f32,
+) -> String {
+    let width = |text: &str| {
+        let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER);
+        galley.size().x
+    };
+    let begin = text.rfind(" · ").map_or(0, |at| at + " · ".len());
+    let (before, mut path) = text.split_at(begin);
+    let mut shown = text.to_owned();
+    while width(&shown) > room {
+        let Some((_, rest)) = path.split_once(['/', '\\']) else {
+            break;
+        };
+        path = rest;
+        shown = format!("{before}…/{path}");
+    }
+    shown
+}
+
 /// Draws the heading of a group.
 pub(in crate::app) fn heading(ui: &mut Ui, text: &str) {
     ui.add_space(super::theme::space::MEDIUM);
@@ -378,7 +418,31 @@ pub fn grouped(number: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{grouped, sentence};
+    use egui::{Color32, Context, FontId, RawInput};
+
+    use super::{fitted_path, grouped, sentence};
+    use crate::app::ui::theme::Theme;
+
+    #[test]
+    fn a_long_path_keeps_the_name_of_its_file() {
+        let ctx = Context::default();
+        Theme::install_fonts(&ctx);
+        let font = FontId::proportional(14.0);
+        let output = ctx.run_ui(RawInput::default(), |ui| {
+            let fitted = |text: &str, room| fitted_path(ui.painter(), text, &font, room);
+            let path = "/data/2026-11-25/cell_3/booth/door.png";
+            assert_eq!(fitted(path, 1000.0), path);
+            let short = "…/booth/door.png".to_owned();
+            let painter = ui.painter();
+            let galley = painter.layout_no_wrap(short.clone(), font.clone(), Color32::PLACEHOLDER);
+            assert_eq!(fitted(path, galley.size().x), short);
+            assert_eq!(fitted(path, 1.0), "…/door.png");
+            let with_remark = format!("bent · {path}");
+            assert_eq!(fitted(&with_remark, 1.0), "bent · …/door.png");
+            assert_eq!(fitted("Kinect frame 12", 1.0), "Kinect frame 12");
+        });
+        output.drop_without_applying_deltas();
+    }
 
     #[test]
     fn a_sentence_begins_with_a_capital_letter_and_a_file_keeps_its_name() {

@@ -26,7 +26,7 @@ use crate::{
     library::LibraryLoad,
     pipeline::{self, Inspection, NamedRecipe, Unwatched},
     report::InspectionLine,
-    simulate::{CellSetup, PartKind, Side, frame},
+    simulate::{CellSetup, PartKind, Side, SimulatedObject, frame},
     stages::{reference::Reference, scene::scene_from_image},
 };
 
@@ -60,17 +60,25 @@ struct Stretch {
     usage: Option<ProcessUsage>,
 }
 
-/// A camera with few pixels: every part hangs still for a while, then the next one comes.
+/// A camera with few pixels: every part hangs still for a while, then the cell is empty until the next one comes.
 struct SmallCell {
-    pictures: Arc<[DepthFrame]>,
+    pictures: Arc<[Pictures]>,
     begun: Timestamp,
     num_given: u64,
     num_frames: u64,
 }
 
+/// A part in the cell, and the cell without it.
+struct Pictures {
+    with_part: DepthFrame,
+    empty: DepthFrame,
+}
+
 impl SmallCell {
     /// Number of frames for which a part hangs there: enough for a verdict that counts.
-    const HANGING: u64 = 120;
+    const HANGING: u64 = 30;
+    /// Number of frames from one part to the next.
+    const CYCLE: u64 = 120;
     const FRAMES_PER_SECOND: i64 = 30;
     /// Every how many of the Kinect's rows and columns one is kept.
     const STEP: usize = 4;
@@ -80,7 +88,7 @@ impl SmallCell {
     const NUM_ROUNDS: u64 = 28;
 
     /// Frames of the enrolled parts; a small library makes for cheap ones.
-    fn pictures(load: &LibraryLoad) -> Arc<[DepthFrame]> {
+    fn pictures(load: &LibraryLoad) -> Arc<[Pictures]> {
         let is_enrolled = |kind: &PartKind| {
             load.parts
                 .iter()
@@ -94,8 +102,11 @@ impl SmallCell {
             let kinds = enrolled.iter().chain(other);
             setups.extend(kinds.map(|kind| CellSetup::with_part(*kind, Side::Left, 0, seed)));
         }
-        let frames = setups.iter();
-        frames.map(|setup| smaller(&frame(setup).frame)).collect()
+        let pictures = setups.iter().map(|setup| Pictures {
+            with_part: smaller(&frame(setup).frame),
+            empty: smaller(&frame(&CellSetup::new(SimulatedObject::Nothing, setup.seed)).frame),
+        });
+        pictures.collect()
     }
 }
 
@@ -135,11 +146,18 @@ impl DepthSource for SmallCell {
         if self.num_given == self.num_frames {
             return Ok(NextCapture::End);
         }
-        let place = (self.num_given / Self::HANGING) as usize % self.pictures.len();
+        let cycle = (self.num_given / Self::CYCLE) as usize;
+        let pictures = &self.pictures[cycle % self.pictures.len()];
+        let is_hanging = self.num_given % Self::CYCLE < Self::HANGING;
         let nanoseconds = self.num_given as i64 * (1_000_000_000 / Self::FRAMES_PER_SECOND);
         self.num_given += 1;
         let name = format!("simulated frame {}", self.num_given);
-        let image = Image::Depth(self.pictures[place].clone());
+        let picture = if is_hanging {
+            &pictures.with_part
+        } else {
+            &pictures.empty
+        };
+        let image = Image::Depth(picture.clone());
         Ok(NextCapture::Captured(Captured {
             taken_at: self.begun + SignedDuration::from_nanos(nanoseconds),
             ..Captured::now(self.num_given, name, image)
@@ -224,8 +242,8 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     let (pictures, num_frames) = (SmallCell::pictures(&load), args.frames);
     console.line(&format_args!(
         "Simulated: {num_frames} frames of {} by {} pixels, the history in {}.",
-        pictures[0].intrinsics.width,
-        pictures[0].intrinsics.height,
+        pictures[0].empty.intrinsics.width,
+        pictures[0].empty.intrinsics.height,
         folder.path().display()
     ));
     let open = move || {

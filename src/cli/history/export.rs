@@ -2,10 +2,11 @@
 
 use super::ExportArgs;
 use crate::{
-    cases::{CaseFolder, PastCases, TruthFrom},
+    cases::{PastCases, TruthFrom},
     cli::{
         Outcome,
         console::{Advised as _, Console, advised_error},
+        input::open_case_folder,
     },
     history::{History, write_table},
 };
@@ -29,14 +30,15 @@ pub(super) fn run(
         } else {
             TruthFrom::Label
         };
-        let folder = CaseFolder::at(path);
+        let folder = open_case_folder(path)?;
         let mut cases = PastCases::new(&folder, history.frames_folder(), truth);
         let exported = history.each(&filter, |record| cases.take(&record));
         exported.advised()?;
         for problem in &cases.problems {
             console.warn(problem, problem);
         }
-        console.note(&format_args!("{} in {}", cases.in_words(), path.display()));
+        let written = cases.in_words(&path.display().to_string());
+        console.note(&written);
         if cases.num_kept == 0 {
             return Err(advised_error(
                 "no inspection could be kept as a case",

@@ -24,7 +24,7 @@ use crate::{
 pub(super) struct ProgramChoice {
     /// Write the part's stored spray path as a program for the robot's controller, named like the file: .src, .ls,
     /// .mod, .script, .jbi or .drl. Needs a calibration and one file. Nothing is written if the part is not accepted, if
-    /// the capture is older than 10 minutes, or if --arm does not reach every point
+    /// another pose fits nearly as well, if the capture is older than 10 minutes, or if --arm does not reach every point
     #[arg(long, value_name = "FILE", conflicts_with = "spray")]
     program: Option<PathBuf>,
     /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
@@ -104,6 +104,9 @@ impl CapturedProgram {
         let mut doubts = Vec::new();
         if !inspection.verdict.is_accepted() {
             doubts.push("the part was not accepted".to_owned());
+        }
+        if pose.is_ambiguous() {
+            doubts.push("another pose of the part fits nearly as well".to_owned());
         }
         if is_stale_file(Path::new(seen.scene)) {
             doubts.push("the capture is more than 10 minutes old".to_owned());

@@ -10,6 +10,7 @@ use crate::{
         Outcome,
         console::{Advised as _, Console, advised_error, store_a_path},
         input::parse_convention,
+        program::against_seen,
     },
     library::{Library, LibraryLoad, LibraryPlace, PartName},
     pipeline::Inspection,
@@ -79,7 +80,13 @@ pub(super) fn check_placed_part(
     files: &[PathBuf],
     frame: Option<&RobotFrame>,
 ) -> anyhow::Result<()> {
-    if files.len() != 1 {
+    if files.is_empty() {
+        return Err(advised_error(
+            format!("{option} takes a capture's file, not a source"),
+            "Record a capture and give its file: partsight capture --source SOURCE --frames 1 --out DIR",
+        ));
+    }
+    if files.len() > 1 {
         return Err(advised_error(
             format!("{option} writes the path of a single part"),
             "Give one capture",
@@ -157,11 +164,11 @@ impl SprayFile {
         };
         export.save(&self.file).advised()?;
         console.note(&format_args!(
-            "{}: {} of {} points within the band, as {}",
+            "{}: {} points as {}; {}",
             self.file.display(),
-            carried.num_inside(),
             carried.points.len(),
-            self.convention.title()
+            self.convention.title(),
+            against_seen(&carried)
         ));
         if !is_stored {
             console.note(&format_args!(

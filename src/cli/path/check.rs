@@ -11,8 +11,8 @@ use crate::{
         LibraryChoice, Outcome,
         calibrate::CalibrationChoice,
         console::{Advised as _, Console, advised_error, store_a_path},
-        input::{parse_robot_pose, within},
-        program::CellChoice,
+        input::parse_nozzle_pose,
+        program::{CellChoice, parse_approach, parse_speed},
     },
     geometry::rigid::RigidTransform,
     library::PartName,
@@ -38,15 +38,15 @@ pub(super) struct CheckArgs {
     #[arg(long, value_name = "ARM")]
     arm: String,
     /// Pose of the nozzle on the flange, with z in its direction: `kuka X Y Z A B C`, or the 16 numbers of a matrix
-    #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
+    #[arg(long, value_name = "POSE", value_parser = parse_nozzle_pose, allow_hyphen_values = true)]
     nozzle: WrittenPose,
     #[command(flatten)]
     cell: CellChoice,
-    /// Speed of the nozzle where the path sets none, mm/s
-    #[arg(long, value_name = "MM/S", default_value_t = 250.0)]
+    /// Speed of the nozzle where the path sets none, 1 to 5000 mm/s
+    #[arg(long, value_name = "MM/S", default_value_t = 250.0, value_parser = parse_speed, allow_negative_numbers = true)]
     speed: f64,
     /// Distance of the approach points from the path's first and last point, 10 to 1000 mm
-    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = |text: &str| within(text, &(10.0..=1000.0)))]
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = parse_approach, allow_negative_numbers = true)]
     approach: f64,
     /// Write one line of JSON
     #[arg(long)]

@@ -23,10 +23,10 @@ pub(super) struct FitArgs {
     #[command(flatten)]
     coat: CoatChoice,
     /// Speed at which the stripe was sprayed, mm/s; default: the coat's
-    #[arg(long, value_name = "MM/S")]
+    #[arg(long, value_name = "MM/S", allow_negative_numbers = true)]
     speed: Option<f64>,
     /// Distance from the nozzle's mouth to the plate, mm; default: the coat's stand-off
-    #[arg(long, value_name = "MM")]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     distance: Option<f64>,
     /// Write the coat with this gun, named like the file
     #[arg(long, short, value_name = "FILE")]

@@ -12,6 +12,7 @@ use crate::{
         console::{Advised as _, Console, advised_error},
         recipe::parse_setting,
     },
+    error::Advice,
     files::write_atomically,
     library::{PartName, SprayPath, StoredPart},
     paint::{Coat, CoatFolder, Film, KeepOut, PaintSurface, plan, propose, simulate},
@@ -116,6 +117,7 @@ pub(super) fn run_plan(
         let film = simulate(&surface, &path, &coat, &args.keep_out).advised()?;
         (coat, path, film)
     };
+    warn_of_idle(&args.keep_out, &surface, console);
     if let Some(file) = &args.output {
         let text = path.to_text();
         write_atomically(file, |to| to.write_all(text.as_bytes())).advised()?;
@@ -139,9 +141,39 @@ pub(super) fn run_plan(
             console.line(&format_args!("  stored with {name}"));
         }
     }
-    Ok(show(
-        name, &surface, &coat, &path, &film, args.json, console,
-    ))
+    let outcome = show(name, &surface, &coat, &path, &film, args.json, console);
+    if !args.json && args.output.is_none() && !args.store {
+        console.line(
+            &"  not kept: write the path with --output FILE, or store it with the part: --store",
+        );
+    }
+    Ok(outcome)
+}
+
+/// Warns of each sphere that reaches no surface, as in the wrong unit.
+fn warn_of_idle(keep_out: &[KeepOut], surface: &PaintSurface, console: &Console) {
+    let idle = keep_out.iter().filter(|region| !region.touches(surface));
+    for region in idle {
+        if let KeepOut::Sphere { centre, radius } = region {
+            let mm = |metres: f64| (1e6 * metres).round() / 1000.0;
+            let [x, y, z, radius] = [centre.x, centre.y, centre.z, *radius].map(mm);
+            let sphere = format!("{x} {y} {z} {radius}");
+            let idle = IdleKeepOut { sphere };
+            console.warn(&idle, &idle);
+        }
+    }
+}
+
+#[derive(Debug, thiserror::Error)]
+#[error("--keep-out {sphere:?} touches no point of the surface, so nothing is kept out")]
+struct IdleKeepOut {
+    sphere: String,
+}
+
+impl Advice for IdleKeepOut {
+    fn advice(&self) -> String {
+        "Give centre and radius in millimetres, in the part's frame".into()
+    }
 }
 
 pub(super) fn run_simulate(

@@ -6,10 +6,11 @@ use jiff::Timestamp;
 
 use super::SimulateArgs;
 use crate::{
-    cases::{CaseDescription, CaseFolder, FoundVerdict, TruePose, Truth},
+    cases::{CaseDescription, FoundVerdict, TruePose, Truth},
     cli::{
         Outcome,
         console::{Advised as _, Console, advised_error},
+        input::open_case_folder,
     },
     library::shipped_enrolled_at,
     simulate::{PartPose, PoseRange, Side, SimulatedFrame, SimulatedObject, frame},
@@ -22,7 +23,7 @@ pub(super) fn run(
     args: &SimulateArgs,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
-    let folder = CaseFolder::at(folder);
+    let folder = open_case_folder(folder)?;
     let subjects = args.subjects()?;
     let num = args.num as usize;
     console.start_progress(num);

@@ -71,11 +71,12 @@ impl Advice for CoatError {
             }
             Self::File(error) => error.advice(),
             Self::NotFound { name, available } => {
-                let nearest = nearest_name(available.iter().map(String::as_str), name);
-                format!(
-                    "The nearest name is {}; partsight path plan --help names the coats of the program",
-                    nearest.unwrap_or(BUILT_IN_COATS[0])
-                )
+                match nearest_name(available.iter().map(String::as_str), name) {
+                    Some(nearest) => format!(
+                        "The nearest name is {nearest}; partsight path plan --help names the coats of the program"
+                    ),
+                    None => format!("Give one of {}, or a file", available.join(", ")),
+                }
             }
             Self::Exists { .. } => "Choose another name".into(),
         }

@@ -1,5 +1,3 @@
-use std::f64::consts::PI;
-
 use super::*;
 use crate::{
     paint::{
@@ -252,4 +250,18 @@ fn a_shelf_before_a_wall_takes_the_paint_that_the_wall_does_not_get() {
     assert!(middle(&plain, &surface, 0.0) > 0.9 * coat.flat_thickness());
     assert!(middle(&shadowed, &shelved, 0.0) < 1e-9);
     assert!(middle(&shadowed, &shelved, 0.06) > 0.8 * coat.flat_thickness());
+    // A gun that faces the wall within 30° sees 35 mm behind the edge of the shelf, and one that fits in between all.
+    let nearer = Coat {
+        stand_off: 0.05,
+        ..coat
+    };
+    let in_between = are_reachable(&shelved, &nearer, &[]);
+    for (i, p) in shelved.points.iter().enumerate() {
+        let from_middle = p.x.hypot(p.y);
+        if p.z > 0.0 || !(0.1..0.135).contains(&from_middle) {
+            let expected = p.z > 0.0 || from_middle > 0.12;
+            assert_eq!(shadowed.is_reachable[i], expected, "{p}");
+        }
+        assert!(in_between[i], "{p}");
+    }
 }

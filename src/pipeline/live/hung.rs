@@ -7,7 +7,7 @@
 //! is a new one.
 //!
 //! Known limits: once a verdict counts, a part that is exchanged for another between two frames is taken for the
-//! same. In captures seconds apart, in which stillness cannot be observed, two of one name in a row are one part.
+//! same, unless the frames are seconds apart and another part is accepted. In captures seconds apart, in which stillness cannot be observed, two of one name in a row are one part.
 
 use std::time::Duration;
 
@@ -151,7 +151,9 @@ impl HungParts {
         };
         // A clock that was set back is an unknown gap, too.
         let gap = before.map(|before| frame.at.checked_sub(before).unwrap_or(Duration::MAX));
-        let is_blind = |gap| gap > MAX_BLIND || (gap > APART && self.is_another(shown));
+        let is_accepted = frame.inspection.verdict.is_accepted();
+        let is_blind =
+            |gap| gap > MAX_BLIND || (gap > APART && self.is_another(shown, is_accepted));
         let mut left = Left::Nothing;
         if gap.is_some_and(is_blind) {
             left = self.leave();
@@ -181,10 +183,14 @@ impl HungParts {
         (left, role)
     }
 
-    /// True if this has another name than what was seen last, and no verdict on that counts yet.
-    fn is_another(&self, shown: Option<(&str, f64)>) -> bool {
+    /// True if this has another name than what was seen last. Once a verdict counts, only an accepted part is: the name
+    /// nearest to a refused one changes from frame to frame.
+    fn is_another(&self, shown: Option<(&str, f64)>, is_accepted: bool) -> bool {
         match (&self.state, shown) {
             (HungState::Unsettled { last, .. }, Some((name, _))) => last != name,
+            (HungState::Counted(part), Some((name, _))) => {
+                is_accepted && part.said.iter().all(|(said, _)| said != name)
+            }
             _ => false,
         }
     }

@@ -58,7 +58,7 @@ impl SeenBy {
         match self {
             Self::Camera => "a camera",
             Self::Simulation => "SIMULATED: no camera was read",
-            Self::NotKnown => "a file, which does not say whether a camera was read",
+            Self::NotKnown => "not known: the file does not say",
         }
     }
 }

@@ -12,11 +12,11 @@ use krilla::{
 };
 
 use super::{
-    PoseReport, SeenBy,
+    PoseReport, SeenBy, VerdictBlock,
     sheet::{Area, Faces, Ink, Sheet, Style, Weight},
 };
 use crate::{
-    pipeline::is_like,
+    pipeline::{AcceptParams, is_like},
     report::{Picture, lettering::Anchor},
 };
 
@@ -182,13 +182,23 @@ fn head(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
 /// Returns the headline of the report.
 fn headline(report: &PoseReport, pictures: &PdfPictures<'_>) -> String {
     let verdict = &report.verdict;
-    match (&verdict.part, verdict.accepted, verdict.status) {
-        (Some(part), true, _) => pictures.title.unwrap_or(part).to_owned(),
-        (_, _, "no_part") => "No part".into(),
-        (_, _, "unknown") => "Unknown part".into(),
+    match (&verdict.part, verdict.status) {
+        (Some(part), _) if verdict.accepted || is_recognised(verdict) => {
+            pictures.title.unwrap_or(part).to_owned()
+        }
+        (_, "no_part") => "No part".into(),
+        (_, "unknown") => "Unknown part".into(),
         // An uncertain name must not be the headline.
         _ => "Part not accepted".into(),
     }
+}
+
+/// True if score and margin show which part it is, whatever else speaks against it. The report does not have the recipe's
+/// least margin: that of the built-in recipe decides.
+fn is_recognised(verdict: &VerdictBlock) -> bool {
+    let is_clear = |margin: f64| margin >= AcceptParams::default().min_margin;
+    let is_likely = |score: f64| score >= verdict.threshold;
+    verdict.score.is_some_and(is_likely) && verdict.margin.is_some_and(is_clear)
 }
 
 /// Draws the verdict. Returns where the next block begins.
@@ -252,7 +262,9 @@ fn verdict(
     let nearest = (verdict.nearest.as_ref())
         .filter(|_| verdict.score.is_none_or(is_like))
         .or(verdict.part.as_ref());
-    if let Some(nearest) = nearest.filter(|_| !verdict.accepted) {
+    // The headline names a part that was recognised.
+    if let Some(nearest) = nearest.filter(|_| !verdict.accepted && !is_recognised(verdict)) {
+        let nearest = pictures.title.unwrap_or(nearest);
         y = text(sheet, &format!("Nearest enrolled part: {nearest}"), BODY, y);
     }
     if let Some(reason) = &verdict.reason {

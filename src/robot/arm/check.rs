@@ -11,7 +11,10 @@ use super::{
     rail_plan::rail_positions,
     way::{WayEnd, way_problem},
 };
-use crate::geometry::rigid::{RigidTransform, is_finite};
+use crate::{
+    geometry::rigid::{RigidTransform, is_finite},
+    units::Metres,
+};
 
 /// A pose of the nozzle that the arm must reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +43,8 @@ pub struct CheckParams {
     pub approach: Option<f64>,
 }
 
+/// Least radius of the gun, metres: a gun without one is a line, and its body is not checked.
+const LEAST_GUN_RADIUS: f64 = 0.001;
 /// Most turns: steps of 5°.
 const MAX_TURNS: usize = 72;
 
@@ -281,14 +286,17 @@ pub(super) fn refuse_bad(
     if let Some(rail) = placed.arm.rail {
         rail.checked()?;
     }
-    for (what, value) in [
-        ("the radius of the gun", placed.gun_radius),
-        ("the clearance", placed.obstacles.clearance),
+    for (what, value, low) in [
+        ("the radius of the gun", placed.gun_radius, LEAST_GUN_RADIUS),
+        ("the clearance", placed.obstacles.clearance, 0.0),
     ] {
-        if !(0.0..=1.0).contains(&value) {
-            return Err(ArmError::Value {
-                what: what.into(),
-                value: 1000.0 * value,
+        let high = 1.0;
+        if !(low..=high).contains(&value) {
+            return Err(ArmError::Length {
+                what,
+                value: Metres(value),
+                low: Metres(low),
+                high: Metres(high),
             });
         }
     }

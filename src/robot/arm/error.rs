@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::ARM_NAMES;
-use crate::{error::Advice, files::FileError};
+use crate::{error::Advice, files::FileError, units::Metres};
 
 /// Why an arm cannot be used, or a path not be checked.
 #[derive(Debug, thiserror::Error)]
@@ -73,6 +73,18 @@ pub enum ArmError {
         /// Its value.
         value: f64,
     },
+    /// A length of the check is out of its range.
+    #[error("{what} is {value}, expected {:.0} to {:.0} mm", low.mm(), high.mm())]
+    Length {
+        /// Name of the length.
+        what: &'static str,
+        /// Its value.
+        value: Metres,
+        /// Least value.
+        low: Metres,
+        /// Greatest value.
+        high: Metres,
+    },
     /// The caller cancelled.
     #[error("the check of the arm was cancelled")]
     Cancelled,
@@ -102,7 +114,7 @@ impl Advice for ArmError {
                 "Give name, lengths_mm, offsets_deg, signs, limits_deg, speeds_deg_s and, if needed, accelerations_deg_s2, base_height_mm, radii_mm and rail".into()
             }
             Self::Obstacles { .. } => {
-                "Give each [[box]] a name, centre_mm, size_mm above 0 and, if it is turned, angles_deg; and floor_mm if there is a floor".into()
+                "Give each [[box]] a name, centre_mm, size_mm above 0 and, if it is turned, angles_deg; and floor_mm if there is a floor. All lengths are in millimetres".into()
             }
             Self::Limits { .. } => "Give the lower limit first, then the upper one, in degrees".into(),
             Self::Rail { .. } => {
@@ -114,6 +126,7 @@ impl Advice for ArmError {
             Self::Value { .. } => {
                 "Correct it: lengths in millimetres, angles in degrees, speeds and accelerations above 0, a rail's from 1 to 10000 mm/s and from 1 to 100000 mm/s², signs 1 or -1, turns about the nozzle from 1 to 72".into()
             }
+            Self::Length { .. } => "Give a length in millimetres within this range".into(),
             Self::Cancelled => "Check it again".into(),
             Self::NoPoints => "Give a path with at least one point".into(),
             Self::NotFinite { .. } => "Check the numbers of base, tool, path and approach".into(),

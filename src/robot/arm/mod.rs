@@ -84,7 +84,7 @@ pub struct PlacedArm {
     pub robot_from_base: RigidTransform,
     /// Pose of the nozzle on the flange.
     pub flange_from_nozzle: RigidTransform,
-    /// Radius of the gun around the line from the flange to the nozzle's mouth, metres, 0..1.
+    /// Radius of the gun around the line from the flange to the nozzle's mouth, metres, 0.001..1.
     pub gun_radius: f64,
     /// Obstacles for gun and arm.
     pub obstacles: Obstacles,

@@ -32,7 +32,7 @@ use serde::Deserialize;
 
 use super::ArmError;
 use crate::{
-    files::read_text,
+    files::{file_name, read_text},
     geometry::{
         cloud::PointCloud,
         nearest::{KdTree, median_spacing},
@@ -49,6 +49,8 @@ const MAX_BOXES: usize = 200;
 const MAX_NAME: usize = 60;
 /// Limit for coordinates and sizes, millimetres; no cell is larger.
 const LARGEST: f64 = 100_000.0;
+/// Least length of a box's longest side, millimetres: sizes in metres are below it.
+const LEAST_SIDE: f64 = 10.0;
 
 /// A body of gun or arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -111,6 +113,8 @@ pub struct Obstacles {
     boxes: Vec<CellBox>,
     /// Height of the floor, metres.
     floor: Option<f64>,
+    /// Name of the file of boxes and floor.
+    file: Option<String>,
     part: Option<Arc<PartPoints>>,
 }
 
@@ -156,6 +160,7 @@ impl Default for Obstacles {
             clearance: 0.02,
             boxes: Vec::new(),
             floor: None,
+            file: None,
             part: None,
         }
     }
@@ -189,8 +194,14 @@ impl Obstacles {
         Ok(Self {
             boxes: boxes.collect::<Result<_, _>>()?,
             floor: text.floor_mm.map(|floor| floor / 1000.0),
+            file: Some(file_name(path)),
             ..Self::default()
         })
+    }
+
+    /// Name of the file that its boxes and its floor were read from; `None` without one.
+    pub fn file(&self) -> Option<&str> {
+        self.file.as_deref()
     }
 
     /// Adds a part by its points in the part's frame; points that are not finite are ignored.
@@ -296,6 +307,12 @@ impl BoxText {
         }
         if !self.size_mm.iter().all(|x| *x > 0.0 && *x <= LARGEST) {
             return wrong("size_mm", self.size_mm);
+        }
+        if self.size_mm.iter().all(|x| *x < LEAST_SIDE) {
+            return Err(format!(
+                "no side of {name} is {LEAST_SIDE} mm or longer: its size_mm is {:?}",
+                self.size_mm
+            ));
         }
         if !self.angles_deg.iter().all(|x| x.abs() <= 360.0) {
             return wrong("angles_deg", self.angles_deg);

@@ -262,8 +262,14 @@ fn bad_arms_and_paths_are_refused_with_advice() {
         let mut near = placed.clone();
         near.obstacles.clearance = bad;
         let error = refused(check_path(&near, &points, &params).expect_err("clearance"));
+        assert!(error.contains("expected 0 to 1000 mm"), "{error}");
         assert!(error.contains("clearance"), "{error}");
     }
+    // A gun without a radius is a line, whose body is not checked.
+    let mut thin = placed.clone();
+    thin.gun_radius = 0.0;
+    let error = refused(check_path(&thin, &points, &params).expect_err("radius"));
+    assert!(error.contains("expected 1 to 1000 mm"), "{error}");
     for num_turns in [0, 73] {
         let params = CheckParams {
             num_turns,

@@ -279,6 +279,18 @@ impl Program<'_> {
             } else {
                 format!("arm: {}, its configuration is not named here", arm.arm.name)
             });
+            let obstacles = &arm.obstacles;
+            let boxes = match obstacles.file() {
+                Some(file) => format!("part, arm and {file}"),
+                None => "part and arm, without boxes or floor".into(),
+            };
+            lines.push(format!(
+                "checked: reach, and collisions with {boxes}, clearance {}, gun radius {}",
+                Metres(obstacles.clearance),
+                Metres(arm.gun_radius)
+            ));
+        } else {
+            lines.push("reach and collisions: not checked".into());
         }
         lines.push(format!(
             "{} points, gun: output {}",

@@ -166,6 +166,7 @@ fn a_header_says_part_pose_time_and_that_nothing_was_seen() {
             "Cell 2 (00112233)",
             "robot_from_part:",
             "5 points, gun: output 1",
+            "reach and collisions: not checked",
         ] {
             let wanted = wanted.to_owned();
             assert!(words.contains(&wanted), "{format:?} {wanted}: {words}");

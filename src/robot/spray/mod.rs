@@ -93,14 +93,14 @@ pub enum BandStatus {
 }
 
 impl BandStatus {
-    /// A short name for tables and drawings.
+    /// The name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Inside => "inside",
-            Self::TooNear => "too near",
-            Self::TooFar => "too far",
-            Self::TooFlat => "too flat",
-            Self::NotSeen => "not seen",
+            Self::TooNear => "too_near",
+            Self::TooFar => "too_far",
+            Self::TooFlat => "too_flat",
+            Self::NotSeen => "not_seen",
         }
     }
 }
@@ -118,6 +118,11 @@ impl CarriedPoint {
 }
 
 impl CarriedPath {
+    /// Number of points that aim at what the camera sees of the part; only they can be checked.
+    pub fn num_seen(&self) -> usize {
+        self.points.len() - self.count(BandStatus::NotSeen)
+    }
+
     /// Number of points within the band.
     pub fn num_inside(&self) -> usize {
         self.count(BandStatus::Inside)

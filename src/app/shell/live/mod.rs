@@ -12,7 +12,7 @@ mod work;
 pub(in crate::app) use self::{
     parts::FollowedParts,
     set_up::set_up,
-    state::{apply, close, give_way, restart_consensus, source_changed, update},
+    state::{apply, close, give_way, restart_consensus, show_unseen, source_changed, update},
     status::{card, chip, words},
 };
 pub use self::{

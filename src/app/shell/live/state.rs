@@ -64,6 +64,8 @@ pub struct Follower {
     session: u64,
     /// The notice shown while the source is lost.
     lost: Option<Notice>,
+    /// The latest inspection while another workspace was in front, and the generation of what was shown then.
+    unseen: Option<(u64, Arc<Inspected>)>,
 }
 
 impl Follower {
@@ -77,6 +79,7 @@ impl Follower {
             library_cache: library_cache.clone(),
             session: 0,
             lost: None,
+            unseen: None,
         }
     }
 
@@ -119,6 +122,11 @@ impl Session {
     /// True while a source is followed.
     pub fn is_live(&self) -> bool {
         self.live.is_on
+    }
+
+    /// True while a folder is followed, in which every capture is of another part.
+    pub(in crate::app) fn is_watching(&self) -> bool {
+        self.is_live() && matches!(self.source.followed(), Some(SourceSpec::Watched(_)))
     }
 
     /// True if a serial number entered now would go to the next part, not to the one that hangs there.
@@ -196,6 +204,7 @@ fn start(state: &mut State) {
         return;
     }
     state.follower.session += 1;
+    state.session.failed = None;
     remove_notices(state, NoticeTopic::Following);
     remove_notices(state, NoticeTopic::Scene);
     dismiss_lost_notice(state);
@@ -349,7 +358,15 @@ fn receive(state: &mut State, answer: LiveAnswer) {
             state.session.live.recording = None;
             notify(state, error.into());
         }
-        LiveAnswer::Skipped(error) => notify(state, error.into()),
+        LiveAnswer::Skipped(error) => {
+            // In a watched folder it was the capture of another part, which has no verdict now.
+            if state.session.is_watching() {
+                state.session.failed = Some(error.clone());
+                notify(state, Notice::from(error).about(NoticeTopic::Scene));
+            } else {
+                notify(state, error.into());
+            }
+        }
         LiveAnswer::AtItsEnd => {
             ended(state);
             let spec = state.session.source.followed();
@@ -363,15 +380,36 @@ fn receive(state: &mut State, answer: LiveAnswer) {
     }
 }
 
-/// Shows the latest inspection if Inspect is in front; other workspaces keep what they show.
+/// Shows the latest inspection, at once if Inspect is in front: other workspaces keep what they show.
 fn show(state: &mut State, inspected: Arc<Inspected>) {
     let is_shown = state
         .session
         .shown
         .as_ref()
         .is_some_and(|shown| Arc::ptr_eq(&shown.inspected, &inspected));
-    if is_shown || state.session.workspace != WorkspaceKind::Inspect || !state.session.is_live() {
+    if is_shown || !state.session.is_live() {
         return;
+    }
+    if state.session.workspace == WorkspaceKind::Inspect {
+        show_latest(state, inspected);
+    } else {
+        state.follower.unseen = Some((state.generation, inspected));
+    }
+}
+
+/// Inspect comes to the front: shows what was inspected meanwhile, unless something newer is shown.
+pub(in crate::app) fn show_unseen(state: &mut State) {
+    if let Some((generation, inspected)) = state.follower.unseen.take()
+        && generation == state.generation
+    {
+        show_latest(state, inspected);
+    }
+}
+
+fn show_latest(state: &mut State, inspected: Arc<Inspected>) {
+    state.follower.unseen = None;
+    if state.session.is_watching() {
+        remove_notices(state, NoticeTopic::Scene);
     }
     state.use_library(&inspected.library);
     state.session.failed = None;
@@ -499,8 +537,7 @@ mod tests {
         }
     }
 
-    #[test]
-    fn each_capture_of_a_watched_folder_is_a_part_of_its_own() {
+    fn watching() -> State {
         let camera = Camera::opened_by(|_| {
             Ok(Box::new(Hanging {
                 fender: HangingPart::new(PartKind::Fender, 3),
@@ -510,10 +547,14 @@ mod tests {
         let library_cache = LibraryCache::new(Some("reference_parts".into()), camera);
         let mut state = State::new(&TaskRunner::without_threads(), &library_cache);
         let spec: SourceSpec = "watch:captures".parse().expect("a source");
-        state.session.source = Source::Camera(Box::new(spec.clone()));
+        state.session.source = Source::Camera(Box::new(spec));
+        state
+    }
+
+    #[test]
+    fn each_capture_of_a_watched_folder_is_a_part_of_its_own() {
+        let mut state = watching();
         let parts = [(); 2].map(|()| {
-            toggle(&mut state);
-            assert!(lock(&state.session.live.parts).begin(&spec).is_none());
             apply_any(&mut state, Action::Capture);
             assert!(state.inspector.run_waiting());
             inspector::update(&mut state);
@@ -521,6 +562,45 @@ mod tests {
             shown.inspected.hung().clone()
         });
         assert_ne!(parts[0], parts[1]);
+    }
+
+    #[test]
+    fn a_capture_does_not_end_the_watch_of_a_folder() {
+        let mut state = watching();
+        toggle(&mut state);
+        apply_any(&mut state, Action::Capture);
+        assert!(state.session.is_live() && state.inspector.running().is_none());
+        assert_eq!(state.notices.len(), 1, "it says that each is inspected");
+    }
+
+    #[test]
+    fn a_capture_of_a_watched_folder_that_cannot_be_read_leaves_no_result() {
+        let mut state = watching();
+        toggle(&mut state);
+        let error = UserError {
+            what: "the file ends early".into(),
+            advice: "Copy it again".into(),
+        };
+        receive(&mut state, LiveAnswer::Skipped(error.clone()));
+        assert_eq!(state.session.failed, Some(error.clone()));
+        // The last frame of a camera stands for the part that hangs there.
+        state.session.source = Source::Cell(CellChoice::default());
+        state.session.failed = None;
+        receive(&mut state, LiveAnswer::Skipped(error));
+        assert!(state.session.failed.is_none() && state.session.is_live());
+    }
+
+    #[test]
+    fn what_live_inspects_behind_another_workspace_is_shown_when_inspect_is_back() {
+        let mut state = watching();
+        toggle(&mut state);
+        apply_any(&mut state, Action::GoTo(WorkspaceKind::History));
+        assert!(state.follower.task.run_waiting());
+        let events = update(&mut state);
+        assert!(!events.is_empty() && state.session.shown.is_none());
+        toggle(&mut state);
+        apply_any(&mut state, Action::GoTo(WorkspaceKind::Inspect));
+        assert!(state.session.shown.is_some());
     }
 
     /// Title of the running or waiting job.

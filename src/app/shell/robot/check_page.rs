@@ -327,5 +327,12 @@ fn drift(ui: &mut Ui, checks: &[CellCheck], baseline: &CellBaseline, units: Unit
     // The limit in both directions.
     let least_span = 2.0 * baseline.limits.shift.0;
     let title = text!("robot-shift-over-time");
-    over_time(ui, &at, &title, &curves, (&written, least_span), theme);
+    over_time(
+        ui,
+        &at,
+        &title,
+        &curves,
+        (&written, least_span, f64::INFINITY),
+        theme,
+    );
 }

@@ -1,9 +1,9 @@
 //! Roles: the operator watches verdicts, the engineer may change what they depend on.
 //!
 //! The operator's view prevents accidental changes of recipe, thresholds, library and cell: an action that would change them
-//! asks for the engineer's view first. If a PIN is set, it is asked for, and after some time without input the window returns
-//! to the operator's view. This prevents accidents but not sabotage: anybody can edit the files of the settings and the
-//! library.
+//! asks for the engineer's view first. If a PIN is set, it is asked for, also for another source, and after some time without
+//! input the window returns to the operator's view. This prevents accidents but not sabotage: anybody can edit the files of
+//! the settings and the library.
 
 mod chip;
 mod dialog;
@@ -126,7 +126,9 @@ pub enum RoleAction {
 
 /// Returns the action, unless it needs the engineer's view, which is then asked for first.
 pub(in crate::app) fn permitted(state: &mut State, action: Action) -> Option<Action> {
-    if state.session.role == UserRole::Engineer || !needs_engineer(&action) {
+    // The window starts with the source of the former session.
+    let is_free = state.session.role == UserRole::Engineer || state.inspector.is_start;
+    if is_free || !needs_engineer(&action, state.roles.pin.is_some()) {
         return Some(action);
     }
     ask_engineer(state, action);

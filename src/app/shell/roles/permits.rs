@@ -18,19 +18,22 @@ pub(in crate::app) fn is_operators(workspace: WorkspaceKind) -> bool {
     }
 }
 
-/// True for actions that change recipe, thresholds, library or cell, and for those of the engineer's workspaces.
+/// True for actions that change recipe, thresholds, library or cell, and for those of the engineer's workspaces; with a PIN,
+/// also for those that change the source.
 ///
 /// Lists every action, so that each new one needs a decision.
-pub(super) fn needs_engineer(action: &Action) -> bool {
+pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
     match action {
         Action::GoTo(workspace) | Action::Press(workspace, _) => !is_operators(*workspace),
-        Action::Ask(ask) | Action::Chosen(ask, _) => asks_for_engineer(*ask),
+        Action::Ask(ask) | Action::Chosen(ask, _) => asks_for_engineer(*ask, has_pin),
         Action::Role(action) => matches!(
             action,
             RoleAction::SetPin | RoleAction::RemovePin | RoleAction::LockAfter(_)
         ),
-        // Verdicts depend on the averaging of depth.
-        Action::Live(action) => matches!(action, LiveAction::Average(_)),
+        // The next capture is of the source that is chosen, and a file that is opened is the source.
+        Action::Live(LiveAction::Use(_) | LiveAction::SetUp(Some(_)))
+        | Action::UseCell(_)
+        | Action::Open(_) => has_pin,
         Action::Robot(action) => !matches!(
             action,
             RobotAction::Close | RobotAction::Check(CheckAction::Cancel)
@@ -39,10 +42,11 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         Action::UseConvention(_)
         | Action::TakeEmptyCell
         | Action::ForgetEmptyCell
-        | Action::UseFoundLibrary => true,
-        Action::Capture
-        | Action::UseCell(_)
-        | Action::Open(_)
+        | Action::UseFoundLibrary
+        // Verdicts depend on the averaging of depth.
+        | Action::Live(LiveAction::Average(_)) => true,
+        Action::Live(_)
+        | Action::Capture
         | Action::CancelInspection
         | Action::CancelTask(_)
         | Action::EngineerIn(_)
@@ -53,6 +57,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::Speak(_)
         | Action::ToggleHelp
         | Action::Dismiss(_)
+        | Action::DismissAll
         | Action::Reread(_)
         | Action::Notify(_)
         | Action::Quit
@@ -62,13 +67,13 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
     }
 }
 
-fn asks_for_engineer(ask: DialogRequest) -> bool {
+fn asks_for_engineer(ask: DialogRequest, has_pin: bool) -> bool {
     match ask {
         DialogRequest::Library | DialogRequest::Part => true,
         DialogRequest::Scene
         | DialogRequest::Scan
         | DialogRequest::Recording
-        | DialogRequest::WatchedFolder
-        | DialogRequest::RecordTo => false,
+        | DialogRequest::WatchedFolder => has_pin,
+        DialogRequest::RecordTo => false,
     }
 }

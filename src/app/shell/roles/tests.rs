@@ -1,7 +1,14 @@
 use super::*;
-use crate::app::shell::{
-    action::{DialogRequest, apply as apply_any},
-    robot::{CheckAction, RobotAction},
+use crate::{
+    app::{
+        inspection::source::CellChoice,
+        shell::{
+            action::{DialogRequest, apply as apply_any},
+            live::LiveAction,
+            robot::{CheckAction, RobotAction},
+        },
+    },
+    capture::{KinectSpec, SimulatedSpec, SourceSpec},
 };
 
 fn write(state: &mut State, digits: &str) {
@@ -47,6 +54,33 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
     apply_any(&mut state, Action::Capture);
     assert!(state.inspector.running().is_some());
     assert!(apply_any(&mut state, Action::Export).is_some());
+}
+
+#[test]
+fn another_source_takes_the_engineer_if_there_is_a_pin() {
+    let others = || {
+        [
+            Action::UseCell(CellChoice::InTurn),
+            Action::Open("door.pcd".into()),
+            Action::Ask(DialogRequest::Scene),
+            Action::Chosen(DialogRequest::Recording, "recorded".into()),
+            Action::Live(LiveAction::Use(SourceSpec::Kinect(KinectSpec::default()))),
+            Action::Live(LiveAction::SetUp(Some(SimulatedSpec::default()))),
+        ]
+    };
+    for has_pin in [false, true] {
+        for action in others() {
+            let mut state = if has_pin {
+                with_pin("2468")
+            } else {
+                State::default()
+            };
+            state.session.role = UserRole::Operator;
+            let what = format!("{action:?}");
+            apply_any(&mut state, action);
+            assert_eq!(state.roles.asked.is_some(), has_pin, "{what}");
+        }
+    }
 }
 
 #[test]

@@ -50,7 +50,7 @@ pub struct Track {
     /// Error of the final pose, where the truth is known.
     pub true_error: Option<rigid::PoseDelta>,
     /// Why the final pose should not be relied upon.
-    pub doubt: Option<UserError>,
+    pub doubts: Vec<UserError>,
 }
 
 /// Smallest E plotted, square metres: (10 nm)², below the resolution of `f32` points.
@@ -103,7 +103,10 @@ impl Track {
             fit: estimate.fit,
             uncertainty: estimate.uncertainty,
             true_error: pair.true_error(&end),
-            doubt: estimate.doubt().map(|doubt| doubted(&doubt, pair)),
+            doubts: warnings(estimate)
+                .iter()
+                .map(|doubt| doubted(doubt, pair))
+                .collect(),
             e_m2,
             poses,
         }
@@ -188,6 +191,17 @@ pub(super) fn in_the_window(error: &PoseError) -> UserError {
     }
 }
 
+/// The doubt about a pose and, if it is another one, that the pose is unconstrained, as its uncertainty shows.
+fn warnings(estimate: &PoseEstimate) -> Vec<PoseWarning> {
+    let doubt = estimate.doubt();
+    let freedom = estimate.uncertainty.and_then(|bounds| bounds.freedom);
+    let loose = freedom.map(|freedom| PoseWarning::Loose { freedom });
+    doubt
+        .into_iter()
+        .chain(loose.filter(|_| loose != doubt))
+        .collect()
+}
+
 fn doubted(doubt: &PoseWarning, pair: &Pair) -> UserError {
     let advice = match doubt {
         PoseWarning::Ambiguous { .. } => text!("align-which-way-round"),
@@ -204,5 +218,47 @@ fn doubted(doubt: &PoseWarning, pair: &Pair) -> UserError {
     UserError {
         what: sentence(&results::pose_warning(doubt)),
         advice,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        stages::pose::{Axis, FreeMotion, RunnerUp},
+        units::{Metres, Radians},
+    };
+
+    #[test]
+    fn an_ambiguous_pose_that_is_unconstrained_too_says_both() {
+        let freedom = FreeMotion::Slide(Axis::Long);
+        let mut estimate = PoseEstimate {
+            target_from_source: RigidTransform::identity(),
+            method: PoseMethod::Global,
+            stopped: Stopped::Converged,
+            iterations: Vec::new(),
+            fit: FitQuality {
+                e_m2: 0.0012,
+                rms_m: 0.0025,
+                overlap: 0.89,
+                sight: None,
+            },
+            uncertainty: Some(Uncertainty {
+                shift: Metres(f64::INFINITY),
+                turn: Radians(f64::INFINITY),
+                freedom: Some(freedom),
+            }),
+            runner_up: Some(RunnerUp {
+                target_from_source: RigidTransform::identity(),
+                ratio: 1.03,
+            }),
+        };
+        let loose = PoseWarning::Loose { freedom };
+        let ambiguous = PoseWarning::Ambiguous { ratio: 1.03 };
+        assert_eq!(warnings(&estimate), [ambiguous, loose]);
+        estimate.runner_up = None;
+        assert_eq!(warnings(&estimate), [loose]);
+        estimate.uncertainty = None;
+        assert!(warnings(&estimate).is_empty());
     }
 }

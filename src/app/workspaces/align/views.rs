@@ -258,12 +258,12 @@ fn heading(ui: &mut Ui, run: &MethodRun, session: &Session) {
         Ok(track) => {
             let ending = track.ending();
             let ending = RichText::new(&ending).small();
-            match &track.doubt {
-                None => ui.label(ending),
-                Some(doubt) => ui
-                    .label(ending.color(theme.warning))
-                    .on_hover_text(format!("{}\n{}", doubt.what, doubt.advice)),
-            };
+            if track.doubts.is_empty() {
+                ui.label(ending);
+            } else {
+                ui.label(ending.color(theme.warning))
+                    .on_hover_text(doubts(track));
+            }
             let rms = session.units.length(track.fit.rms_m);
             let overlap = format!("{:.0}", track.fit.overlap * 100.0);
             let e = scientific(track.end_e_m2());
@@ -278,6 +278,13 @@ fn heading(ui: &mut Ui, run: &MethodRun, session: &Session) {
         }
         Err(_) => weak(ui, &text!("align-no-pose-figures", time = ms)),
     }
+}
+
+/// Returns the doubts about the final pose, with what to do.
+fn doubts(track: &Track) -> String {
+    let lines = track.doubts.iter();
+    let lines = lines.flat_map(|doubt| [doubt.what.as_str(), doubt.advice.as_str()]);
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Draws over the view which iteration is shown, and doubts about the final pose.
@@ -305,10 +312,9 @@ fn below(ui: &Ui, rect: Rect, track: &Track, place: usize) {
         font::small(),
         theme.weak_text,
     );
-    if let Some(doubt) = track.doubt.as_ref().filter(|_| place == last) {
+    if place == last && !track.doubts.is_empty() {
         let width = rect.width() - 2.0 * space::MEDIUM;
-        let text = format!("{}\n{}", doubt.what, doubt.advice);
-        let galley = painter.layout(text, font::small(), theme.warning, width);
+        let galley = painter.layout(doubts(track), font::small(), theme.warning, width);
         let at = written.left_top() - vec2(0.0, galley.size().y + 4.0);
         let plate = Rect::from_min_size(at, galley.size()).expand(4.0);
         painter.rect_filled(plate, ROUNDING, theme.panel);

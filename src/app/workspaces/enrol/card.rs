@@ -37,6 +37,8 @@ pub(super) fn ui(
         .and_then(|(library, place)| library.parts.get(place));
     let can_change = library.is_some_and(|library| library.is_fixed.is_none());
     let can_change = can_change && !enrol.is_changing_library();
+    // The scroll bar is beside the fields, not over them.
+    ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let title = part.map_or(open.name.as_str(), PartMeta::shown_title);
         ui.heading(title);

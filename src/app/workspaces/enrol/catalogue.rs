@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use egui::{
-    Align, Align2, Rect, Response, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2,
+    Align, Color32, FontId, Galley, Painter, Rect, Response, RichText, ScrollArea, Sense, Stroke,
+    StrokeKind, Ui, pos2, vec2,
 };
 
 use super::{EnrolAction, EnrolState, thumbnails::Thumbnails};
@@ -21,8 +22,10 @@ use crate::{
 
 /// Size of a part's card, logical pixels.
 const CARD: [f32; 2] = [236.0, 84.0];
-/// Characters that fit beside the picture.
+/// Maximum number of characters beside the picture; fewer if they are wide.
 const LETTERS: usize = 18;
+/// Number of characters that is never shortened any further.
+const FEWEST_LETTERS: usize = 5;
 
 /// The strip of parts, and what it keeps between frames.
 #[derive(Default)]
@@ -40,7 +43,7 @@ struct CardContent<'a> {
     below: [String; 2],
     texture: Option<&'a egui::TextureHandle>,
     is_damaged: bool,
-    latest: Option<&'a str>,
+    latest: Option<String>,
 }
 
 impl Catalogue {
@@ -106,7 +109,7 @@ impl Catalogue {
                         below: when(part),
                         texture: thumbnails.of_part(place),
                         is_damaged: false,
-                        latest: latest.map(|latest| latest.what.as_str()),
+                        latest: latest.map(|latest| latest.what.shown()),
                     };
                     let response = card(ui, &shown, enrol, actions);
                     if latest.is_some() && !wants_more {
@@ -130,6 +133,24 @@ fn when(part: &PartMeta) -> [String; 2] {
     [at.strftime("%Y-%m-%d").to_string(), seen]
 }
 
+/// Lays out a text, shortened in its middle until it fits.
+fn fitted_text(
+    painter: &Painter,
+    text: &str,
+    font: &FontId,
+    room: f32,
+    colour: Color32,
+) -> Arc<Galley> {
+    let mut letters = LETTERS;
+    loop {
+        let drawn = painter.layout_no_wrap(shortened(text, letters), font.clone(), colour);
+        if drawn.size().x <= room || letters <= FEWEST_LETTERS {
+            return drawn;
+        }
+        letters -= 1;
+    }
+}
+
 fn card(
     ui: &mut Ui,
     shown: &CardContent<'_>,
@@ -146,7 +167,7 @@ fn card(
     } else {
         theme.control
     };
-    let edge = match shown.latest {
+    let edge = match &shown.latest {
         _ if is_open => Stroke::new(1.0, theme.accent),
         Some(_) => Stroke::new(2.0, theme.accepted),
         None => Stroke::new(1.0, theme.edge),
@@ -162,8 +183,8 @@ fn card(
     }
     let mut at = pos2(picture.right() + space::SMALL, rect.top() + 9.0);
     // For the part changed last, show the change in place of the day.
-    let (day, colour) = match shown.latest {
-        Some(what) => (what, theme.accepted),
+    let (day, colour) = match &shown.latest {
+        Some(what) => (what.as_str(), theme.accepted),
         None => (shown.below[0].as_str(), theme.weak_text),
     };
     for (text, font, colour) in [
@@ -172,15 +193,17 @@ fn card(
         (day, font::small(), colour),
         (&shown.below[1], font::small(), theme.weak_text),
     ] {
-        let text = shortened(text, LETTERS);
-        let drawn = painter.text(at, Align2::LEFT_TOP, text, font, colour);
-        at.y = drawn.bottom() + 2.0;
+        let room = rect.right() - space::SMALL - at.x;
+        let drawn = fitted_text(&painter, text, &font, room, colour);
+        let height = drawn.size().y;
+        painter.galley(at, drawn, colour);
+        at.y += height + 2.0;
     }
     focus_ring(ui, rect, &response);
     response.widget_info(|| {
         let label = text!("enrol-enrolled", part = shown.title);
         let mut info = egui::WidgetInfo::selected(egui::Role::Button, true, is_open, label);
-        info.current_text_value = shown.latest.map(str::to_owned);
+        info.current_text_value.clone_from(&shown.latest);
         info
     });
     if response.gained_focus() {

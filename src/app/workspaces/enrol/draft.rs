@@ -10,8 +10,10 @@ use super::{
     work::Checked,
 };
 use crate::{
-    app::{inspection::library_cache::LibraryView, user_error::UserError},
-    library::{BadName, MAX_TITLE, PartMeta, PartName, PartNaming, SharedTitle, Similarity},
+    app::inspection::library_cache::LibraryView,
+    library::{
+        BadName, EnrolError, MAX_TITLE, PartMeta, PartName, PartNaming, SharedTitle, Similarity,
+    },
 };
 
 /// The part that is about to be enrolled.
@@ -26,7 +28,7 @@ pub struct Draft {
     /// The points kept.
     pub selection: Arc<Selection>,
     /// The part that would be stored, or why none can be; `None` until known.
-    pub checked: Option<Result<Arc<Checked>, UserError>>,
+    pub checked: Option<Result<Arc<Checked>, EnrolError>>,
     /// The form that describes the part.
     pub form: Form,
 }
@@ -99,12 +101,11 @@ impl Form {
     }
 
     /// Fills in a field; until a name is entered, it follows the title.
-    pub fn write(&mut self, field: Field) {
+    pub fn write(&mut self, field: Field, library: Option<&LibraryView>) {
         match field {
             Field::Title(title) => {
                 if self.named_by == NamedBy::Title {
-                    let proposed = PartName::proposed(&title);
-                    self.name = proposed.map_or_else(String::new, String::from);
+                    self.name = proposed_name(&title, library);
                 }
                 self.title = title.chars().take(MAX_TITLE).collect();
             }
@@ -145,6 +146,25 @@ impl Form {
     }
 }
 
+/// Proposes a name for a title: `part` or `part_2`… if none of its letters may be in a name; none for an empty title.
+fn proposed_name(title: &str, library: Option<&LibraryView>) -> String {
+    if let Some(name) = PartName::proposed(title) {
+        return name.into();
+    }
+    if title.trim().is_empty() {
+        return String::new();
+    }
+    let is_taken = |name: &str| {
+        library.is_some_and(|library| {
+            let mut damaged = library.damaged.iter();
+            library.place_of(name).is_some() || damaged.any(|damaged| damaged.entry == name)
+        })
+    };
+    let numbered = (2..).map(|number: u32| format!("part_{number}"));
+    let mut names = std::iter::once("part".to_owned()).chain(numbered);
+    names.find(|name| !is_taken(name)).unwrap_or_default()
+}
+
 /// An enrolled part whose card is open.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OpenedPart {
@@ -157,22 +177,48 @@ pub struct OpenedPart {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::{inspection::library_cache::Damaged, user_error::UserError};
 
     #[test]
     fn the_name_follows_the_title_until_a_person_writes_one() {
         let mut form = Form::default();
-        form.write(Field::Title("Front door, left".into()));
+        let write = |form: &mut Form, field| form.write(field, None);
+        write(&mut form, Field::Title("Front door, left".into()));
         assert_eq!(form.name, "front_door_left");
-        form.write(Field::Name("door 7".into()));
-        form.write(Field::Title("Door 7".into()));
+        write(&mut form, Field::Name("door 7".into()));
+        write(&mut form, Field::Title("Door 7".into()));
         assert_eq!(form.name, "door 7");
         assert!(matches!(form.words(), Err(BadName::BadCharacter { .. })));
-        form.write(Field::Name(String::new()));
-        form.write(Field::Title(" Door 8 ".into()));
+        write(&mut form, Field::Name(String::new()));
+        write(&mut form, Field::Title(" Door 8 ".into()));
         let words = form.words().expect("a name");
         assert_eq!(
             (words.name.as_str(), words.title.as_str()),
             ("door_8", "Door 8")
         );
+    }
+
+    #[test]
+    fn a_title_without_a_letter_that_a_name_may_have_is_named_part() {
+        let named = |title: &str, taken: &[&str]| {
+            let damaged = taken.iter().map(|entry| Damaged {
+                entry: (*entry).to_owned(),
+                trouble: UserError {
+                    what: String::new(),
+                    advice: String::new(),
+                },
+            });
+            let library = LibraryView {
+                damaged: damaged.collect(),
+                ..LibraryView::default()
+            };
+            let mut form = Form::default();
+            form.write(Field::Title(title.into()), Some(&library));
+            form.name
+        };
+        assert_eq!(named("右前 涂装", &[]), "part");
+        assert_eq!(named("右前 涂装", &["part", "part_2"]), "part_3");
+        assert_eq!(named("右前 2", &[]), "2");
+        assert_eq!(named(" ", &[]), "");
     }
 }

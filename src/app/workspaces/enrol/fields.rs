@@ -3,15 +3,12 @@
 use egui::{RichText, TextEdit, Ui, vec2};
 
 use super::draft::{Field, Form};
-use crate::{
-    app::{
-        language::text,
-        ui::{
-            theme::{Theme, space},
-            widgets::{Mark, line_mark},
-        },
+use crate::app::{
+    language::{enrolment::bad_name, text},
+    ui::{
+        theme::{Theme, space},
+        widgets::{Mark, line_mark},
     },
-    error::Advice as _,
 };
 
 /// Draws the fields; returns the one that was edited.
@@ -53,7 +50,8 @@ pub(super) fn ui(ui: &mut Ui, form: &Form) -> Option<Field> {
     if !(form.name.is_empty() && form.title.is_empty())
         && let Err(error) = form.words()
     {
-        complaint(ui, &error.to_string(), &error.advice());
+        let [what, advice] = bad_name(&error);
+        complaint(ui, &what, &advice);
     }
     if let Some(notes) = line(
         ui,

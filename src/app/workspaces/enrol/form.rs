@@ -13,7 +13,10 @@ use super::{
 };
 use crate::{
     app::{
-        language::{keys, text},
+        language::{
+            enrolment::{enrol_error, enrol_warning},
+            keys, text,
+        },
         shell::session::Session,
         shots::summary,
         ui::{
@@ -58,6 +61,8 @@ pub(super) fn ui(
             ..Margin::ZERO
         }))
         .show(ui, |ui| buttons(ui, draft, enrol, session, actions));
+    // The scroll bar is beside the fields, not over them.
+    ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let title = what_save_does(enrol, session);
         ui.heading(title);
@@ -76,8 +81,10 @@ pub(super) fn ui(
             summary(ui, fused, session.units);
         }
         likeness(ui, draft, session, actions);
-        for warning in draft.ready().map_or(&[][..], |checked| &checked.warnings) {
-            complaint(ui, &warning.what, &warning.advice);
+        let warnings = draft.ready().map(|checked| &checked.enrolled.warnings);
+        for warning in warnings.into_iter().flatten() {
+            let [what, advice] = enrol_warning(warning);
+            complaint(ui, &what, &advice);
         }
         fixed(ui, session);
     });
@@ -161,7 +168,10 @@ fn stored(
         }
     }
     match &draft.checked {
-        Some(Err(trouble)) => complaint(ui, &trouble.what, &trouble.advice),
+        Some(Err(error)) => {
+            let [what, advice] = enrol_error(error);
+            complaint(ui, &what, &advice);
+        }
         None if !is_working => {
             said(ui, Mark::Look, &text!("enrol-stored-unknown"));
             if text_button(ui, &text!("enrol-look-again")).clicked() {

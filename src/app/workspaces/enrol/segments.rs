@@ -25,8 +25,8 @@ pub struct Segments {
 pub struct Segment {
     /// What kind of segment it is.
     pub kind: SegmentKind,
-    /// Name for a person.
-    pub title: String,
+    /// What it is called.
+    pub title: SegmentTitle,
     /// Number of points.
     pub num_points: usize,
     /// Default action.
@@ -42,6 +42,43 @@ pub enum SegmentKind {
     Plane(u8),
     /// Points of pieces too small for a surface, and of surfaces beyond the limit.
     Specks,
+}
+
+/// What a segment is called; numbers count from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SegmentTitle {
+    /// The part.
+    Part,
+    /// The stand that holds the part.
+    Stand,
+    /// Another surface in front of the background.
+    Surface(usize),
+    /// A background plane.
+    Background(usize),
+    /// A connected piece of everything.
+    Piece(usize),
+    /// Pieces too small for a surface.
+    Specks,
+    /// A mesh.
+    Mesh,
+    /// What surrounds the part of a scan.
+    Cell,
+}
+
+impl SegmentTitle {
+    /// Name for a person.
+    pub fn shown(self) -> String {
+        match self {
+            Self::Part => text!("enrol-segment-part"),
+            Self::Stand => text!("enrol-segment-stand"),
+            Self::Surface(number) => text!("enrol-segment-surface", number = number),
+            Self::Background(number) => text!("enrol-segment-background", number = number),
+            Self::Piece(number) => text!("enrol-segment-piece", number = number),
+            Self::Specks => text!("enrol-segment-specks"),
+            Self::Mesh => text!("enrol-segment-mesh"),
+            Self::Cell => text!("enrol-segment-cell"),
+        }
+    }
 }
 
 /// What is done with points.
@@ -66,11 +103,11 @@ impl Segments {
         let mut all = Self::of_num(found.labels.len());
         let part = found.part.as_ref().map(|part| part.indices.clone());
         let part = part.unwrap_or_default();
-        let title = text!("enrol-segment-part");
+        let title = SegmentTitle::Part;
         all.add(SegmentKind::Surface, title, PointAction::Kept, &part);
         let stand = found.part.as_ref().map(|part| part.stand.clone());
         let stand = stand.unwrap_or_default();
-        let title = text!("enrol-segment-stand");
+        let title = SegmentTitle::Stand;
         all.add(SegmentKind::Surface, title, PointAction::Dropped, &stand);
         let others = surfaces(scene, &found, params);
         let is_other = |indices: &&Vec<u32>| {
@@ -79,13 +116,13 @@ impl Segments {
         };
         let others = others.iter().filter(is_other);
         for (number, indices) in others.take(Self::MAX_SURFACES).enumerate() {
-            let title = text!("enrol-segment-surface", number = number + 1);
+            let title = SegmentTitle::Surface(number + 1);
             all.add(SegmentKind::Surface, title, PointAction::Dropped, indices);
         }
         for plane in 0..found.planes.len() as u8 {
             let is_on = |label: &PointLabel| *label == PointLabel::Background(plane);
             let indices = places(found.labels.iter().map(is_on));
-            let title = text!("enrol-segment-background", number = plane + 1);
+            let title = SegmentTitle::Background(usize::from(plane) + 1);
             let kind = SegmentKind::Plane(plane);
             all.add(kind, title, PointAction::Dropped, &indices);
         }
@@ -98,7 +135,7 @@ impl Segments {
         let mut all = Self::of_num(scene.cloud.points.len());
         let found = pieces(scene, params);
         for (number, indices) in found.iter().take(Self::MAX_SURFACES).enumerate() {
-            let title = text!("enrol-segment-piece", number = number + 1);
+            let title = SegmentTitle::Piece(number + 1);
             all.add(SegmentKind::Surface, title, PointAction::Kept, indices);
         }
         all.add_specks(scene, PointAction::Kept);
@@ -115,7 +152,7 @@ impl Segments {
     pub(super) fn add(
         &mut self,
         kind: SegmentKind,
-        title: String,
+        title: SegmentTitle,
         usual: PointAction,
         indices: &[u32],
     ) {
@@ -138,12 +175,7 @@ impl Segments {
     fn add_specks(&mut self, scene: &SceneCloud, usual: PointAction) {
         let points = scene.cloud.points.iter().zip(&self.of_point);
         let indices = places(points.map(|(p, of)| *of == Self::NONE && is_finite(p)));
-        self.add(
-            SegmentKind::Specks,
-            text!("enrol-segment-specks"),
-            usual,
-            &indices,
-        );
+        self.add(SegmentKind::Specks, SegmentTitle::Specks, usual, &indices);
     }
 }
 

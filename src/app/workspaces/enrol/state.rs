@@ -14,7 +14,7 @@ use super::{
 use crate::{
     app::{
         inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
-        language::text,
+        language::{enrolment::bad_name, text},
         shell::{
             context::ShellContext,
             file_dialog::FileDialog,
@@ -27,7 +27,7 @@ use crate::{
         ui::viewport::DrawnShape,
         user_error::UserError,
     },
-    library::PartName,
+    library::{BadName, PartName},
 };
 
 /// State of the workspace.
@@ -217,7 +217,7 @@ impl EnrolState {
             EnrolAction::Panes(panes) => self.panes = panes,
             EnrolAction::Write(field) => {
                 if let Some(Draft { form, .. }) = &mut self.draft {
-                    form.write(field);
+                    form.write(field, library);
                     // Under another name it is another part.
                     self.replacing.take_if(|name| name.as_str() != form.name);
                 }
@@ -235,7 +235,7 @@ impl EnrolState {
             EnrolAction::Close => self.open = None,
             EnrolAction::WriteOpen(field) => {
                 if let Some(open) = &mut self.open {
-                    open.form.write(field);
+                    open.form.write(field, library);
                 }
             }
             EnrolAction::Rename => self.rename(cx),
@@ -413,7 +413,7 @@ impl EnrolState {
             return;
         };
         match (draft.form.words(), draft.ready()) {
-            (Err(error), _) => cx.notify(UserError::of(&error)),
+            (Err(error), _) => cx.notify(wrong_name(&error)),
             (Ok(_), None) => cx.notify(Notice::look(
                 text!("enrol-nothing-to-save"),
                 text!("enrol-nothing-to-save-advice"),
@@ -435,7 +435,7 @@ impl EnrolState {
                 let rename = LibraryChange::Rename(open.name.clone(), words);
                 self.change(rename, DraftEffect::Stays, cx);
             }
-            Err(error) => cx.notify(UserError::of(&error)),
+            Err(error) => cx.notify(wrong_name(&error)),
         }
     }
 
@@ -444,6 +444,11 @@ impl EnrolState {
         let form = form_of(&name, library).unwrap_or_default();
         self.open = Some(OpenedPart { name, form });
     }
+}
+
+fn wrong_name(error: &BadName) -> UserError {
+    let [what, advice] = bad_name(error);
+    UserError { what, advice }
 }
 
 pub(super) fn form_of(name: &PartName, library: Option<&LibraryView>) -> Option<Form> {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     picture_plane::PicturePlane,
     scanned::ScannedMatter,
-    segments::{PointAction, SegmentKind, Segments},
+    segments::{PointAction, SegmentKind, SegmentTitle, Segments},
 };
 use crate::{
     app::{
@@ -156,7 +156,7 @@ impl EnrolInput {
         let cloud = mesh.sample_evenly(params.max_points, 1).ok_or(no_area)?;
         let mut whole = Segments::of_num(cloud.points.len());
         let all: Vec<u32> = (0..cloud.points.len() as u32).collect();
-        let title = text!("enrol-segment-mesh");
+        let title = SegmentTitle::Mesh;
         whole.add(SegmentKind::Surface, title, PointAction::Kept, &all);
         Ok(Self {
             origin,
@@ -176,11 +176,11 @@ impl EnrolInput {
         let num_points = matter.cloud.points.len();
         let mut segments = Segments::of_num(num_points);
         let (part, rest) = (matter.voted(true), matter.voted(false));
-        let title = text!("enrol-segment-part");
+        let title = SegmentTitle::Part;
         segments.add(SegmentKind::Surface, title, PointAction::Kept, &part);
         segments.add(
             SegmentKind::Plane(0),
-            text!("enrol-segment-cell"),
+            SegmentTitle::Cell,
             PointAction::Dropped,
             &rest,
         );
@@ -273,7 +273,7 @@ mod tests {
             assert_eq!(in_lists, subject.cloud().num_finite(), "{taking:?}");
             for (place, segment) in segments.list.iter().enumerate() {
                 let of_it = segments.of_point.iter().filter(|of| **of == place as u16);
-                assert_eq!(of_it.count(), segment.num_points, "{}", segment.title);
+                assert_eq!(of_it.count(), segment.num_points, "{:?}", segment.title);
             }
         }
         let segmented = subject.segments(InitialSelection::Segmented);
@@ -281,7 +281,8 @@ mod tests {
             .list
             .iter()
             .filter(|s| s.usual == PointAction::Kept);
-        assert_eq!(kept.map(|s| s.title.as_str()).collect::<Vec<_>>(), ["Part"]);
+        let kept: Vec<SegmentTitle> = kept.map(|s| s.title).collect();
+        assert_eq!(kept, [SegmentTitle::Part]);
         assert!(
             segmented
                 .list

@@ -156,7 +156,7 @@ pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<EnrolAction
             ui.horizontal(|ui| {
                 for (place, segment) in segments.list.iter().enumerate() {
                     let num_kept = kept_of(place);
-                    let (title, all) = (&segment.title, grouped(segment.num_points));
+                    let (title, all) = (segment.title.shown(), grouped(segment.num_points));
                     let (word, text) = if num_kept == 0 {
                         let word = text!("enrol-dropped");
                         let text = format!("{title} · {all} · {word}");
@@ -165,7 +165,7 @@ pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<EnrolAction
                         let kept = grouped(num_kept);
                         let text = text!(
                             "enrol-segment-partly",
-                            segment = title,
+                            segment = &title,
                             kept = kept,
                             all = all
                         );

@@ -74,8 +74,42 @@ pub enum DraftEffect {
 pub struct LastChangedPart {
     /// Name of the part.
     pub name: PartName,
-    /// Description of the change.
-    pub what: String,
+    /// Kind of the change.
+    pub what: PartChange,
+}
+
+/// Kind of a part's last change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PartChange {
+    /// Its name, title or notes changed.
+    Renamed,
+    /// It was brought back from the trash.
+    BroughtBack,
+    /// It was saved.
+    Saved,
+    /// Its spray path was stored or removed.
+    Path,
+}
+
+impl PartChange {
+    fn of(change: &LibraryChange) -> Self {
+        match change {
+            LibraryChange::Rename(..) => Self::Renamed,
+            LibraryChange::Restore(_) => Self::BroughtBack,
+            LibraryChange::Save(..) | LibraryChange::Remove(_) => Self::Saved,
+            LibraryChange::ReadPath(..) | LibraryChange::SetPath(..) => Self::Path,
+        }
+    }
+
+    /// Description for a person.
+    pub fn shown(self) -> String {
+        match self {
+            Self::Renamed => text!("enrol-just-renamed"),
+            Self::BroughtBack => text!("enrol-just-brought-back"),
+            Self::Saved => text!("enrol-just-saved"),
+            Self::Path => text!("enrol-path-changed"),
+        }
+    }
 }
 
 /// Direction in which a step is made.
@@ -169,14 +203,7 @@ impl EnrolState {
         self.num_changes += 1;
         self.latest = name.clone().map(|name| LastChangedPart {
             name,
-            what: match &step.change {
-                LibraryChange::Rename(..) => text!("enrol-just-renamed"),
-                LibraryChange::Restore(_) => text!("enrol-just-brought-back"),
-                LibraryChange::Save(..) | LibraryChange::Remove(_) => text!("enrol-just-saved"),
-                LibraryChange::ReadPath(..) | LibraryChange::SetPath(..) => {
-                    text!("enrol-path-changed")
-                }
-            },
+            what: PartChange::of(&step.change),
         });
         step.change = back;
         let notice = match way {
@@ -192,7 +219,7 @@ impl EnrolState {
         if let DraftEffect::MakesWay(other) = &mut step.draft {
             let coming = other.take();
             let going = self.draft.take().map(Box::new);
-            if way != UndoDirection::Back {
+            if way == UndoDirection::First {
                 saved = going.as_deref().and_then(inspectable);
             }
             self.draft = coming.map(|draft| *draft);

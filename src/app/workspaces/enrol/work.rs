@@ -16,6 +16,7 @@ use crate::{
             scan_choice::{ScanOrder, ScanRequest},
             source::SceneSource,
         },
+        language::enrolment::enrol_error,
         task::{TaskContext, TaskError},
         user_error::UserError,
     },
@@ -35,7 +36,7 @@ pub enum DraftEvent {
     /// The selection after the corrections; [`Checked`](Self::Checked) follows.
     Selected(Arc<Selection>),
     /// The part that would be stored, or why none can be.
-    Checked(Result<Arc<Checked>, UserError>),
+    Checked(Result<Arc<Checked>, EnrolError>),
     /// The poses of these shots were not found; a person has to name their file.
     PosesWanted(Box<ScanOrder>, UserError),
 }
@@ -45,8 +46,6 @@ pub enum DraftEvent {
 pub struct Checked {
     /// The part, without its name.
     pub enrolled: Arc<Enrolled>,
-    /// Warnings about it.
-    pub warnings: Vec<UserError>,
     /// Similarity to every enrolled part, the hardest to distinguish first.
     pub likenesses: Vec<Similarity>,
 }
@@ -61,7 +60,10 @@ pub(super) fn take_scene(
     let params = params_of(recipe);
     let is_cancelled = || context.is_cancelled();
     let read = EnrolInput::read(source, &params, library_cache.camera(), &is_cancelled)?;
-    let subject = read.map_err(|error| UserError::of(&error))?;
+    let subject = read.map_err(|error| {
+        let [what, advice] = enrol_error(&error);
+        UserError { what, advice }
+    })?;
     take(subject, &params, library_cache, context)
 }
 
@@ -170,7 +172,7 @@ fn check(
 ) -> Result<DraftEvent, TaskError> {
     let mut enrolled = match enrol(subject, corrections.taking, selection, params) {
         Ok(enrolled) => enrolled,
-        Err(error) => return Ok(DraftEvent::Checked(Err(UserError::of(&error)))),
+        Err(error) => return Ok(DraftEvent::Checked(Err(error))),
     };
     context.check()?;
     // Clear the placeholder name, so that no enrolled part is left out of the comparison for having the same.
@@ -179,7 +181,6 @@ fn check(
     let coverage = enrolled.part.meta.coverage;
     let likenesses = likenesses(&enrolled.reference, coverage, &loaded.library);
     Ok(DraftEvent::Checked(Ok(Arc::new(Checked {
-        warnings: enrolled.warnings.iter().map(UserError::of).collect(),
         enrolled: Arc::new(enrolled),
         likenesses,
     }))))

@@ -31,7 +31,7 @@ pub(super) fn ui(
         find(ui, &mut filter);
         days(ui, &mut filter);
         verdicts(ui, &mut filter);
-        parts(ui, session, &mut filter);
+        parts(ui, history, session, &mut filter);
         let is_filtered = *known != ListFilter::default();
         if is_filtered && text_button(ui, &text!("history-show-all")).clicked() {
             filter = ListFilter::default();
@@ -142,15 +142,24 @@ fn verdicts(ui: &mut Ui, filter: &mut ListFilter) {
     menu(ui, &label, &mut filter.verdict, all.chain(each));
 }
 
-fn parts(ui: &mut Ui, session: &Session, filter: &mut ListFilter) {
+fn parts(ui: &mut Ui, history: &HistoryState, session: &Session, filter: &mut ListFilter) {
     let enrolled = session.library.iter().flat_map(|library| &library.parts);
     let enrolled = enrolled.map(|part| {
         let name = part.name.as_str().to_owned();
         (Some(name), part.shown_title().to_owned())
     });
+    let is_enrolled = |name: &str| {
+        let library = session.library.as_ref();
+        library.is_some_and(|library| library.place_of(name).is_some())
+    };
+    // Those of another library, or removed from this one.
+    let others = history.parts.iter().flatten();
+    let others = others.filter(|(name, _)| !is_enrolled(name));
+    let others = others.map(|(name, title)| (Some(name.clone()), title.clone()));
     let all = std::iter::once((None, text!("history-filter-all-parts")));
     let label = text!("history-filter-part");
-    menu(ui, &label, &mut filter.part, all.chain(enrolled));
+    let choices = all.chain(enrolled).chain(others);
+    menu(ui, &label, &mut filter.part, choices);
 }
 
 /// Draws the fields for the first and the last day.

@@ -20,7 +20,9 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, fitted, heading, labelled, line_mark, row, shortened, texture},
+            widgets::{
+                Mark, fitted, heading, labelled, line_mark, path_row, row, shortened, texture,
+            },
         },
     },
     history::{Differences, InspectionDetail, Record, StoredVerdict, Summary, Traceability},
@@ -213,11 +215,11 @@ fn figures(ui: &mut Ui, record: &Record) {
         ..
     } = summary;
     let shown = |title: &str| stored_scene(title, *is_simulated);
-    let mut row = |name: String, value: &str| row(ui, &name, &shortened(value, 32));
-    row(text!("history-figure-scene"), &shown(scene));
+    path_row(ui, &text!("history-figure-scene"), &shown(scene));
     if source != scene {
-        row(text!("history-figure-source"), &shown(source));
+        path_row(ui, &text!("history-figure-source"), &shown(source));
     }
+    let mut row = |name: String, value: &str| row(ui, &name, &shortened(value, 32));
     row(text!("history-figure-time"), &when(*at));
     let Traceability {
         serial,

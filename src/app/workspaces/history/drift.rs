@@ -121,7 +121,7 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem) {
         &drift.at,
         &title,
         &[("", &drift.score, colours[0])],
-        (&score, 0.1),
+        (&score, 0.1, 1.0),
         theme,
     );
     let name = text!("history-drift-fit");
@@ -131,7 +131,7 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem) {
         &drift.at,
         &title,
         &[("", &drift.rms_m, colours[0])],
-        (&length, 0.002),
+        (&length, 0.002, f64::INFINITY),
         theme,
     );
     if x.iter().any(|x| x.is_finite()) {
@@ -148,7 +148,14 @@ pub(super) fn ui(ui: &mut Ui, drift: &Drift, units: UnitSystem) {
             ("z", z, colours[2]),
         ];
         let curves = curves.map(|(name, values, colour)| (name, values.as_slice(), colour));
-        over_time(ui, &drift.at, &title, &curves, (&offset, 0.02), theme);
+        over_time(
+            ui,
+            &drift.at,
+            &title,
+            &curves,
+            (&offset, 0.02, f64::INFINITY),
+            theme,
+        );
     }
 }
 

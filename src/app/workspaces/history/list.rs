@@ -18,7 +18,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::{Mark, focus_ring, mark},
+            widgets::{Mark, fitted_path, focus_ring, mark},
         },
     },
     history::{StoredVerdict, Summary},
@@ -131,6 +131,8 @@ enum Room {
 struct Column {
     name: fn() -> String,
     width: Width,
+    /// True for a text that ends in a path, which is elided at its front.
+    is_path: bool,
     text: fn(&Summary, Room) -> String,
     look: fn(&Theme) -> (FontId, Color32),
 }
@@ -151,6 +153,7 @@ const COLUMNS: [Column; 5] = [
     Column {
         name: || text!("history-column-part"),
         width: Width::Share(0.58),
+        is_path: false,
         text: |past, _| match past.num_below {
             0 => stored_title(past),
             num => text!("history-part-again", part = stored_title(past), count = num),
@@ -160,6 +163,7 @@ const COLUMNS: [Column; 5] = [
     Column {
         name: || text!("history-column-scene"),
         width: Width::Share(0.42),
+        is_path: true,
         // A remark is what others look for first, then the serial number.
         text: |past, _| {
             let scene = stored_scene(&past.scene, past.is_simulated);
@@ -173,6 +177,7 @@ const COLUMNS: [Column; 5] = [
     Column {
         name: || text!("history-column-score"),
         width: Width::Pixels([60.0; 2]),
+        is_path: false,
         text: |past, _| {
             let score = past.score.map(|[score, _]| format!("{score:.2}"));
             score.unwrap_or_default()
@@ -182,12 +187,14 @@ const COLUMNS: [Column; 5] = [
     Column {
         name: || text!("history-column-ms"),
         width: Width::Pixels([70.0, 52.0]),
+        is_path: false,
         text: |past, _| format!("{:.0}", past.total_ms),
         look: |theme| (font::body(), theme.weak_text),
     },
     Column {
         name: || text!("history-column-time"),
         width: Width::Pixels([170.0, 96.0]),
+        is_path: false,
         text: |past, room| match room {
             Room::Wide => when(past.at),
             Room::Narrow => shortly(past.at),
@@ -245,8 +252,14 @@ impl Column {
         let y = row.center().y;
         match self.width {
             Width::Share(_) => {
-                let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
-                job.wrap = TextWrapping::truncate_at_width(to - space::SMALL - from);
+                let room = to - space::SMALL - from;
+                let text = if self.is_path {
+                    fitted_path(painter, text, &font, room)
+                } else {
+                    text.to_owned()
+                };
+                let mut job = LayoutJob::simple_singleline(text, font, colour);
+                job.wrap = TextWrapping::truncate_at_width(room);
                 let galley = painter.layout_job(job);
                 let top = y - galley.size().y / 2.0;
                 painter.galley(pos2(from, top), galley, colour);
@@ -289,6 +302,12 @@ fn row(
         );
         egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, label)
     });
+    let scene = stored_scene(&past.scene, past.is_simulated);
+    let response = if scene.contains(['/', '\\']) {
+        response.on_hover_text(scene)
+    } else {
+        response
+    };
     if ui.is_rect_visible(rect) {
         let painter = ui.painter();
         if is_selected || response.hovered() {

@@ -13,7 +13,7 @@ use super::{
     drift::Drift,
     filter::ListFilter,
     statistics::{self, Statistics, StatisticsView, most_accepted},
-    work::{self, HistoryQuery, HistoryResult, OpenedInspection},
+    work::{self, HistoryQuery, HistoryResult, OpenedInspection, former_title},
 };
 use jiff::Zoned;
 
@@ -25,9 +25,7 @@ use crate::{
         task::{Task, TaskRunner},
         user_error::UserError,
     },
-    history::{
-        Differences, Filter, HistoryBuffer, HungId, Page, Retention, StoredVerdict, Summary, Usage,
-    },
+    history::{Differences, HungId, Page, Retention, Summary, Usage},
 };
 
 /// Number of inspections kept whole in memory, about 15 MB each with points and pictures. Older ones are repeated.
@@ -44,6 +42,8 @@ pub struct HistoryState {
     pub page: Page,
     /// Index of the first fetched row in the list.
     pub first: usize,
+    /// Names and titles of the parts in the history, once known.
+    pub parts: Option<BTreeMap<String, String>>,
     /// The statistics shown in place of the list, if any.
     pub statistics: StatisticsView,
     /// The visible rows.
@@ -124,6 +124,7 @@ impl HistoryState {
             filter: ListFilter::default(),
             page: Page::default(),
             first: 0,
+            parts: None,
             statistics: StatisticsView::Closed,
             visible: 0..0,
             selected: None,
@@ -287,6 +288,7 @@ impl HistoryState {
             filter: self.filter.clone(),
             rows: start.saturating_sub(MARGIN)..end + MARGIN,
             selected: self.selected,
+            with_parts: self.parts.is_none(),
         }
     }
 
@@ -297,6 +299,7 @@ impl HistoryState {
             record,
             kept,
             frames,
+            parts,
         } = looked;
         // Count those still being written.
         let unwritten = self.unwritten.values();
@@ -309,6 +312,13 @@ impl HistoryState {
         self.kept = kept;
         self.frames = frames;
         self.record = record;
+        self.parts = parts.or_else(|| self.parts.take());
+        if let Some(known) = &mut self.parts {
+            // Parts that were first inspected since.
+            for part in self.page.rows.iter().filter_map(|row| row.part.as_ref()) {
+                known.entry(part.clone()).or_insert_with(|| part.clone());
+            }
+        }
         if self.selected.is_none() {
             self.selected = self.page.rows.first().map(|row| row.number);
         }
@@ -407,18 +417,6 @@ impl HistoryState {
             self.look(cx);
         }
     }
-}
-
-/// The title under which a part was last accepted that the library does not have any more, else its name.
-fn former_title(history: &HistoryBuffer, name: &str) -> String {
-    let accepted = Filter {
-        part: Some(name.to_owned()),
-        verdict: Some(StoredVerdict::Accepted),
-        ..Filter::default()
-    };
-    let page = history.page(&accepted, 0, 1).ok();
-    let row = page.and_then(|page| page.rows.into_iter().next());
-    row.map_or_else(|| name.to_owned(), |row| row.title)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Queries of the history for what the window shows.
 
-use std::{ops::Range, path::PathBuf, sync::Arc};
+use std::{collections::BTreeMap, ops::Range, path::PathBuf, sync::Arc};
 
 use image::{DynamicImage, RgbImage};
 use jiff::Zoned;
@@ -8,7 +8,7 @@ use jiff::Zoned;
 use super::filter::ListFilter;
 use crate::{
     app::user_error::UserError,
-    history::{HistoryBuffer, HistoryError, Page, Record, Retention, Usage},
+    history::{Filter, HistoryBuffer, HistoryError, Page, Record, Retention, StoredVerdict, Usage},
 };
 
 /// A query.
@@ -20,6 +20,8 @@ pub struct HistoryQuery {
     pub rows: Range<usize>,
     /// Number of the selected inspection.
     pub selected: Option<i64>,
+    /// True if the parts of the whole history are wanted, for which every row is read.
+    pub with_parts: bool,
 }
 
 /// Result of a query.
@@ -35,6 +37,8 @@ pub struct HistoryResult {
     pub kept: (Retention, Usage),
     /// The folder of the kept frames.
     pub frames: Option<PathBuf>,
+    /// Names and titles of the parts in the history, if wanted.
+    pub parts: Option<BTreeMap<String, String>>,
 }
 
 /// An inspection with its picture.
@@ -75,7 +79,36 @@ fn looked(request: &HistoryQuery, history: &HistoryBuffer) -> Result<HistoryResu
         record,
         kept: history.kept()?,
         frames: history.frames_folder(),
+        parts: if request.with_parts {
+            Some(parts(history)?)
+        } else {
+            None
+        },
     })
+}
+
+/// Names and titles of the parts in the history.
+fn parts(history: &HistoryBuffer) -> Result<BTreeMap<String, String>, HistoryError> {
+    let mut parts = BTreeMap::new();
+    for part in history.outcomes(&Filter::default())? {
+        if let Some(name) = part.part {
+            let entry = parts.entry(name);
+            entry.or_insert_with_key(|name| former_title(history, name));
+        }
+    }
+    Ok(parts)
+}
+
+/// The title under which a part was last accepted, else its name.
+pub(super) fn former_title(history: &HistoryBuffer, name: &str) -> String {
+    let accepted = Filter {
+        part: Some(name.to_owned()),
+        verdict: Some(StoredVerdict::Accepted),
+        ..Filter::default()
+    };
+    let page = history.page(&accepted, 0, 1).ok();
+    let row = page.and_then(|page| page.rows.into_iter().next());
+    row.map_or_else(|| name.to_owned(), |row| row.title)
 }
 
 fn opened(record: Record, history: &HistoryBuffer) -> Result<OpenedInspection, HistoryError> {

@@ -294,14 +294,14 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem) {
         }
     }
     if let Some(runner_up) = pose.runner_up {
-        row(
-            ui,
-            &text!("inspect-runner-up"),
-            &text!(
-                "inspect-times-worse",
-                ratio = format!("{:.1}", runner_up.ratio)
-            ),
-        );
+        // What rounds to 1.0 times is not worse.
+        let words = if runner_up.ratio < 1.05 {
+            text!("inspect-as-good")
+        } else {
+            let ratio = format!("{:.1}", runner_up.ratio);
+            text!("inspect-times-worse", ratio = ratio)
+        };
+        row(ui, &text!("inspect-runner-up"), &words);
     }
     let by = format!("{} · {}", stopped(pose.stopped), pose.method.name());
     row(

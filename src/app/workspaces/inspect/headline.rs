@@ -7,7 +7,8 @@ use crate::{
         inspection::inspected::{Inspected, LiveFrameContext},
         language::{
             results::{
-                rejection, rejection_advice, stored_verdict, unrecognisable, unrecognisable_advice,
+                is_recognised, rejection, rejection_advice, stored_verdict, unrecognisable,
+                unrecognisable_advice,
             },
             text,
         },
@@ -41,7 +42,13 @@ impl Headline {
             return Self::not_yet(inspected, followed, session.is_live());
         }
         match &inspected.inspection.verdict {
-            Verdict::Part { part, rejected, .. } => {
+            Verdict::Part {
+                part,
+                score,
+                margin,
+                rejected,
+                ..
+            } => {
                 let best = inspected.figures.candidates.first();
                 let nearest = best.map_or_else(|| part.clone(), |best| best.title.clone());
                 let title_of = |name: &str| inspected.library.title_of(name).to_owned();
@@ -69,6 +76,15 @@ impl Headline {
                         is_open: false,
                         complaint: Some((rejection(reason), rejection_advice(reason))),
                     },
+                    Some(reason) if is_recognised([*score, *margin], &inspected.recipe.accept) => {
+                        Self {
+                            title: nearest,
+                            nearest: None,
+                            is_accepted: false,
+                            is_open: false,
+                            complaint: Some((rejection(reason), rejection_advice(reason))),
+                        }
+                    }
                     // Do not show an uncertain name in large letters.
                     Some(reason) => Self {
                         title: if inspected.inspection.verdict.is_unknown() {
@@ -194,4 +210,55 @@ pub(super) fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usi
     };
     let fitting = fonts.iter().find(|font| fits(font)).or(fonts.last());
     fitting.cloned().unwrap_or_else(font::title)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        app::inspection::{
+            inspected::{InspectRequest, inspect},
+            library_cache::LibraryCache,
+            source::{CellChoice, SceneSource},
+        },
+        pipeline::Unwatched,
+    };
+
+    #[test]
+    fn a_part_that_is_only_in_doubt_where_it_is_is_called_by_its_name() {
+        let request = InspectRequest {
+            source: SceneSource::Cell {
+                choice: CellChoice::InTurn,
+                number: 1,
+            },
+            recipe: Arc::default(),
+        };
+        let mut found = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
+        let session = Session::default();
+        let title = Headline::of(&found, &session).title;
+        for (score, is_recognised) in [(0.97, true), (0.85, false)] {
+            found.inspection.verdict = Verdict::Part {
+                part: "front_door".into(),
+                score,
+                margin: 0.97,
+                rejected: Some(Rejection::AmbiguousPose {
+                    part: "front_door".into(),
+                    margin: 0.43,
+                    threshold: 0.6,
+                }),
+                is_approximate: false,
+            };
+            let headline = Headline::of(&found, &session);
+            assert!(!headline.is_accepted && headline.complaint.is_some());
+            assert_eq!(headline.nearest.is_none(), is_recognised);
+            let expected = if is_recognised {
+                title.as_str()
+            } else {
+                "Not recognised"
+            };
+            assert_eq!(headline.title, expected);
+        }
+    }
 }

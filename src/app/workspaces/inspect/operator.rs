@@ -12,7 +12,7 @@ use super::{
 use crate::{
     app::{
         inspection::inspected::Inspected,
-        language::{results::stored_verdict, text},
+        language::{history::recognised_part, results::stored_verdict, text},
         shell::{current_trace, live::SourceState, session::Session},
         ui::{
             theme::{Theme, font, space},
@@ -30,6 +30,8 @@ const BANNER: [f32; 2] = [190.0, 156.0];
 const COLUMN: [f32; 2] = [400.0, 320.0];
 /// Height of a line of the list of parts, logical pixels.
 const LINE: f32 = 40.0;
+/// Room for the name in that list beside a serial number, logical pixels.
+const LEAST_NAME: f32 = 60.0;
 /// Longest reason or advice that fits in the large type, characters.
 const LONG: usize = 60;
 
@@ -122,7 +124,8 @@ impl Banner {
             }
         } else if let Some(run) = &session.inspecting {
             return Self::new(Tone::Open, text!("operator-inspecting"), &run.title, wait);
-        } else if let Some(trouble) = &session.failed {
+        }
+        if let Some(trouble) = &session.failed {
             let ask = text!("operator-no-result-next");
             return Self::new(
                 Tone::Trouble,
@@ -167,10 +170,14 @@ impl Banner {
                 )
             };
         };
-        let verdict = Self {
+        let mut verdict = Self {
             is_current: true,
             ..Self::of_result(&shown.inspected, session)
         };
+        let serial = &shown.inspected.trace().serial;
+        if !serial.is_empty() {
+            verdict.reason = format!("{} · {serial}", verdict.reason);
+        }
         if shown.is_past {
             return Self {
                 tone: Tone::Open,
@@ -206,10 +213,9 @@ impl Banner {
         if is_open {
             return Self::new(Tone::Open, title, sentence(&reason), advice);
         }
-        let best = inspected.figures.candidates.first();
-        let nearest = best.map_or_else(
+        let nearest = inspection.verdict.guess().map_or_else(
             || text!("operator-an-enrolled-part"),
-            |best| best.title.clone(),
+            |part| inspected.library.title_of(part).to_owned(),
         );
         match &inspection.verdict {
             Verdict::NoPart(Unrecognisable::EmptyLibrary) => Self::new(
@@ -398,12 +404,9 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
             // The nearest part is only of interest to the engineer.
             let name = match row.verdict {
                 StoredVerdict::Accepted => row.title.clone(),
-                StoredVerdict::NotAccepted => text!("inspect-not-recognised"),
+                StoredVerdict::NotAccepted => recognised_part(row)
+                    .map_or_else(|| text!("inspect-not-recognised"), str::to_owned),
                 StoredVerdict::Unknown | StoredVerdict::NoPart => stored_verdict(row.verdict),
-            };
-            let name = match row.trace.serial.as_str() {
-                "" => name,
-                serial => format!("{name} · {serial}"),
             };
             let at = row.at.to_zoned(jiff::tz::TimeZone::system());
             let at = at.strftime("%H:%M").to_string();
@@ -414,6 +417,15 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     let at = RichText::new(at).font(font::far_list());
                     ui.label(at.weak());
+                    if !row.trace.serial.is_empty() {
+                        // The name is cut before the number is.
+                        let serial = RichText::new(&row.trace.serial).font(font::far_list());
+                        let width = ui.available_width() - LEAST_NAME;
+                        ui.scope(|ui| {
+                            ui.set_max_width(width);
+                            ui.add(Label::new(serial).truncate());
+                        });
+                    }
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                         let name = RichText::new(name).font(font::far_list()).color(colour);
                         ui.add(Label::new(name).truncate());

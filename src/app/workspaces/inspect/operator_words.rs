@@ -16,7 +16,7 @@ pub(super) fn in_short(why: &Rejection, nearest: &str) -> String {
         Rejection::AnotherMake { .. } => text!("operator-another-make", nearest = nearest),
         Rejection::AmbiguousPose { .. }
         | Rejection::Unconstrained { .. }
-        | Rejection::Uncertain { .. } => text!("operator-uncertain-pose", nearest = nearest),
+        | Rejection::Uncertain { .. } => text!("operator-uncertain-pose"),
         Rejection::Unknown { .. } => text!("operator-unknown"),
         Rejection::Mirrored { .. } => text!("operator-mirrored", nearest = nearest),
         Rejection::MirroredImage { .. } => text!("operator-mirrored-image"),

@@ -1,4 +1,4 @@
-//! The card's section on the stand-off: that of an assumed path, against its band.
+//! The card's section on the stand-off against its band: that of the stored path, else of an assumed one.
 
 use egui::{Align2, Rect, RichText, Sense, Ui, pos2, vec2};
 
@@ -11,11 +11,16 @@ use crate::{
             widgets::{Scale, heading, row, sentence},
         },
     },
+    robot::spray::{BandStatus, CarriedPath, SurfaceHit},
     stages::stand_off::{StandOff, StandOffParams},
 };
 
 /// Draws the section; nothing without a stand-off.
 pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem) {
+    if let Some(path) = &inspected.spray {
+        heading(ui, &text!("inspect-stand-off-stored"));
+        return stored(ui, path, &inspected.recipe.stand_off, units);
+    }
     let Some(found) = &inspected.stand_off else {
         return;
     };
@@ -29,25 +34,61 @@ pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem) {
     }
 }
 
-fn figures(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem) {
-    bar(ui, found, params, units);
+/// Draws the figures of the stored path, which has the part's pose, at the points where the camera sees the part.
+fn stored(ui: &mut Ui, path: &CarriedPath, params: &StandOffParams, units: UnitSystem) {
+    let met: Vec<SurfaceHit> = path.points.iter().filter_map(|point| point.meets).collect();
+    let middle = f64::midpoint(params.nearest.0, params.farthest.0);
+    let error = |distance: &f64| (distance - middle).abs();
+    let distances = met.iter().map(|hit| hit.distance.0);
+    let Some(worst) = distances.max_by(|a, b| error(a).total_cmp(&error(b))) else {
+        ui.weak(text!("inspect-path-not-seen"));
+        return;
+    };
+    let mean = |of: fn(&SurfaceHit) -> f64| met.iter().map(of).sum::<f64>() / met.len() as f64;
+    distance_rows(ui, [mean(|hit| hit.distance.0), worst], params, units);
+    let num_unseen = path.count(BandStatus::NotSeen);
+    let inside = text!(
+        "inspect-points-in-band",
+        inside = path.num_inside(),
+        num = path.num_seen()
+    );
+    row(ui, &text!("inspect-in-band"), &inside);
+    let steepest = met.iter().map(|hit| hit.tilt.0).fold(0.0, f64::max);
+    angle_row(ui, [mean(|hit| hit.tilt.0), steepest], units);
+    if num_unseen > 0 {
+        let text = text!("inspect-points-not-seen", count = num_unseen);
+        ui.label(RichText::new(text).small().weak());
+    }
+}
+
+fn distance_rows(ui: &mut Ui, [mean, worst]: [f64; 2], params: &StandOffParams, units: UnitSystem) {
+    bar(ui, [mean, worst], params, units);
     let pair = text!(
         "inspect-worst-of",
-        value = units.length(found.mean.0),
-        worst = units.length(found.worst.distance.0)
+        value = units.length(mean),
+        worst = units.length(worst)
     );
     row(ui, &text!("inspect-mean"), &pair);
+}
+
+fn angle_row(ui: &mut Ui, [mean, worst]: [f64; 2], units: UnitSystem) {
+    let pair = text!(
+        "inspect-worst-of",
+        value = units.angle(mean),
+        worst = units.angle(worst)
+    );
+    row(ui, &text!("inspect-angle"), &pair);
+}
+
+fn figures(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem) {
+    let distances = [found.mean.0, found.worst.distance.0];
+    distance_rows(ui, distances, params, units);
     row(
         ui,
         &text!("inspect-in-band"),
         &format!("{:.0} %", found.in_band * 100.0),
     );
-    let pair = text!(
-        "inspect-worst-of",
-        value = units.angle(found.mean_angle.0),
-        worst = units.angle(found.worst_angle.0)
-    );
-    row(ui, &text!("inspect-angle"), &pair);
+    angle_row(ui, [found.mean_angle.0, found.worst_angle.0], units);
     // Parts rarely hang as taught: that the path has to follow the pose is usual, and no fault of the part.
     let text = if found.keeps_the_band() {
         text!("inspect-path-fits")
@@ -58,7 +99,7 @@ fn figures(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSy
 }
 
 /// Draws a range of distances with the band in its middle third: a full tick for the mean, a short one for the worst.
-fn bar(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem) {
+fn bar(ui: &mut Ui, [mean, worst]: [f64; 2], params: &StandOffParams, units: UnitSystem) {
     const BAR: f32 = 14.0;
     const NUMBERS: f32 = 15.0;
     let theme = Theme::of(ui);
@@ -68,7 +109,7 @@ fn bar(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let text = text!(
         "inspect-stand-off-of",
-        mean = units.length(found.mean.0),
+        mean = units.length(mean),
         nearest = units.length(params.nearest.0),
         farthest = units.length(params.farthest.0)
     );
@@ -86,8 +127,8 @@ fn bar(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem
         let line = Rect::from_center_size(pos2(x, bar.center().y), vec2(width, BAR + over));
         painter.rect_filled(line, 0.0, colour);
     };
-    tick(found.worst.distance.0, 2.0, -4.0, theme.weak_text);
-    tick(found.mean.0, 3.0, 5.0, theme.text);
+    tick(worst, 2.0, -4.0, theme.weak_text);
+    tick(mean, 3.0, 5.0, theme.text);
     for (at, align) in [(near, Align2::CENTER_TOP), (far, Align2::CENTER_TOP)] {
         let text = units.length(f64::from(at));
         let at = pos2(across.at(at), bar.bottom() + 4.0);

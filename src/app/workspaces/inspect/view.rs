@@ -298,7 +298,7 @@ impl SceneView {
                             text: text!(
                                 "inspect-path-in-band",
                                 inside = spray.num_inside,
-                                num = spray.num_points
+                                num = spray.num_seen
                             ),
                         });
                     }

@@ -9,12 +9,12 @@ use crate::{
         shell::{
             file_dialog::{FileChoice, FileRequest, all_files},
             program_setup::{ProgramSetup, program_file_name, program_files},
+            session::Session,
         },
         ui::parameter_control::ParameterChange,
     },
     library::PartName,
     paint::{KeepOut, PathEdit},
-    robot::Convention,
 };
 
 /// An action in the workspace.
@@ -94,14 +94,18 @@ pub enum PaintFile {
 }
 
 impl PaintFile {
-    /// The dialog to open. A new file is named after the part, a program as usual for the robot of `convention`.
-    pub(super) fn request(self, part: Option<&PartName>, convention: Convention) -> FileRequest {
+    /// The dialog to open. A new file is named after the part, a program as usual for the robot.
+    pub(super) fn request(self, part: Option<&PartName>, session: &Session) -> FileRequest {
         let part = part.map_or("part", PartName::as_str);
         match self {
             Self::Program => FileRequest {
                 title: text!("paint-program-title"),
                 filters: vec![program_files()],
-                choice: FileChoice::NewFile(program_file_name(part, convention)),
+                choice: FileChoice::NewFile(program_file_name(
+                    part,
+                    &session.program,
+                    session.convention,
+                )),
             },
             Self::Arm => FileRequest {
                 title: text!("paint-arm-title"),

@@ -4,11 +4,14 @@ use super::state::PaintState;
 use crate::{
     app::{
         language::text,
-        shell::{context::ShellContext, notice::Notice},
+        shell::{
+            context::ShellContext,
+            message::Message,
+            notice::{Notice, NoticeTopic},
+        },
         ui::parameter_control::ParameterChange,
         user_error::UserError,
     },
-    error::Advice as _,
     library::PartName,
     paint::{Coat, built_in_coat},
     pipeline::{RecipeFile, Replace, parameters::Parameter},
@@ -78,12 +81,10 @@ impl PaintState {
             ));
             return;
         };
+        let about_name = |error: UserError| Notice::from(error).about(NoticeTopic::CoatName);
         let name = match PartName::new(written.trim()) {
             Ok(name) => name,
-            Err(error) => {
-                cx.notify(Notice::look(error.to_string(), error.advice()));
-                return;
-            }
+            Err(error) => return cx.notify(about_name(UserError::of(&error))),
         };
         let coat = RecipeFile {
             name,
@@ -98,13 +99,14 @@ impl PaintState {
         };
         match folder.save(&coat, replace) {
             Ok(()) => {
+                cx.send(Message::RemoveNotices(NoticeTopic::CoatName));
                 let name = coat.name.to_string();
                 cx.notify(Notice::done(text!("paint-saved-coat", coat = name)));
                 self.naming = None;
                 self.change(|design| design.kept = coat);
                 self.list_coats(cx);
             }
-            Err(error) => cx.notify(UserError::of(&error)),
+            Err(error) => cx.notify(about_name(UserError::of(&error))),
         }
     }
 }

@@ -180,6 +180,15 @@ impl PaintState {
         }
     }
 
+    /// Why no program of the path shown can be written, as far as known.
+    pub(super) fn why_no_program(&self, session: &Session) -> Option<UserError> {
+        match self.reach(session) {
+            Some(Ok(reach)) => report_files::not_reached(&reach.arm, &reach.check),
+            Some(Err(error)) => Some(error.clone()),
+            None => session.program.target().err(),
+        }
+    }
+
     /// Writes the program of the path shown.
     pub(super) fn export_program(&mut self, file: PathBuf, cx: &ShellContext<'_>) {
         let (Some(planned), Some(robot)) = (self.planned.clone(), cx.session.robot.clone()) else {
@@ -234,6 +243,13 @@ fn found(
     context: &TaskContext<Arc<Reach>>,
 ) -> Result<Arc<Reach>, TaskError> {
     let planned = &request.planned;
+    if request.setup.nozzle.trim().is_empty() {
+        return Err(TaskError::Failed(UserError {
+            what: text!("program-no-nozzle"),
+            // The field for it is in this workspace.
+            advice: text!("paint-no-nozzle-advice"),
+        }));
+    }
     let ProgramTarget { settings, arm } = request.setup.target()?;
     let Some(arm) = arm else {
         return Err(TaskError::Cancelled);
@@ -327,4 +343,36 @@ pub(super) fn write_program(
         is_simulated: path.is_simulated,
     };
     report_files::program(file, &path.carried, robot, &setup.target()?, &subject)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn in_english_the_window_names_a_problem_as_the_commands_do() {
+        for problem in [
+            PointProblem::OutOfReach,
+            PointProblem::JointLimit {
+                joint: 5,
+                angle: 3.0,
+            },
+            PointProblem::TooFast {
+                joint: 3,
+                speed: 5.0,
+            },
+            PointProblem::RailTooFast { speed: 2.0 },
+            PointProblem::JointAcceleration {
+                joint: 2,
+                acceleration: 9.0,
+                limit: 4.0,
+            },
+            PointProblem::RailAcceleration {
+                acceleration: 9.0,
+                limit: 4.0,
+            },
+        ] {
+            assert_eq!(reason(&problem), problem.reason());
+        }
+    }
 }

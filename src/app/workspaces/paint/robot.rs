@@ -22,9 +22,6 @@ use crate::{
     robot::arm::{ARM_NAMES, Arm, PointProblem},
 };
 
-/// Number of reasons listed.
-const MAX_REASONS: usize = 3;
-
 /// Draws the section.
 pub(super) fn ui(
     ui: &mut Ui,
@@ -39,6 +36,15 @@ pub(super) fn ui(
     let label = text!("paint-nozzle");
     field(ui, &label, &mut setup.nozzle, "kuka 0 0 250 0 45 0")
         .on_hover_text(text!("paint-nozzle-hint"));
+    if session.program.arm.is_some() {
+        // The scope is there without an error too, so that the fields below keep their ids, and with them the focus.
+        ui.scope(|ui| {
+            if let Some(Err(error)) = paint.reach(session) {
+                note(ui, &error.what, theme.rejected);
+                note(ui, &error.advice, theme.text);
+            }
+        });
+    }
     obstacles_ui(ui, &mut setup, actions);
     fold(ui, text!("paint-more-robot"), theme.weak_text)
         .id_salt("robot")
@@ -97,13 +103,8 @@ pub(super) fn ui(
         note(ui, &text!("paint-not-calibrated"), theme.weak_text);
         return;
     }
-    match paint.reach(session) {
-        None => {}
-        Some(Ok(reach)) => reasons(ui, reach, actions),
-        Some(Err(error)) => {
-            note(ui, &error.what, theme.rejected);
-            note(ui, &error.advice, theme.text);
-        }
+    if let Some(Ok(reach)) = paint.reach(session) {
+        reasons(ui, reach, actions);
     }
 }
 
@@ -165,11 +166,11 @@ fn obstacles_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAc
     response.on_hover_text(text!("paint-obstacles-hint"));
 }
 
-/// Draws a text field below its label.
-fn field(ui: &mut Ui, label: &str, text: &mut String, hint: &str) -> egui::Response {
+/// Draws a text field below its label; an empty one shows an example.
+fn field(ui: &mut Ui, label: &str, text: &mut String, example: &str) -> egui::Response {
     let name = ui.label(label);
     let edit = TextEdit::singleline(text)
-        .hint_text(hint)
+        .hint_text(text!("paint-example", example = example))
         .align(egui::Align2::LEFT_CENTER)
         .desired_width(f32::INFINITY)
         .min_size(vec2(0.0, space::TARGET));
@@ -210,7 +211,7 @@ fn reasons(ui: &mut Ui, reach: &Reach, actions: &mut Vec<PaintAction>) {
     if reach.check.num_reached() == reach.check.points.len() {
         return;
     }
-    for (reason, count) in reach.reasons().into_iter().take(MAX_REASONS) {
+    for (reason, count) in reach.reasons() {
         note(ui, &format!("{} · {reason}", grouped(count)), theme.text);
     }
     let points = reach.check.points.iter();

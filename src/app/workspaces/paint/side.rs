@@ -1,8 +1,8 @@
 //! On the right: the part, its coat with every parameter, the figures of the film, and what can be done with the path.
 
 use egui::{
-    Button, CentralPanel, Frame, Label, Margin, Panel, Rect, Response, RichText, ScrollArea, Sense,
-    TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Button, CentralPanel, Frame, Id, Label, Margin, Panel, Rect, Response, RichText, ScrollArea,
+    Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::{
@@ -171,7 +171,7 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
         let label = text!("paint-coat-named", coat = name);
         let response = menu.response;
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
-        response.on_hover_text(&design.kept.notes);
+        response.on_hover_text(parameters::coat_notes(&design.kept.notes));
         if design.is_coat_changed() && text_button(ui, &text!("paint-reset-coat")).clicked() {
             actions.push(PaintAction::ResetCoat);
         }
@@ -188,13 +188,20 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
 /// Draws the field for the coat's name.
 fn name_ui(ui: &mut Ui, naming: &str, actions: &mut Vec<PaintAction>) {
     let mut written = naming.to_owned();
+    let id = Id::unique("name of the coat");
+    let is_new = ui.ctx().read_response(id).is_none();
     ui.horizontal_wrapped(|ui| {
         let edit = TextEdit::singleline(&mut written)
+            .id(id)
             .hint_text(text!("paint-coat-name"))
             .align(egui::Align2::LEFT_CENTER)
             .desired_width(150.0)
             .min_size(vec2(0.0, space::TARGET));
         let response = ui.add(edit);
+        // Or what is typed would be taken for shortcuts.
+        if is_new {
+            response.request_focus();
+        }
         response.widget_info(|| {
             let mut info = WidgetInfo::text_edit(true, naming, &written, text!("paint-coat-name"));
             info.label = Some(text!("paint-coat-name"));

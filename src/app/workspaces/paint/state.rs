@@ -17,7 +17,7 @@ use crate::{
             context::ShellContext,
             file_dialog::FileDialog,
             message::{Event, Message},
-            notice::Notice,
+            notice::{Notice, NoticeTopic},
             program_setup::ProgramSetup,
             session::{Session, WorkspaceKind},
         },
@@ -209,7 +209,10 @@ impl PaintState {
             PaintAction::ChooseCoat(name) => self.choose_coat(&name, cx),
             PaintAction::Change(key, change) => self.change_parameter(key, change, cx),
             PaintAction::ResetCoat => self.change(|design| design.coat = design.kept.recipe),
-            PaintAction::Name(name) => self.naming = name,
+            PaintAction::Name(name) => {
+                self.naming = name;
+                cx.send(Message::RemoveNotices(NoticeTopic::CoatName));
+            }
             PaintAction::SaveCoat => self.save_coat(cx),
             PaintAction::Show(path) => self.shown_path = path,
             PaintAction::Use(tool) => self.tool = tool,
@@ -228,8 +231,14 @@ impl PaintState {
             PaintAction::Store => self.store_shown(cx),
             PaintAction::ToggleFilm => self.is_film_shown = !self.is_film_shown,
             PaintAction::Ask(file) => {
+                // Rather than after a file was chosen.
+                if file == PaintFile::Program
+                    && let Some(error) = self.why_no_program(cx.session)
+                {
+                    return cx.notify(error);
+                }
                 let lock = &cx.services.dialogs;
-                let request = file.request(self.part(cx.session), cx.session.convention);
+                let request = file.request(self.part(cx.session), cx.session);
                 self.dialog.open(file, &request, lock, cx.egui);
             }
             PaintAction::Chosen(PaintFile::Table, file) => self.write_table(file),

@@ -151,6 +151,22 @@ fn another_verdict_recipe_or_place_is_the_same_part_again() {
 }
 
 #[test]
+fn another_accepted_part_after_seconds_without_frames_is_a_part_of_its_own() {
+    let library = shipped_library();
+    let fender = seen(&library, part(PartKind::Fender), 0.0);
+    let door = seen(&library, part(PartKind::FrontDoor), 0.0);
+    assert!(door.inspection.verdict.is_accepted());
+    let mut line = Line::default();
+    assert_eq!(line.counted(&fender, ""), FIRST);
+    line.num_frames += 20;
+    assert_eq!(line.counted(&fender, ""), NOTHING);
+    line.num_frames += 20;
+    assert_eq!(line.open(&door).1, FrameRole::Best);
+    assert_eq!(line.counted(&door, ""), FIRST);
+    assert_eq!(line.parts.visit(), 2);
+}
+
+#[test]
 fn what_leaves_before_its_verdict_counts_is_told_once_it_has_left_if_it_looked_like_a_part() {
     let library = shipped_library();
     let fender = seen(&library, part(PartKind::Fender), 0.0);

@@ -152,7 +152,13 @@ impl Rows<'_, '_> {
             None => self.row("bounds", "unconstrained, or not computed"),
         }
         if let Some(ratio) = fit.runner_up_ratio {
-            self.row("next best pose", &format!("{ratio:.1}× worse"));
+            // What rounds to 1.0 times is not worse.
+            let words = if ratio < 1.05 {
+                "as good".to_owned()
+            } else {
+                format!("{ratio:.1}× worse")
+            };
+            self.row("next best pose", &words);
         }
         let stopped = fit.stopped.replace('_', " ");
         self.row("found by", &format!("{}, {stopped}", fit.method));

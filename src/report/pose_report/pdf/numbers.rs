@@ -48,9 +48,9 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
     );
     if let Some(calibration) = &robot.calibration {
         let style = SMALL;
-        let text = sheet
-            .faces
-            .fitted(&format!("calibration: {calibration}"), 150.0, style);
+        let text = format!("calibration: {calibration}");
+        let beside = sheet.faces.width(robot.convention_title, HEADING) + 12.0;
+        let text = sheet.faces.fitted(&text, area.width - beside, style);
         sheet.text(&text, [area.left + area.width, y], style, Anchor::Right);
     }
     y += 6.0;

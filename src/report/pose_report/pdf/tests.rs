@@ -147,6 +147,44 @@ fn the_page_names_no_part_that_is_not_like_it() {
 }
 
 #[test]
+fn a_refused_part_that_was_recognised_is_called_by_its_title() {
+    let mut report = refused().report(None, Convention::Kuka);
+    let verdict = &mut report.verdict;
+    (verdict.status, verdict.part, verdict.nearest) = ("ok", Some("door_real".into()), None);
+    let pictures = PdfPictures {
+        title: Some("Real door"),
+        ..PdfPictures::default()
+    };
+    for (score, margin, headline) in [
+        (0.97, 0.97, "Real door"),
+        (0.85, 0.97, "Part not accepted"),
+        (0.97, 0.43, "Part not accepted"),
+    ] {
+        (report.verdict.score, report.verdict.margin) = (Some(score), Some(margin));
+        let said = said(&report, &pictures);
+        assert!(said.contains(headline) && said.contains("NOT ACCEPTED"));
+        let is_below = said.contains("Nearest enrolled part: Real door");
+        assert_eq!(is_below, headline != "Real door", "{said}");
+    }
+}
+
+#[test]
+fn usual_texts_are_not_cut() {
+    let mut report = door().report(Some(&robot()), Convention::Kuka);
+    report.seen_by = SeenBy::NotKnown;
+    let calibration = "an unnamed calibration (3b2f68d5)";
+    report.robot.calibration = Some(calibration.into());
+    let said = said(&report, &PdfPictures::default());
+    for words in [
+        SeenBy::NotKnown.describe(),
+        "calibration: an unnamed calibration (3b2f68d5)",
+    ] {
+        assert!(said.contains(words), "{words}\n{said}");
+    }
+    assert_eq!(said.matches(calibration).count(), 2);
+}
+
+#[test]
 fn the_same_report_is_the_same_file() {
     let report = door().report(None, Convention::Doosan);
     let stages = door().pictures();

@@ -126,9 +126,10 @@ fn a_file_of_boxes_is_read_and_a_bad_one_refused_with_advice() {
     let text = "floor_mm = -600\n\
         [[box]]\nname = \"post\"\ncentre_mm = [1000, 0, 0]\nsize_mm = [400, 200, 200.0]\n\
         angles_deg = [0, 0, 90]\n\
-        [[box]]\nname = \"cabin\"\ncentre_mm = [0, -2000, 0]\nsize_mm = [9, 9, 9]\n";
+        [[box]]\nname = \"cabin\"\ncentre_mm = [0, -2000, 0]\nsize_mm = [9, 9, 10]\n";
     let found = read(text).expect("boxes");
     assert_eq!((found.floor, found.boxes.len()), (Some(-0.6), 2));
+    assert_eq!(found.file(), Some("boxes.toml"));
     let gun = [capsule(Body::Gun, [0.84, 0.0, 0.0], [0.84, 0.0, 0.0], 0.05)];
     assert_eq!(
         worst(found.pairs(&gun)),
@@ -143,9 +144,10 @@ fn a_file_of_boxes_is_read_and_a_bad_one_refused_with_advice() {
         ("-600", "1e9", "floor_mm"),
         ("[1000, 0, 0]", "[nan, 0, 0]", "box 1: centre_mm of post"),
         ("[1000, 0, 0]", "[0, inf, 0]", "box 1: centre_mm of post"),
-        ("[9, 9, 9]", "[9, 0, 9]", "box 2: size_mm of cabin"),
-        ("[9, 9, 9]", "[9, -9, 9]", "box 2: size_mm of cabin"),
-        ("[9, 9, 9]", "[9, 9]", "3"),
+        ("[9, 9, 10]", "[9, 0, 9]", "box 2: size_mm of cabin"),
+        ("[9, 9, 10]", "[9, -9, 9]", "box 2: size_mm of cabin"),
+        ("[9, 9, 10]", "[9, 9]", "3"),
+        ("[9, 9, 10]", "[0.4, 1.5, 9]", "no side of cabin is 10 mm"),
         ("[0, 0, 90]", "[0, 0, 9000]", "box 1: angles_deg"),
         ("\"cabin\"", "\" \"", "box 2: its name"),
         ("\"cabin\"", "\"a\\u001b[2J\"", "box 2: its name"),

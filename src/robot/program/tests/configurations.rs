@@ -20,6 +20,8 @@ fn words_of(name: &str, format: ProgramFormat, degrees: &[[f64; 6]]) -> Vec<Stri
         words.contains("in the configuration that was checked"),
         "{words}"
     );
+    let checked = "collisions with part and arm, without boxes or floor, clearance 20.0 mm, gun radius 50.0 mm";
+    assert!(words.contains(checked), "{words}");
     let mut all = read.moves.into_iter().map(|found| found.configuration);
     let first = all.next().expect("a joint move");
     let mut all: Vec<String> = all.collect();

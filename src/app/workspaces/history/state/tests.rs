@@ -72,6 +72,7 @@ impl Bench {
             record: None,
             kept: Default::default(),
             frames: None,
+            parts: None,
         };
         bench.history.receive(looked, &mut bench.shell.context());
         let looking = bench.history.looking.running();

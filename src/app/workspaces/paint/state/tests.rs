@@ -220,8 +220,14 @@ fn a_coat_is_kept_by_name_and_chosen_again() {
         assert!(bench.paint.naming.is_some(), "{name:?}");
     }
     bench.act(PaintAction::Name(Some("booth_3".into())));
+    bench.shell.messages.clear();
     bench.act(PaintAction::SaveCoat);
     assert_eq!(bench.paint.naming, None);
+    // The complaints about the other names are removed.
+    assert!(matches!(
+        bench.shell.messages[..],
+        [Message::RemoveNotices(NoticeTopic::CoatName), ..]
+    ));
     assert!(!bench.paint.design.is_coat_changed());
     assert!(bench.paint.coats.contains(&"booth_3".to_owned()));
     bench.run(PaintAction::ChooseCoat("clear_coat".into()));
@@ -332,15 +338,20 @@ fn what_the_arm_does_not_reach_is_named_shown_and_never_exported() {
         .position(|at| (at - time).abs() < 1e-9);
     let shown = shown.expect("a point of the path");
     assert!(reach.check.points[shown].problem.is_some());
+    // Refused before a file is chosen.
+    bench.act(PaintAction::Ask(PaintFile::Program));
+    assert!(!bench.shell.services.dialogs.is_open());
+    let refusals = |bench: &Bench| {
+        let notices = bench.shell.notices().into_iter();
+        notices
+            .filter(|notice| notice.contains("No program was written"))
+            .count()
+    };
+    assert_eq!(refusals(&bench), 1);
     // Writing is refused, and no earlier program may be left to run.
     bench.run(PaintAction::Chosen(PaintFile::Program, file.clone()));
     assert!(!file.exists());
-    let notices = bench.shell.notices();
-    assert!(
-        notices
-            .last()
-            .is_some_and(|n| n.contains("No program was written"))
-    );
+    assert_eq!(refusals(&bench), 2);
 }
 
 #[test]
