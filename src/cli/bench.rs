@@ -56,7 +56,7 @@ Examples:
   partsight bench history
   partsight bench paint --plots films
   partsight bench serve --json serve.json
-  partsight bench soak --frames 1000000 --json soak.json
+  partsight bench soak --frames 1000000 --plot soak.png
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
 name: a few frames of each part, to time the stages. table1 needs no frames: each part of the library is put where T1..T5
@@ -99,7 +99,7 @@ pub(super) struct BenchArgs {
     /// For registration: only sources of this kind; may be given several times
     #[arg(long, value_enum, value_name = "NAME")]
     condition: Vec<registration::ConditionChoice>,
-    /// For scaling: draw the times into this file
+    /// For scaling and soak: draw the figures into this file
     #[arg(long, value_name = "PNG")]
     plot: Option<PathBuf>,
     /// For scaling: maximum number of references; ten thousand take less than 3 GB
@@ -198,6 +198,12 @@ fn check(args: &BenchArgs) -> anyhow::Result<()> {
         return Err(advised_error(
             "--mesh is for bounds and registration",
             "Use it like this: partsight bench bounds --mesh FILE#NAME",
+        ));
+    }
+    if !matches!(bench, Bench::Scaling | Bench::Soak) && args.plot.is_some() {
+        return Err(advised_error(
+            "--plot is for scaling and soak",
+            "Use it like this: partsight bench soak --plot PNG",
         ));
     }
     if bench != Bench::Paint && args.plots.is_some() {

@@ -18,7 +18,7 @@ const COLOURS: [(f64, [f64; 3]); 6] = [
     (1.2, [240.0, 200.0, 60.0]),
     (2.0, [220.0, 50.0, 40.0]),
 ];
-/// Colour of points that the gun cannot face.
+/// Colour of points that are not reachable.
 const UNREACHABLE: Rgb<u8> = Rgb([90, 90, 96]);
 /// Upper left and lower right corner of the part, of the histogram and of the scale, pixels.
 const PART: [[f64; 2]; 2] = [[30.0, 60.0], [770.0, 540.0]];
@@ -34,7 +34,7 @@ pub struct FilmPicture<'a> {
     pub places: &'a [[f64; 2]],
     /// Thickness at each point, relative to the target.
     pub shares: &'a [f64],
-    /// True for points that the gun can face.
+    /// True for reachable points.
     pub is_reachable: &'a [bool],
     /// Point spacing, metres.
     pub spacing: f64,
@@ -172,7 +172,7 @@ fn draw_scale(canvas: &mut Canvas) {
     }
     canvas.block([left, 550.0], [left + 14.0, 564.0], UNREACHABLE);
     canvas.write(
-        "the gun cannot face it",
+        "not reachable",
         LETTERS,
         [left + 22.0, 563.0],
         Anchor::Left,

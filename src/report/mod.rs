@@ -7,6 +7,8 @@ mod canvas;
 #[cfg(feature = "cli")]
 mod chart;
 #[cfg(feature = "cli")]
+mod curves;
+#[cfg(feature = "cli")]
 mod evaluation;
 #[cfg(feature = "cli")]
 mod film;
@@ -22,19 +24,17 @@ pub mod pose_report;
 #[cfg(feature = "cli")]
 mod runner_up_picture;
 #[cfg(feature = "cli")]
-mod scaling;
-#[cfg(feature = "cli")]
 mod score_plots;
 mod text_table;
 
 #[cfg(feature = "cli")]
 pub use self::{
+    curves::{SizeCurve, curves_picture, stacked},
     evaluation::evaluation_picture,
     film::{FilmPicture, film_picture},
     folder::{ReportError, ReportFolder},
     pictures::{Picture, binary_picture, segmentation_picture, stage_pictures, strip, write_png},
     runner_up_picture::runner_up_picture,
-    scaling::{TimeCurve, scaling_picture, stacked},
 };
 pub use self::{
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},

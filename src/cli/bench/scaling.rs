@@ -11,7 +11,7 @@ use crate::{
         console::{Advised as _, Console, Table},
     },
     pipeline::Unwatched,
-    report::{TimeCurve, scaling_picture, stacked, write_png},
+    report::{SizeCurve, curves_picture, stacked, write_png},
     stages::rank::{Matcher, RankParams},
 };
 
@@ -103,11 +103,11 @@ fn show(scaling: &Scaling, console: &mut Console) {
 }
 
 fn picture(scaling: &Scaling) -> image::RgbImage {
-    let curves: Vec<TimeCurve> = scaling
+    let curves: Vec<SizeCurve> = scaling
         .workers
         .iter()
         .enumerate()
-        .map(|(place, workers)| TimeCurve {
+        .map(|(place, workers)| SizeCurve {
             name: match workers {
                 1 => "1 worker".into(),
                 workers => format!("{workers} workers"),
@@ -127,5 +127,6 @@ fn picture(scaling: &Scaling) -> image::RgbImage {
     let crossover = scaling.crossover();
     let words = crossover.map(|from| format!("{num_cores} cores pay from {from}"));
     let mark = crossover.map(|from| from as f64).zip(words.as_deref());
-    scaling_picture(&title, &curves, mark)
+    let axes = ["references", "time of a ranking, ms"];
+    curves_picture(&title, axes, &curves, mark)
 }

@@ -6,6 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
+use anyhow::Context as _;
 use jiff::{SignedDuration, Timestamp};
 use serde::Serialize;
 
@@ -25,7 +26,7 @@ use crate::{
     history::Traceability,
     library::LibraryLoad,
     pipeline::{self, Inspection, NamedRecipe, Unwatched},
-    report::InspectionLine,
+    report::{InspectionLine, SizeCurve, curves_picture, write_png},
     simulate::{CellSetup, PartKind, Side, SimulatedObject, frame},
     stages::{reference::Reference, scene::scene_from_image},
 };
@@ -267,6 +268,11 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     recording.finish(console);
     show(&stretches, console);
     let memory_growth = growth(&stretches);
+    if let Some(path) = &args.plot {
+        write_png(path, &picture(&stretches))
+            .advised()
+            .with_context(|| format!("{} was not written", path.display()))?;
+    }
     if let Some(path) = &args.json {
         let file = SoakFile {
             schema: 1,
@@ -343,6 +349,31 @@ fn growth(stretches: &[Stretch]) -> Option<f64> {
     let (first, rest) = stretches.get(WARM_UP..)?.split_at_checked(3)?;
     let last = rest.get(rest.len().checked_sub(3)?..)?;
     Some(memory(last)? / memory(first)? - 1.0)
+}
+
+/// Draws what must stay constant over the frames.
+fn picture(stretches: &[Stretch]) -> image::RgbImage {
+    let curve = |name: &str, of: &dyn Fn(&Stretch) -> Option<f64>| {
+        let points = stretches.iter();
+        let points = points.filter_map(|stretch| Some([stretch.until_frame as f64, of(stretch)?]));
+        SizeCurve {
+            name: name.into(),
+            points: points.collect(),
+        }
+    };
+    let usage = |of: fn(ProcessUsage) -> f64| move |stretch: &Stretch| stretch.usage.map(of);
+    let curves = [
+        curve("memory, MB", &usage(|usage| usage.memory_mb)),
+        curve("95 %, ms", &|stretch| Some(stretch.latency_p95_ms)),
+        curve("median, ms", &|stretch| Some(stretch.latency_p50_ms)),
+        curve("handles", &usage(|usage| usage.num_handles as f64)),
+    ];
+    curves_picture(
+        "Soak, simulated",
+        ["frames", "MB, ms, number"],
+        &curves,
+        None,
+    )
 }
 
 fn show(stretches: &[Stretch], console: &mut Console) {

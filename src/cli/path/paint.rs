@@ -256,7 +256,7 @@ fn show(
             100.0 * figures.double
         ));
         console.line(&format_args!(
-            "  {:.1} m in {:.0} s, {:.0} ml of paint, {:.0} % of its solids on the part; the gun can face {:.1} % of the surface",
+            "  {:.1} m in {:.0} s, {:.0} ml of paint, {:.0} % of its solids on the part; {:.1} % of the surface is reachable",
             takes.length,
             takes.time,
             1e6 * takes.paint,

@@ -144,7 +144,7 @@ pub(super) fn planned(
 /// Scale of the film's deviations: a view keeps whole micrometres, and films are only some micrometres thick.
 pub(super) const MAGNIFIED: f64 = 1000.0;
 
-/// Returns the surface with the film's deviation from its target; keep-outs and what the gun cannot face have none.
+/// Returns the surface with the film's deviation from its target; keep-outs and what is not reachable have none.
 fn coloured(surface: &PaintSurface, film: &Film, coat: &Coat) -> PointSet {
     let positions: Vec<[f32; 3]> = surface
         .points

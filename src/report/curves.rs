@@ -1,4 +1,4 @@
-//! Picture of times over sizes: one curve per number of workers.
+//! Picture of figures over sizes, on logarithmic axes.
 
 use image::{Rgb, RgbImage, imageops::replace};
 
@@ -9,12 +9,12 @@ use super::{
     pictures::{DARK, DIM, LIGHT},
 };
 
-/// Times over sizes.
+/// A figure over sizes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TimeCurve {
+pub struct SizeCurve {
     /// Name in the legend.
     pub name: String,
-    /// Sizes and times in milliseconds, both above zero, by ascending size.
+    /// Sizes and figures, both above zero, by ascending size.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -26,11 +26,12 @@ const LOOKS: [(Rgb<u8>, &[f64]); 4] = [
     (Rgb([178, 110, 200]), &[2.0, 4.0]),
 ];
 
-/// Draws the curves on logarithmic axes; `crossover` is marked by a vertical line.
-pub fn scaling_picture(
+/// Draws the curves over axes with these titles; a vertical line marks one size.
+pub fn curves_picture(
     title: &str,
-    curves: &[TimeCurve],
-    crossover: Option<(f64, &str)>,
+    [across, up]: [&str; 2],
+    curves: &[SizeCurve],
+    mark: Option<(f64, &str)>,
 ) -> RgbImage {
     let points = || curves.iter().flat_map(|curve| curve.points.iter());
     let range = |axis: usize| {
@@ -49,13 +50,13 @@ pub fn scaling_picture(
     let chart = Chart {
         corners: [[110.0, 60.0], [830.0, 500.0]],
         across: Axis {
-            title: "references",
+            title: across,
             range: range(0),
             division: Division::ByFactors,
             ticks: decades(range(0)),
         },
         up: Axis {
-            title: "time of a ranking, ms",
+            title: up,
             range: [low / 1.3, high * 1.3],
             division: Division::ByFactors,
             ticks: decades([low / 1.3, high * 1.3]),
@@ -64,7 +65,7 @@ pub fn scaling_picture(
     let mut canvas = Canvas::new(1040, 570, DARK);
     canvas.write(title, 20.0, [110.0, 36.0], Anchor::Left, LIGHT);
     chart.draw_axes(&mut canvas);
-    if let Some((size, words)) = crossover {
+    if let Some((size, words)) = mark {
         let [x, top] = chart.place([size, chart.up.range[1]]);
         canvas.line([x, top], [x, chart.corners[1][1]], DIM);
         // Curves rise from left to right, so the upper left and the lower right are free.
@@ -119,12 +120,13 @@ mod tests {
 
     #[test]
     fn every_curve_is_drawn_and_nonsense_is_survived() {
-        let curve = |times: [f64; 3]| TimeCurve {
+        let curve = |times: [f64; 3]| SizeCurve {
             name: "a worker".into(),
             points: vec![[8.0, times[0]], [64.0, times[1]], [512.0, times[2]]],
         };
-        let image = scaling_picture(
+        let image = curves_picture(
             "Ranking",
+            ["references", "ms"],
             &[curve([0.1, 1.0, 9.0]), curve([0.3, 0.8, 5.0])],
             Some((32.0, "32")),
         );
@@ -132,7 +134,7 @@ mod tests {
             let num = image.pixels().filter(|p| *p == colour).count();
             assert!(num > 300, "{num}");
         }
-        scaling_picture("", &[curve([f64::NAN, 0.0, -1.0])], None);
-        scaling_picture("", &[], None);
+        curves_picture("", ["", ""], &[curve([f64::NAN, 0.0, -1.0])], None);
+        curves_picture("", ["", ""], &[], None);
     }
 }
