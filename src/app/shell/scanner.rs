@@ -27,6 +27,10 @@ pub(in crate::app) fn listen(ctx: &Context) -> Option<String> {
     let is_writing = ctx.text_edit_focused();
     let was_held = !held.events.is_empty();
     let code = ctx.input_mut(|input| held.hold_back(&mut input.events, input.time, is_writing));
+    if code.is_some() {
+        // If the code ended with Tab, the focus stays where it is.
+        ctx.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
+    }
     if was_held && held.events.is_empty() {
         // What the keys change is drawn in the next frame, for which egui knows no reason: they came earlier.
         ctx.request_repaint();

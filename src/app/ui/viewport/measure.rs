@@ -98,6 +98,9 @@ pub(super) fn plate(painter: &Painter, at: Pos2, text: &str, style: &ViewStyle, 
         Anchor::Middle => Align2::CENTER_CENTER.anchor_size(at, size),
         Anchor::Right => Align2::LEFT_CENTER.anchor_size(at + ScreenVec::new(8.0, 0.0), size),
     };
+    // The end of the text stays inside the view.
+    let beyond = (rect.right() - painter.clip_rect().right()).max(0.0);
+    let rect = rect.translate(ScreenVec::new(-beyond, 0.0));
     painter.rect(
         rect,
         4.0,

@@ -126,7 +126,11 @@ impl Banner {
             return Self::new(Tone::Open, text!("operator-inspecting"), &run.title, wait);
         }
         if let Some(trouble) = &session.failed {
-            let ask = text!("operator-no-result-next");
+            let ask = if session.is_watching() {
+                text!("operator-ask")
+            } else {
+                text!("operator-no-result-next")
+            };
             return Self::new(
                 Tone::Trouble,
                 text!("operator-no-result"),
