@@ -17,6 +17,14 @@ pub enum LibraryError {
         /// The folder.
         path: PathBuf,
     },
+    /// The user's own library, which was made earlier, is no longer there.
+    #[error("{}: your library is no longer there", path.display())]
+    Gone {
+        /// Its folder.
+        path: PathBuf,
+        /// The file that says that it was made.
+        made: PathBuf,
+    },
     /// The path is not a folder.
     #[error("{}: not a folder", path.display())]
     NotAFolder {
@@ -93,6 +101,10 @@ impl Advice for LibraryError {
                 "Check the path and that the drive or stick is connected, or create the folder"
                     .into()
             }
+            Self::Gone { made, .. } => format!(
+                "Connect its drive or put the folder back, or name another with --library; to begin again with the shipped parts, remove {}",
+                made.display()
+            ),
             Self::NotAFolder { .. } => "Give the folder that holds the parts' folders".into(),
             Self::Unreadable { .. } => "Ask for access to this folder, or copy it elsewhere".into(),
             Self::Unwritable { source, .. } => {

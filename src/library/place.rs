@@ -18,7 +18,7 @@ use super::{
     store::LibraryFolder,
 };
 use crate::{
-    files::{disk, new_folder, read_picture, sync_folder, user_data},
+    files::{disk, new_folder, read_picture, sync_folder, user_data, write_atomically},
     stages::reference::ReferenceParams,
 };
 
@@ -147,16 +147,30 @@ pub fn open_library(given: Option<&Path>) -> Result<LibraryPlace, LibraryError> 
     if let Some(path) = given {
         return LibraryFolder::open(path).map(LibraryPlace::Given);
     }
-    let own = user_path().and_then(|path| open_filled(&path));
-    Ok(own.map_or_else(LibraryPlace::Program, LibraryPlace::User))
+    match user_path().and_then(|path| open_filled(&path)) {
+        Ok(own) => Ok(LibraryPlace::User(own)),
+        // The shipped parts must not take the place of the user's.
+        Err(error @ LibraryError::Gone { .. }) => Err(error),
+        Err(error) => Ok(LibraryPlace::Program(error)),
+    }
 }
 
+/// Opens the library in this folder, which is made the first time only: a file beside it remembers that.
 fn open_filled(path: &Path) -> Result<LibraryFolder, LibraryError> {
+    let made = path.with_extension("made");
     if !path.is_dir() {
+        if made.exists() {
+            let path = path.to_owned();
+            return Err(LibraryError::Gone { path, made });
+        }
         fill(path).map_err(|source| LibraryError::Unwritable {
             path: path.to_owned(),
             source,
         })?;
+    }
+    if !made.exists() {
+        // Without it the library works all the same.
+        let _ = write_atomically(&made, |_| Ok(()));
     }
     LibraryFolder::open(path)
 }
@@ -189,6 +203,7 @@ mod tests {
     use std::fs;
 
     use super::*;
+    use crate::error::Advice as _;
 
     #[test]
     fn the_users_library_is_filled_once_and_then_left_alone() {
@@ -207,6 +222,22 @@ mod tests {
                 .count(),
             1
         );
+    }
+
+    #[test]
+    fn a_library_that_is_gone_is_not_made_again_until_its_mark_is_removed() {
+        let data = tempfile::tempdir().expect("a folder");
+        let path = data.path().join("library");
+        open_filled(&path).expect("made");
+        fs::rename(&path, data.path().join("elsewhere")).expect("moved");
+        let error = open_filled(&path).expect_err("gone");
+        assert!(error.advice().contains("library.made"), "{error:?}");
+        assert!(!path.exists());
+        fs::rename(data.path().join("elsewhere"), &path).expect("moved back");
+        open_filled(&path).expect("there");
+        fs::remove_dir_all(&path).expect("removed");
+        fs::remove_file(data.path().join("library.made")).expect("removed");
+        open_filled(&path).expect("made again");
     }
 
     #[test]

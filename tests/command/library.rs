@@ -124,6 +124,13 @@ fn a_part_is_enrolled_into_the_users_library_wherever_that_is_done() {
     assert!(place.path("data/partsight/library/mine/part.toml").exists());
     let list = place.accepted(&["library", "list"]);
     assert!(list.out.contains("(your own): 9 parts"), "{}", list.out);
+    // Whatever is run while it is away, the shipped parts do not take its place.
+    let own = place.path("data/partsight/library");
+    fs::rename(&own, place.path("away")).expect("moved");
+    let refused = place.coded(2, &["inspect", "grille.pcd"]);
+    assert!(refused.err.contains("no longer there"), "{}", refused.err);
+    assert!(!own.exists());
+    fs::rename(place.path("away"), &own).expect("moved back");
     // A folder of one's own in place of the system's.
     let with_data = |folder: &Path, args: &[&str]| {
         let mut command = place.command(args);

@@ -38,8 +38,6 @@ struct Choice {
     /// The requested folder; without one [`open_library`] finds it.
     given: Option<PathBuf>,
     loaded: Option<Arc<LoadedLibrary>>,
-    /// The folder last loaded. If it is gone, [`open_library`] would make another with the shipped parts.
-    folder: Option<PathBuf>,
 }
 
 /// A loaded library.
@@ -150,12 +148,9 @@ impl Default for LibraryCache {
 impl LibraryCache {
     /// Makes a cache for the library in this folder, else for the one that [`open_library`] finds.
     pub fn new(given: Option<PathBuf>, camera: Camera) -> Self {
-        let choice = Choice {
-            given,
-            ..Choice::default()
-        };
+        let loaded = None;
         Self {
-            choice: Arc::new(Mutex::new(choice)),
+            choice: Arc::new(Mutex::new(Choice { given, loaded })),
             camera,
             recording: SharedRecording::default(),
             history: Arc::default(),
@@ -205,12 +200,9 @@ impl LibraryCache {
     /// Loads the library again if another program has changed it; `None` if it is unchanged or another one was chosen. If it
     /// cannot be loaded, the present one stays in use.
     pub fn refresh(&self) -> Result<Option<Arc<LoadedLibrary>>, LibraryError> {
-        let (given, folder) = {
-            let choice = self.lock();
-            (choice.given.clone(), choice.folder.clone())
-        };
+        let given = self.lock().given.clone();
         // The lock is released while loading, so that no other thread waits for the disk.
-        let found = Arc::new(load(given.as_deref(), folder.as_deref())?);
+        let found = Arc::new(load(given.as_deref())?);
         let mut choice = self.lock();
         let known = choice.loaded.as_ref();
         let is_known = known.is_some_and(|known| known.shown.is_same(&found.shown));
@@ -226,7 +218,7 @@ impl LibraryCache {
     pub fn choose(&self, given: Option<PathBuf>) -> Result<Arc<LoadedLibrary>, LibraryError> {
         let mut other = Choice {
             given,
-            ..Choice::default()
+            loaded: None,
         };
         let loaded = other.load()?;
         *self.lock() = other;
@@ -241,9 +233,7 @@ impl LibraryCache {
 
 impl Choice {
     fn load(&mut self) -> Result<Arc<LoadedLibrary>, LibraryError> {
-        let loaded = Arc::new(load(self.given.as_deref(), self.folder.as_deref())?);
-        let folder = loaded.place.as_ref().and_then(LibraryPlace::folder);
-        self.folder = folder.map(|_| loaded.shown.path.clone());
+        let loaded = Arc::new(load(self.given.as_deref())?);
         self.loaded = Some(Arc::clone(&loaded));
         Ok(loaded)
     }
@@ -277,10 +267,7 @@ impl Choice {
     }
 }
 
-fn load(given: Option<&Path>, known: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
-    if let Some(gone) = known.filter(|known| !known.is_dir()) {
-        return Err(LibraryError::NotFound { path: gone.into() });
-    }
+fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
     let place = open_library(given)?;
     let load = place.load(&ReferenceParams::default())?;
     let identity = load.identity();
@@ -434,7 +421,7 @@ mod tests {
     }
 
     #[test]
-    fn a_library_that_goes_stays_in_use_and_no_other_is_made_in_its_place() {
+    fn a_library_that_goes_stays_in_use() {
         let stick = tempfile::tempdir().expect("a folder");
         let path = stick.path().join("parts");
         fs::create_dir(&path).expect("made");
@@ -443,13 +430,6 @@ mod tests {
         fs::remove_dir(&path).expect("removed");
         library_cache.refresh().expect_err("gone");
         assert!(Arc::ptr_eq(&before, &library_cache.get()));
-        // The user's own library, which is made with the shipped parts the first time only.
-        let mut own = Choice {
-            folder: Some(path.clone()),
-            ..Choice::default()
-        };
-        let error = own.load().expect_err("gone");
-        assert!(matches!(error, LibraryError::NotFound { path: gone } if gone == path));
     }
 
     #[test]

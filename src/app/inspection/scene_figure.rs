@@ -183,7 +183,7 @@ fn strokes(path: &CarriedPath, mouths: &[Vec3]) -> Vec<Line> {
     let mut from = 0;
     for points in path.points.chunk_by(|a, b| a.is_gun_on == b.is_gun_on) {
         let end = from + points.len();
-        // The gun stays as it is up to the next point.
+        // A point's gun state lasts until the next point.
         let line =
             Line::new(&mouths[from..mouths.len().min(end + 1)], Role::Nozzle).with_width(1.2);
         lines.push(if points[0].is_gun_on {
