@@ -187,10 +187,11 @@ fn best_plane(
 fn count_inliers(x: &[f32], y: &[f32], z: &[f32], reach: &[f32], plane: &Plane) -> u32 {
     let n = plane.normal.cast::<f32>();
     let offset = plane.offset as f32;
-    let mut count = 0;
+    let mut count = 0_u32;
     for (((x, y), z), reach) in x.iter().zip(y).zip(z).zip(reach) {
         let distance = n.x * x + n.y * y + n.z * z + offset;
-        count += u32::from(distance.abs() < *reach);
+        // Never overflows; a checked addition would keep the compiler from using vectors.
+        count = count.wrapping_add(u32::from(distance.abs() < *reach));
     }
     count
 }
