@@ -241,3 +241,38 @@ fn udev_accepts_the_rules() {
         said_by(&output);
     }
 }
+
+#[test]
+fn the_zip_for_windows_holds_the_program_and_the_documents() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let exe = folder.path().join("built.exe");
+    fs::write(&exe, "the program").expect("written");
+    let pack = |exe: &Path| {
+        let mut python = Command::new("python3");
+        python
+            .arg(at("packaging/windows_zip.py"))
+            .args([exe, folder.path()]);
+        run(&mut python)
+    };
+    let Some(output) = pack(&exe) else {
+        return;
+    };
+    let zip = said_by(&output);
+    let list = run(Command::new("python3").args(["-m", "zipfile", "-l", zip.trim()]));
+    let list = said_by(&list.expect("it ran before"));
+    let documents = installed();
+    let documents = documents
+        .iter()
+        .filter_map(|path| path.strip_prefix("usr/share/doc/partsight/"));
+    for name in documents.chain(["partsight.exe"]) {
+        let inside = format!("-x86_64-windows/{name} ");
+        assert!(list.contains(&inside), "{name} is not in the zip: {list}");
+    }
+    let missing = pack(&folder.path().join("missing.exe")).expect("it ran before");
+    assert!(!missing.status.success());
+    let said = String::from_utf8_lossy(&missing.stderr);
+    assert!(
+        said.contains("no such file") && said.contains("to do:"),
+        "{said}"
+    );
+}
