@@ -55,6 +55,7 @@ Examples:
   partsight bench live --minutes 10
   partsight bench history
   partsight bench paint --plots films
+  partsight bench paint --coat primer
   partsight bench serve --json serve.json
   partsight bench soak --frames 1000000 --plot soak.png
 
@@ -105,6 +106,9 @@ pub(super) struct BenchArgs {
     /// For scaling: maximum number of references; ten thousand take less than 3 GB
     #[arg(long, value_name = "N", default_value_t = crate::bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
     most: u64,
+    /// For paint: the coat, by name or file, instead of the default one
+    #[arg(long, value_name = "NAME|FILE")]
+    coat: Option<String>,
     /// For paint: draw the film of each part into this folder
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,

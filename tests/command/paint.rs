@@ -120,8 +120,8 @@ fn a_gun_is_fitted_to_a_stripe_and_written_as_a_coat_that_plans() {
         ran.out
     );
     let written = shop.read("my_primer.toml");
-    // 40 µm · √(2π) · 60 mm · 200 mm/s of 300 ml/min · 50 %: 48.1 %.
-    assert!(written.contains("gun.transfer = \"48.1"), "{written}");
+    // 40 µm · √(2π) · 60 mm · 200 mm/s of 180 ml/min · 50 %: 80.2 %.
+    assert!(written.contains("gun.transfer = \"80.2"), "{written}");
     // An existing file is only replaced if asked to.
     let ran = shop.coded(2, &[&fit[..], &write].concat());
     assert!(

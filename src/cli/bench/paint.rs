@@ -15,7 +15,7 @@ use crate::{
     },
     files::disk,
     library::{EnrolParams, PartDescription, PartName, enrol_captured},
-    paint::{Coat, PaintSurface},
+    paint::{Coat, CoatFolder, PaintSurface},
     report::{FilmPicture, film_picture, write_png},
     stages::reference::{Coverage, Reference, ReferenceParams},
 };
@@ -29,7 +29,13 @@ struct PaintFile {
 }
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let coat = Coat::default();
+    let coat = match &args.coat {
+        Some(name) => {
+            let folder = CoatFolder::of_user().advised()?;
+            folder.open(name).advised()?.recipe
+        }
+        None => Coat::default(),
+    };
     let load = (args.library).load_some(&ReferenceParams::default(), console)?;
     let coverages = load.parts.iter().map(|part| part.coverage);
     let mut subjects: Vec<(Reference, Coverage)> = load
@@ -89,7 +95,7 @@ fn enrolled(file: &Path) -> anyhow::Result<Reference> {
 fn show(parts: &[PaintedPart], coat: &Coat, console: &mut Console) {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     console.line(&format_args!(
-        "The default gun; each path at the speed that brings most of the surface within {:.0} % of {:.0} µm.",
+        "One gun for all; each path at the speed that brings most of the surface within {:.0} % of {:.0} µm.",
         100.0 * coat.tolerance,
         1e6 * coat.target
     ));
