@@ -149,6 +149,7 @@ impl FilterArgs {
             verdict: self.verdict.and_then(VerdictChoice::verdict),
             is_accepted: (self.verdict == Some(VerdictChoice::NotAccepted)).then_some(false),
             is_simulated: self.simulated,
+            source: None,
             with_below: self.reinspections,
             text: self.text.clone().unwrap_or_default(),
             shown: Vec::new(),
@@ -419,7 +420,11 @@ fn cells(row: &Summary) -> [String; 10] {
         row.number.to_string(),
         here(row.at),
         row.verdict.title().to_lowercase(),
-        row.part.clone().unwrap_or_else(|| "-".into()),
+        match (&row.part, row.mirror_of()) {
+            (Some(part), _) => part.clone(),
+            (None, Some(part)) => format!("mirror image of {part}"),
+            (None, None) => "-".into(),
+        },
         row.score
             .map_or_else(|| "-".into(), |[score, _]| format!("{score:.2}")),
         match (row.parent, row.num_below) {

@@ -77,6 +77,9 @@ impl From<&Verdict> for StoredVerdict {
     }
 }
 
+/// Begin of the title of a mirror image; the title of the part follows.
+const MIRRORED: &str = "Mirror image of ";
+
 /// An inspection as a row of a list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
@@ -117,6 +120,12 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// Returns the title of the part of which it is the mirror image, if it is one.
+    pub fn mirror_of(&self) -> Option<&str> {
+        let is_unknown = self.verdict == StoredVerdict::Unknown;
+        self.title.strip_prefix(MIRRORED).filter(|_| is_unknown)
+    }
+
     /// Returns the lower-case text in which a filter looks for its words.
     pub(super) fn search(&self) -> String {
         let Self {
@@ -263,7 +272,7 @@ impl NewEntry {
         let title = match verdict {
             StoredVerdict::Accepted => name,
             StoredVerdict::NotAccepted => format!("Not recognised · nearest {name}"),
-            _ if inspection.verdict.is_mirrored() => format!("Mirror image of {name}"),
+            _ if inspection.verdict.is_mirrored() => format!("{MIRRORED}{name}"),
             StoredVerdict::Unknown => format!("Unknown · nearest {name}"),
             StoredVerdict::NoPart => "No part".to_owned(),
         };

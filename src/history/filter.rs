@@ -20,6 +20,8 @@ pub struct Filter {
     pub is_accepted: Option<bool>,
     /// Simulated or not.
     pub is_simulated: Option<bool>,
+    /// From exactly this source.
+    pub source: Option<String>,
     /// Includes the re-inspections; otherwise the list has one row per part.
     pub with_below: bool,
     /// Words that must each occur in the title, in the name of part, scene or source, in the remark, the true label or
@@ -80,6 +82,9 @@ impl Filter {
         if let Some(is_simulated) = self.is_simulated {
             add("simulated = ?", is_simulated.into());
         }
+        if let Some(source) = &self.source {
+            add("source = ?", source.clone().into());
+        }
         for word in self.words() {
             let texts = self.found_by(word);
             let any = vec!["instr(search, ?)"; texts.len()].join(" OR ");
@@ -95,8 +100,8 @@ impl Filter {
         (parts.join(" AND "), values)
     }
 
-    /// Applies the filter to an inspection that is not in the file yet.
-    pub(super) fn passes(&self, row: &Summary) -> bool {
+    /// Returns whether the filter lets an inspection through.
+    pub(crate) fn passes(&self, row: &Summary) -> bool {
         let search = row.search();
         (self.with_below || row.parent.is_none())
             && self.since.is_none_or(|since| row.at >= since)
@@ -105,6 +110,10 @@ impl Filter {
             && self.verdict.is_none_or(|verdict| row.verdict == verdict)
             && (self.is_accepted).is_none_or(|is| (row.verdict == StoredVerdict::Accepted) == is)
             && self.is_simulated.is_none_or(|is| row.is_simulated == is)
+            && self
+                .source
+                .as_ref()
+                .is_none_or(|source| row.source == *source)
             && self.words().all(|word| {
                 let mut texts = self.found_by(word).into_iter();
                 texts.any(|text| search.contains(&text))

@@ -73,12 +73,14 @@ pub(super) fn insert(
         }
         None => (None, None),
     };
-    // Remark, label and traceability of the part stay with it.
+    // Remark, label, traceability and source of the part stay with it.
     let mut summary = summary.clone();
     if let Some(head) = &head {
         summary.trace = summary.trace.or(&head.trace);
     }
     if let Some(head) = gives_way {
+        // A repeated inspection is named after its scene.
+        summary.source.clone_from(&head.source);
         // They may have been set while this inspection waited to be written.
         if summary.remark.is_empty() {
             summary.remark.clone_from(&head.remark);

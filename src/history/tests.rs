@@ -1,6 +1,6 @@
 //! Writing, querying, filtering and sweeping.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Instant};
 
 use rand::{RngExt as _, SeedableRng as _};
 use rusqlite::params_from_iter;
@@ -115,6 +115,7 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
         let part = parts[random.random_range(0..3)];
         let mut entry = history_entry(random.random_range(0..500), verdict, part);
         entry.record.summary.is_simulated = random.random();
+        entry.record.summary.source = ["kinect", "kinect:B"][random.random_range(0..2)].into();
         entry.record.summary.remark = ["", "Beule Ö", "dent 50%"][random.random_range(0..3)].into();
         entry.scene = None;
         let number = history.add(&entry, &Retention::default()).expect("written");
@@ -136,6 +137,7 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
                 .then(|| StoredVerdict::ALL[random.random_range(0..4)]),
             is_accepted: random.random_bool(0.3).then(|| random.random()),
             is_simulated: random.random_bool(0.3).then(|| random.random()),
+            source: random.random_bool(0.2).then(|| "kinect".to_owned()),
             with_below: random.random(),
             text: [
                 "",
@@ -546,6 +548,28 @@ fn a_refusal_gives_way_to_an_acceptance_and_an_acceptance_stands() {
         (first.verdict, first.parent),
         (StoredVerdict::Unknown, Some(3))
     );
+}
+
+#[test]
+fn a_part_stays_a_part_of_its_source_when_a_repeated_inspection_stands_for_it() {
+    let (_folder, mut history) = new_history();
+    let waiting = HistoryBuffer::new(None);
+    let mut part = history_entry(1, StoredVerdict::NotAccepted, "grille");
+    part.record.summary.source = "kinect".into();
+    let mut repeated = again(&part, 2, StoredVerdict::Accepted);
+    repeated.record.summary.source = "Kinect frame 12".into();
+    for (ticket, entry) in (1..).zip([&part, &repeated]) {
+        history.add(entry, &ALL).expect("written");
+        waiting.add(ticket, entry.clone(), Instant::now());
+    }
+    let of_camera = Filter {
+        source: Some("kinect".into()),
+        ..Filter::default()
+    };
+    assert_eq!(numbers(&history, &of_camera), [2]);
+    let page = waiting.page(&of_camera, 0, 10).expect("asked");
+    assert_eq!(page.num_matching, 1);
+    assert_eq!(page.rows[0].verdict, StoredVerdict::Accepted);
 }
 
 #[test]

@@ -40,6 +40,7 @@ pub(super) fn waiting_rows(
         match heads.get(&row.hung).copied() {
             Some(head) if entry.takes_over_from(&rows[head]) => {
                 row.trace = row.trace.or(&rows[head].trace);
+                row.source.clone_from(&rows[head].source);
                 for other in &mut rows {
                     if other.hung == row.hung {
                         other.parent = Some(row.number);

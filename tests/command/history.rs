@@ -222,6 +222,37 @@ fn programs_read_why_an_inspection_was_not_accepted_as_a_kind() {
     assert_eq!(ends, [Some("reason_kind"), Some(""), Some("unknown")]);
 }
 
+#[test]
+fn the_list_names_the_part_that_a_mirror_image_is_of() {
+    let place = Workplace::new();
+    place.accepted(&[
+        "simulate",
+        "--part",
+        "front_door",
+        "--side",
+        "right",
+        "--placement",
+        "facing",
+        "--seed",
+        "5",
+        "--out",
+        "right.pcd",
+    ]);
+    assert_eq!(place.run(&["inspect", "right.pcd"]).code, 1);
+    let listed = place.accepted(&["history", "list"]);
+    let named = "mirror image of Front door, left";
+    assert!(listed.out.contains(named), "{}", listed.out);
+    let row = place
+        .accepted(&["history", "list", "--json"])
+        .lines()
+        .remove(0);
+    assert_eq!(row["mirror_of"], "Front door, left");
+    assert_eq!(
+        (&row["verdict"], &row["part"]),
+        (&"unknown".into(), &Value::Null)
+    );
+}
+
 /// Records parts that come in from the right one after the other, ten frames a second, hang still and leave to the
 /// left. A part whose flag is false does not stop.
 fn record_line(folder: &Path, parts: &[(PartKind, bool)]) {

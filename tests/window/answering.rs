@@ -501,7 +501,8 @@ fn a_trigger_before_or_after_the_verdict_counts_is_no_other_part() {
     cause(&mut harness, Action::Role(RoleAction::Switch));
     wait_until(&mut harness, |state| state.session.shift.since.is_some());
     let shift = &harness.state().state().session.shift;
-    assert_eq!((shift.num_ok, shift.num_not_ok), (2, 0));
+    // The window's first frame is of another source.
+    assert_eq!((shift.num_ok, shift.num_not_ok), (1, 0));
 }
 
 #[test]

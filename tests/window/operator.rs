@@ -1,12 +1,17 @@
 //! The operator's view: the part, OK or not, what to do next, and the parts of this shift.
 
-use std::path::Path;
+use std::{
+    path::{Path, PathBuf},
+    sync::mpsc::Sender,
+};
 
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use jiff::Timestamp;
 use partsight::{
     app::{
         WindowOptions,
+        inspection::source::CellChoice,
         shell::{
             action::Action,
             robot::{AnswerSetup, RobotAction},
@@ -17,13 +22,15 @@ use partsight::{
         workspaces::history::HistoryWorkspace,
     },
     files::save_cloud,
+    history::{Retention, StoredVerdict},
     simulate::{PartKind, Side},
 };
 
-use crate::kit::facing_part;
+use crate::kit::{facing_part, history_entry, open_history};
 
 use super::{
     live::{Step, sees, toggle, wired_options},
+    robot::save_calibration,
     set_up::{
         SMALL, USUAL, WindowHarness, act, drop_file, history_of, open, open_with, plain_options,
         press, settle, wait_for, wait_until,
@@ -118,40 +125,85 @@ fn a_good_part_carries_no_warning_in_either_view() {
 }
 
 #[test]
-fn the_parts_of_this_shift_are_counted_and_the_last_are_listed() {
+fn the_parts_of_this_shift_are_counted_and_what_is_only_tried_is_not() {
     let folder = tempfile::tempdir().expect("a folder");
-    let options = || WindowOptions {
-        history: Some(folder.path().join("history")),
-        ..plain_options()
+    let place = folder.path().join("history");
+    // One that hung in the cell before the window was opened.
+    let mut refused = history_entry(1, StoredVerdict::NotAccepted, "fender");
+    refused.record.summary.at = Timestamp::now();
+    let mut history = open_history(&place);
+    history
+        .add(&refused, &Retention::default())
+        .expect("written");
+    drop(history);
+    let (options, wire) = wired_options();
+    let mut harness = open_operators(WindowOptions {
+        history: Some(place.clone()),
+        ..options
+    });
+    let counts = |harness: &WindowHarness, counts: [&str; 3]| {
+        for count in counts {
+            harness.get_by_label(count);
+        }
     };
-    let mut harness = open_operators(options());
-    harness.get_by_label("1 part");
-    harness.get_by_label("1 OK");
-    harness.get_by_label("0 NOK");
+    let before = ["1 part", "0 OK", "1 NOK"];
+    counts(&harness, before);
+    assert!(shows(&harness, "Shift since "));
+    harness.get_by_label("Not recognised");
+    // The start of the window, a capture of the cell and an opened file are no parts of the shift.
     press(&mut harness, "Capture");
-    harness.get_by_label("2 parts");
     let path = folder.path().join("other.pcd");
     write_unknown(&path);
     drop_file(&mut harness, &path);
     harness.get_by_label("NOK");
-    for count in ["3 parts", "2 OK", "1 NOK"] {
-        harness.get_by_label(count);
-    }
-    assert!(shows(&harness, "Shift since "));
+    harness.get_by_label("0 parts");
+    act(&mut harness, Action::UseCell(CellChoice::InTurn));
+    counts(&harness, before);
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 22]);
+    wait_until(&mut harness, |state| state.session.shift.num_ok == 1);
+    harness.run_steps(2);
+    counts(&harness, ["2 parts", "1 OK", "1 NOK"]);
     // The banner and the list name it.
-    let titles = harness.query_all_by_label("Not recognised").count()
-        + harness.query_all_by_label("Unknown").count()
-        + harness.query_all_by_label("Unknown part").count();
-    assert_eq!(titles, 2);
+    assert_eq!(harness.query_all_by_label("Fender, left").count(), 2);
+    toggle(&mut harness);
+    settle(&mut harness);
     drop(harness);
     // The parts are read from the history, not kept by the window.
-    let mut harness = open_operators(options());
-    harness.get_by_label("4 parts");
+    let mut harness = open_operators(WindowOptions {
+        history: Some(place),
+        ..plain_options()
+    });
+    counts(&harness, ["2 parts", "1 OK", "1 NOK"]);
     press(&mut harness, "History");
-    harness.get_by_label("4 of 4 parts");
+    harness.get_by_label("7 of 7 parts");
     harness.get_by_label("Inspect").click();
     harness.run_steps(4);
     harness.get_by_label("OK");
+}
+
+#[test]
+fn the_serial_number_of_a_vehicle_is_readable_in_a_small_window() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = open_history(folder.path());
+    let vehicle = "WVWZZZ1JZXW000017";
+    let long = format!("{vehicle}/{vehicle}/{vehicle}");
+    for serial in [vehicle, long.as_str()] {
+        let mut part = history_entry(1, StoredVerdict::Accepted, "radiator_support");
+        part.record.summary.at = Timestamp::now();
+        part.record.summary.trace.serial = serial.into();
+        history.add(&part, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let harness = open_operators(WindowOptions {
+        history: Some(folder.path().to_owned()),
+        ..plain_options()
+    });
+    harness.get_by_label(vehicle);
+    // What does not fit is cut in the middle.
+    assert!(harness.query_by_label(&long).is_none());
+    let num_shown = harness.query_all_by_label_contains("000017").count();
+    assert_eq!(num_shown, 2);
 }
 
 #[test]
@@ -259,22 +311,23 @@ fn a_file_that_is_opened_again_is_no_other_part_unless_it_was_written_since() {
             ..plain_options()
         })
     };
+    let num_parts = |harness: &WindowHarness| history_of(harness).num_rows();
     let mut harness = start();
-    harness.get_by_label("1 part");
+    assert_eq!(num_parts(&harness), 1);
     press(&mut harness, "Capture");
-    harness.get_by_label("1 part");
+    assert_eq!(num_parts(&harness), 1);
     drop(harness);
     let harness = start();
     harness.get_by_label("OK");
-    harness.get_by_label("1 part");
+    assert_eq!(num_parts(&harness), 1);
     drop(harness);
     // The rewritten file shows another part, also while the window is open.
     write(6);
     let mut harness = start();
-    harness.get_by_label("2 parts");
+    assert_eq!(num_parts(&harness), 2);
     write(7);
     press(&mut harness, "Capture");
-    harness.get_by_label("3 parts");
+    assert_eq!(num_parts(&harness), 3);
 }
 
 #[test]
@@ -346,13 +399,14 @@ fn a_scanner_is_heard_on_every_page_of_the_operator() {
     harness.get_by_label("Serial number TL471 entered");
 }
 
-#[test]
-fn an_operator_who_stops_live_sees_that_robots_get_no_frames() {
+/// Opens a window in the operator's view that follows its camera to answer robots, calibrated by this file, if any.
+fn open_answering(cell: Option<PathBuf>) -> (WindowHarness, Sender<Step>) {
     let (options, wire) = wired_options();
-    let mut harness = open_with(SMALL, options);
+    let mut harness = open_with(SMALL, WindowOptions { cell, ..options });
     let context = harness.ctx.clone();
     let setup = AnswerSetup {
         is_on: true,
+        at: "ascii=0".parse().expect("any free port"),
         ..AnswerSetup::default()
     };
     harness
@@ -364,11 +418,24 @@ fn an_operator_who_stops_live_sees_that_robots_get_no_frames() {
         .state_mut()
         .act(Action::Role(RoleAction::Switch), &context);
     harness.run_steps(2);
-    let warning = "Robots get no frames: press Live";
-    assert!(!shows(&harness, warning));
+    (harness, wire)
+}
+
+#[test]
+fn an_operator_sees_that_robots_get_no_pose_or_after_live_no_frames() {
+    let warning = "Robots get no pose: ask the engineer to calibrate the cell";
+    let (harness, _wire) = open_answering(None);
+    harness.get_by_label(warning);
+    drop(harness);
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let cell = folder.path().join("cell.toml");
+    save_calibration(&cell);
+    let (mut harness, _wire) = open_answering(Some(cell));
+    assert!(!shows(&harness, "Robots get no"));
     toggle(&mut harness);
     harness.run_steps(4);
-    harness.get_by_label(warning);
+    harness.get_by_label("Robots get no frames: press Live");
 }
 
 #[test]
@@ -401,10 +468,10 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
     assert_eq!(state.session.workspace, WorkspaceKind::Inspect);
     press(&mut harness, "Capture");
     assert_eq!(harness.state().state().session.trace.get().serial, "");
+    // The operator sees the serial number that the part was traced by.
+    assert!(shows(&harness, "TL471"));
     press(&mut harness, "Capture");
     settle(&mut harness);
-    // The operator sees the serial number that the part was traced by.
-    harness.get_by_label("TL471");
     let traces: Vec<_> = (0..2)
         .map(|place| {
             history_of(&harness)

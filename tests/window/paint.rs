@@ -1,17 +1,20 @@
 //! The Paint workspace, tested by its labels and controls. Needs no graphics adapter.
 
-use std::path::Path;
+use std::{f64::consts::FRAC_PI_2, path::Path};
 
 use egui::{Key, Modifiers, Role, Vec2};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::{Node, kittest::Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
-        shell::{action::Action, robot::RobotAction, session::WorkspaceKind},
+        shell::{
+            action::Action, program_setup::ProgramSetup, robot::RobotAction, session::WorkspaceKind,
+        },
         workspaces::paint::{
             PaintAction, PaintFile, PaintState, PaintWorkspace, Playback, ShownPath,
         },
     },
+    geometry::rigid::from_euler_zyx,
     library::{LibraryFolder, SprayPath},
     paint::KeepOut,
 };
@@ -274,4 +277,93 @@ fn an_arm_is_chosen_its_reach_shown_and_the_program_exported() {
     export(&mut harness);
     let program = std::fs::read_to_string(&file).expect("written");
     assert!(program.contains("MODULE"), "{program}");
+}
+
+#[test]
+fn the_base_of_the_arm_is_entered_a_better_one_applied_and_both_are_undone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_own(folder.path());
+    // The camera looks along the x axis of the robot's base.
+    let cell = folder.path().join("cell.toml");
+    let robot_from_camera = from_euler_zyx([-FRAC_PI_2, 0.0, -FRAC_PI_2, 0.0, 0.0, 1.2]);
+    robot::save_calibration_of(&cell, robot_from_camera);
+    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
+    let set_up = |harness: &mut WindowHarness, nozzle: &str| {
+        let setup = ProgramSetup {
+            arm: Some("irb4600".into()),
+            nozzle: nozzle.into(),
+            ..ProgramSetup::default()
+        };
+        act_in(harness, |paint: &mut PaintWorkspace, cx| {
+            paint.state_mut().apply(PaintAction::SetUp(setup), cx);
+        });
+    };
+    // The notice goes as soon as the nozzle is entered.
+    let num_notices = |harness: &WindowHarness| {
+        let notices = harness.state().state().notices.iter();
+        let about_nozzle = notices.filter(|notice| notice.what.contains("nozzle's place"));
+        about_nozzle.count()
+    };
+    set_up(&mut harness, "");
+    press(&mut harness, "Program…");
+    assert_eq!(num_notices(&harness), 1);
+    set_up(&mut harness, "kuka 0 0 250 0 -45 0");
+    assert_eq!(num_notices(&harness), 0);
+    harness.get_by_label_contains("reaches all");
+
+    let base = |harness: &WindowHarness| harness.state().state().session.program.base[0];
+    let num_reached = |harness: &WindowHarness| {
+        let reach = own(harness).reach(&harness.state().state().session);
+        let reach = reach.expect("checked").as_ref().expect("an arm");
+        reach.check.num_reached()
+    };
+    let field = |harness: &mut WindowHarness, act: &dyn Fn(&Node<'_>)| {
+        act(&harness.get_by_role_and_label(Role::SpinButton, "Base of the arm: X"));
+        harness.run_steps(30);
+    };
+    field(&mut harness, &|node| node.scroll_to_me());
+    field(&mut harness, &|node| node.click());
+    field(&mut harness, &|node| node.type_text("-1800"));
+    harness.key_press(Key::Enter);
+    settle(&mut harness);
+    assert!((base(&harness) + 1800.0).abs() < 1e-9);
+    let num_far = num_reached(&harness);
+    press(&mut harness, "Move the base there");
+    assert!(base(&harness) > -1800.0);
+    assert!(num_reached(&harness) > num_far);
+    press(&mut harness, "Undo");
+    assert!((base(&harness) + 1800.0).abs() < 1e-9);
+    press(&mut harness, "Undo");
+    assert!(base(&harness).abs() < 1e-9);
+    harness.get_by_label_contains("reaches all");
+}
+
+#[test]
+fn a_menu_stays_below_its_button_and_closes_once_that_is_scrolled_away() {
+    let mut harness = open();
+    press(&mut harness, "Coat: primer");
+    let button = |harness: &WindowHarness| harness.get_by_label("Coat: primer").rect();
+    let entry = |harness: &WindowHarness| harness.get_by_label("Save as…").rect();
+    let scroll = |harness: &mut WindowHarness, unit: egui::MouseWheelUnit, by: f32| {
+        harness.event(egui::Event::MouseWheel {
+            source: egui::MouseWheelSource::Wheel,
+            unit,
+            delta: Vec2::new(0.0, -by),
+            phase: egui::TouchPhase::Move,
+            modifiers: Modifiers::NONE,
+        });
+        harness.run_steps(30);
+    };
+    harness.get_by_label("Coat: primer").hover();
+    harness.run_steps(2);
+    let (button_before, entry_before) = (button(&harness), entry(&harness));
+    scroll(&mut harness, egui::MouseWheelUnit::Point, 10.0);
+    let moved = button(&harness).top() - button_before.top();
+    assert!(moved < -5.0, "{moved}");
+    let followed = entry(&harness).top() - entry_before.top();
+    assert!((followed - moved).abs() < 1.0, "{followed} {moved}");
+    scroll(&mut harness, egui::MouseWheelUnit::Page, 1.0);
+    assert!(harness.query_by_label("Save as…").is_none());
+    press(&mut harness, "Coat: primer");
+    entry(&harness);
 }

@@ -236,6 +236,8 @@ fn the_operators_view_looks_as_it_did() {
         let mut found = inspected();
         // In the present shift; without starts, every shift is "since 00:00", which has the same width all day.
         found.entry.record.summary.at = jiff::Timestamp::now();
+        // As if the cell was followed: only then its parts are counted.
+        found.entry.record.summary.source = "simulated".into();
         fs::write(&settings, "shifts = []").expect("written");
         let mut harness = open_with(size, found, Some(settings.clone()));
         if is_light {

@@ -309,12 +309,15 @@ fn a_dialog_that_grows_or_shrinks_is_in_its_place_at_once() {
 
 /// Writes a calibration that was entered by hand.
 pub(crate) fn save_calibration(path: &Path) {
+    save_calibration_of(path, robot_from_camera());
+}
+
+/// As [`save_calibration`], of a camera with this pose.
+pub(crate) fn save_calibration_of(path: &Path, robot_from_camera: RigidTransform) {
     let calibration = CellCalibration {
         name: "Cell 2".into(),
         notes: String::new(),
-        camera: CameraPlace::Fixed {
-            robot_from_camera: robot_from_camera(),
-        },
+        camera: CameraPlace::Fixed { robot_from_camera },
         origin: Origin::ByHand,
         made_at: jiff::Timestamp::UNIX_EPOCH,
     };
@@ -404,6 +407,9 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     );
     // The fifth point is too near, and the sixth is beside the door.
     assert_eq!(carried.num_inside(), 4, "{carried:?}");
+
+    // The angle counts as well as the distance.
+    harness.get_by_label_contains("Inside the band also means an angle of at most 30.00°");
 
     // Without a calibrated cell there is nothing to export.
     let out = folder.path().join("out.csv");

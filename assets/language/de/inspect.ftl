@@ -77,6 +77,11 @@ inspect-points-not-seen = { $count ->
     }, wo die Kamera das Teil nicht sieht
 inspect-path-not-seen = Die Kamera sieht das Teil an keinem Punkt der Bahn
 inspect-angle = Winkel
+inspect-angle-counts = { $count ->
+        [0] Im Band heißt auch: Winkel höchstens { $limit }
+        [one] Im Band heißt auch: Winkel höchstens { $limit }; an 1 Punkt ist er größer
+       *[other] Im Band heißt auch: Winkel höchstens { $limit }; an { $count } Punkten ist er größer
+    }
 inspect-path-fits = Die Bahn passt auch ohne die Pose
 inspect-path-needs-pose = Das Roboterprogramm muss die Pose auf die Bahn anwenden
 inspect-stand-off-of = Düsenabstand { $mean } von { $nearest } bis { $farthest }

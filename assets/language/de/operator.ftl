@@ -65,6 +65,8 @@ operator-hang-or-empty-cell-next = Das Teil mindestens 10 cm vor der Wand vor di
 operator-uncover-camera-next = Entfernen, was die Kamera verdeckt, und „Aufnehmen“ drücken; bleibt es dabei, den Einrichter rufen
 operator-turn-part-next = Die Sichtseite des Teils zur Kamera drehen und „Aufnehmen“ drücken; bleibt es dabei, den Einrichter rufen
 operator-ask = Den Einrichter rufen
+operator-reaches-edge = Es reicht bis an den Bildrand: So aufhängen, dass es ganz im Bild ist
+operator-reaches-edge-ok = Es reicht bis an den Bildrand: Das nächste Teil weiter innen aufhängen
 
 ## The bars above and below
 
@@ -86,6 +88,7 @@ operator-serial = Serien-Nr.
 operator-serial-hint = scannen oder eingeben
 operator-serial-for-next = Für das nächste Teil, das geprüft wird
 operator-serial-entered = Seriennummer { $serial } übernommen
+operator-robots-without-pose = Roboter bekommen keine Pose: Den Einrichter bitten, die Zelle zu kalibrieren
 operator-robots-without-frames = Roboter bekommen keine Bilder: Live drücken
 operator-robots-without-source = Roboter bekommen keine Bilder: Den Einrichter bitten, eine Kamera zu wählen
 operator-not-recorded = Nicht gespeichert

@@ -77,6 +77,11 @@ inspect-points-not-seen = { $count ->
     }, where the camera does not see the part
 inspect-path-not-seen = The camera sees the part at no point of the path
 inspect-angle = angle
+inspect-angle-counts = { $count ->
+        [0] Inside the band also means an angle of at most { $limit }
+        [one] Inside the band also means an angle of at most { $limit }; 1 point has a larger one
+       *[other] Inside the band also means an angle of at most { $limit }; { $count } points have a larger one
+    }
 inspect-path-fits = The path fits without the pose
 inspect-path-needs-pose = The robot program must apply the pose to the path
 inspect-stand-off-of = Stand-off { $mean } of { $nearest } to { $farthest }

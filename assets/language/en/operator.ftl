@@ -65,6 +65,8 @@ operator-hang-or-empty-cell-next = Hang the part in front of the camera, at leas
 operator-uncover-camera-next = Take away what covers the camera and press Capture; if it persists, ask the engineer
 operator-turn-part-next = Turn the part's face to the camera and press Capture; if it persists, ask the engineer
 operator-ask = Ask the engineer
+operator-reaches-edge = It reaches the edge of the picture: hang it so that all of it is in the picture
+operator-reaches-edge-ok = It reaches the edge of the picture: hang the next one further inside
 
 ## The bars above and below
 
@@ -86,6 +88,7 @@ operator-serial = Serial
 operator-serial-hint = scan or type
 operator-serial-for-next = For the next part that is inspected
 operator-serial-entered = Serial number { $serial } entered
+operator-robots-without-pose = Robots get no pose: ask the engineer to calibrate the cell
 operator-robots-without-frames = Robots get no frames: press Live
 operator-robots-without-source = Robots get no frames: ask the engineer to choose a camera
 operator-not-recorded = Not recorded

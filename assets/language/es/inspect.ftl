@@ -77,6 +77,11 @@ inspect-points-not-seen = { $count ->
     }, donde la cámara no ve la pieza
 inspect-path-not-seen = La cámara no ve la pieza en ningún punto de la trayectoria
 inspect-angle = ángulo
+inspect-angle-counts = { $count ->
+        [0] Dentro de la banda exige también un ángulo de { $limit } como máximo
+        [one] Dentro de la banda exige también un ángulo de { $limit } como máximo; en 1 punto es mayor
+       *[other] Dentro de la banda exige también un ángulo de { $limit } como máximo; en { $count } puntos es mayor
+    }
 inspect-path-fits = La trayectoria sirve sin la pose
 inspect-path-needs-pose = El programa del robot debe aplicar la pose a la trayectoria
 inspect-stand-off-of = Distancia de boquilla { $mean }, de { $nearest } a { $farthest }

@@ -65,6 +65,8 @@ operator-hang-or-empty-cell-next = Colgar la pieza delante de la cámara, a 10 c
 operator-uncover-camera-next = Retirar lo que tapa la cámara y pulsar Capturar; si persiste, avisar al técnico
 operator-turn-part-next = Orientar la cara de la pieza hacia la cámara y pulsar Capturar; si persiste, avisar al técnico
 operator-ask = Avisar al técnico
+operator-reaches-edge = Llega al borde de la imagen: colgarla de modo que quede entera en la imagen
+operator-reaches-edge-ok = Llega al borde de la imagen: colgar la siguiente más hacia el centro
 
 ## The bars above and below
 
@@ -86,6 +88,7 @@ operator-serial = N.º serie
 operator-serial-hint = escanear o teclear
 operator-serial-for-next = Para la próxima pieza inspeccionada
 operator-serial-entered = Número de serie { $serial } registrado
+operator-robots-without-pose = Los robots no reciben la pose: pedir al técnico que calibre la celda
 operator-robots-without-frames = Los robots no reciben imágenes: pulsar En vivo
 operator-robots-without-source = Los robots no reciben imágenes: pedir al técnico que elija una cámara
 operator-not-recorded = Sin guardar

@@ -74,6 +74,10 @@ inspect-points-in-band = { $inside } / { $num } 个点
 inspect-points-not-seen = 有 { $count } 个点相机看不到零件，未检查
 inspect-path-not-seen = 相机在轨迹的任何点都看不到零件
 inspect-angle = 角度
+inspect-angle-counts = { $count ->
+        [0] 合格还要求角度不超过 { $limit }
+       *[other] 合格还要求角度不超过 { $limit }；有 { $count } 个点超过
+    }
 inspect-path-fits = 无需位姿即可使用该轨迹
 inspect-path-needs-pose = 机器人程序必须将位姿应用于轨迹
 inspect-stand-off-of = 喷距 { $mean }，范围 { $nearest } 至 { $farthest }

@@ -65,6 +65,8 @@ operator-hang-or-empty-cell-next = 将零件挂在相机前，距墙至少 10 cm
 operator-uncover-camera-next = 移开遮挡相机的物体，然后按“采集”；若仍如此，请联系工程师
 operator-turn-part-next = 将零件正面朝向相机，然后按“采集”；若仍如此，请联系工程师
 operator-ask = 请联系工程师
+operator-reaches-edge = 零件到达画面边缘：请将其完全挂在画面内
+operator-reaches-edge-ok = 零件到达画面边缘：请将下一件挂得更靠内
 
 ## The bars above and below
 
@@ -83,6 +85,7 @@ operator-serial = 序列号
 operator-serial-hint = 扫描或输入
 operator-serial-for-next = 用于下一个检测的零件
 operator-serial-entered = 已输入序列号 { $serial }
+operator-robots-without-pose = 机器人得不到位姿：请工程师标定工位
 operator-robots-without-frames = 机器人未收到帧：请按“实时”
 operator-robots-without-source = 机器人未收到帧：请工程师选择相机
 operator-not-recorded = 未保存

@@ -341,22 +341,13 @@ pub(in crate::app) fn plain(point: &Point2<f64>) -> [f32; 2] {
 mod tests {
     use super::{Alignment, NotAligned};
     use crate::{
-        app::inspection::{
-            inspected::{InspectRequest, inspect},
-            library_cache::LibraryCache,
-            source::{CellChoice, SceneSource},
-        },
-        pipeline::{Recipe, Unwatched},
+        app::inspection::{inspected::inspected_cell, source::CellChoice},
+        pipeline::Recipe,
     };
 
     #[test]
     fn the_best_parts_outline_and_signature_lie_on_the_scenes() {
-        let choice = CellChoice::InTurn;
-        let request = InspectRequest {
-            source: SceneSource::Cell { choice, number: 1 },
-            recipe: std::sync::Arc::default(),
-        };
-        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
+        let inspected = inspected_cell(CellChoice::InTurn, 1);
         let figures = &inspected.figures;
         let (contour, scene) = (
             figures.contour.as_ref().expect("a contour"),
@@ -390,14 +381,8 @@ mod tests {
 
     #[test]
     fn every_part_that_was_tried_shows_its_own_alignment_and_the_others_say_why_not() {
-        let choice = CellChoice::InTurn;
-        let recipe = Recipe::default();
-        let num_tried = recipe.confirm.num_references;
-        let request = InspectRequest {
-            source: SceneSource::Cell { choice, number: 1 },
-            recipe: std::sync::Arc::new(recipe.into()),
-        };
-        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
+        let num_tried = Recipe::default().confirm.num_references;
+        let inspected = inspected_cell(CellChoice::InTurn, 1);
         let candidates = &inspected.figures.candidates;
         let curves: Vec<&Vec<f32>> = candidates
             .iter()

@@ -391,25 +391,25 @@ impl FinishedInspection {
     }
 }
 
+/// Inspects a frame of the simulated cell with the built-in recipe.
+#[cfg(test)]
+pub(in crate::app) fn inspected_cell(choice: super::source::CellChoice, number: u64) -> Inspected {
+    let request = InspectRequest {
+        source: SceneSource::Cell { choice, number },
+        recipe: Arc::default(),
+    };
+    let inspected = inspect(&request, &LibraryCache::default(), &pipeline::Unwatched);
+    inspected.expect("inspected")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        app::inspection::source::CellChoice,
-        kit::shipped_library,
-        pipeline::{Unwatched, Verdict},
-    };
+    use crate::{app::inspection::source::CellChoice, kit::shipped_library, pipeline::Verdict};
 
     #[test]
     fn a_captured_frame_comes_back_inspected() {
-        let request = InspectRequest {
-            source: SceneSource::Cell {
-                choice: CellChoice::InTurn,
-                number: 1,
-            },
-            recipe: Arc::default(),
-        };
-        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
+        let inspected = inspected_cell(CellChoice::InTurn, 1);
         let Verdict::Part { part, rejected, .. } = &inspected.inspection.verdict else {
             panic!("no part");
         };

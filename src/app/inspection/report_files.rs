@@ -232,10 +232,7 @@ pub(in crate::app) fn report_of(
     PoseReport::of(&ReportSubject {
         inspected_at: inspected.at,
         scene: &scene_name(&inspected.origin).display().to_string(),
-        source: match inspected.origin {
-            Origin::Simulated { .. } => Some("the window's simulated cell"),
-            Origin::File { .. } | Origin::Scan { .. } | Origin::Frame { .. } => None,
-        },
+        source: Some(&inspected.entry.record.summary.source),
         seen_by,
         trace: inspected.trace(),
         inspection: &inspected.inspection,
@@ -338,7 +335,48 @@ fn on_paper(shot: &ViewShot) -> ViewShot {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
+    use crate::{
+        app::inspection::{
+            inspected::{InspectRequest, inspect},
+            library_cache::LibraryCache,
+            source::SceneSource,
+        },
+        kit::scene_of,
+        pipeline::Unwatched,
+        simulate::{CellSetup, PartKind, Side},
+    };
+
+    #[test]
+    fn a_report_names_the_source_that_the_history_lists() {
+        let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 3);
+        let scene = Arc::new(scene_of(&setup));
+        let frame = |is_simulated| Origin::Frame {
+            name: "kinect frame 12".into(),
+            is_simulated,
+        };
+        let file = Origin::File {
+            path: "/data/door.pcd".into(),
+            is_simulated: true,
+        };
+        for (origin, source) in [
+            (frame(false), "Kinect frame 12"),
+            (frame(true), "Kinect frame 12, simulated"),
+            (file, "door.pcd, simulated"),
+        ] {
+            let request = InspectRequest {
+                source: SceneSource::AtHand(Arc::clone(&scene), origin),
+                recipe: Arc::default(),
+            };
+            let library = LibraryCache::default();
+            let inspected = inspect(&request, &library, &Unwatched).expect("inspected");
+            assert_eq!(inspected.entry.record.summary.source, source);
+            let report = report_of(&inspected, None, Convention::Kuka);
+            assert_eq!(report.source.as_deref(), Some(source));
+        }
+    }
 
     #[test]
     fn an_earlier_report_is_never_written_over() {

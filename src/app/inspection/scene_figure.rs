@@ -260,13 +260,8 @@ fn smoothed(corners: &[Vec3]) -> Vec<Vec3> {
 mod tests {
     use super::*;
     use crate::{
-        app::inspection::{
-            inspected::{InspectRequest, inspect},
-            library_cache::LibraryCache,
-            source::{CellChoice, SceneSource},
-        },
+        app::inspection::{inspected::inspected_cell, source::CellChoice},
         geometry::{nearest::KdTree, rigid::from_euler_zyx},
-        pipeline::Unwatched,
         robot::spray::CarriedPoint,
     };
 
@@ -298,14 +293,7 @@ mod tests {
 
     #[test]
     fn the_enrolled_outline_lies_on_the_rim_of_the_part() {
-        let request = InspectRequest {
-            source: SceneSource::Cell {
-                choice: CellChoice::InTurn,
-                number: 1,
-            },
-            recipe: std::sync::Arc::default(),
-        };
-        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
+        let inspected = inspected_cell(CellChoice::InTurn, 1);
         let part = &inspected.inspection.segmentation.part;
         let part = &part.as_ref().expect("a part").cloud.points;
         let tree = KdTree::new(part);

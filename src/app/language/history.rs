@@ -8,8 +8,6 @@ use crate::{
     pipeline::{AcceptParams, Refusal, RefusalKind, is_like},
 };
 
-/// Prefix of the title of a mirror image, before the name of the part.
-const MIRRORED: &str = "Mirror image of ";
 /// Prefix of the title of a frame of the simulated cell, before its number.
 const FRAME: &str = "Simulated frame ";
 /// Suffix of the title of a simulated scene.
@@ -24,12 +22,12 @@ pub(in crate::app) fn stored_title(past: &Summary) -> String {
     if let Some(part) = recognised_part(past) {
         return text!("results-title-refused", part = part);
     }
+    if let Some(part) = past.mirror_of() {
+        return text!("results-title-mirrored", part = part);
+    }
     match (past.verdict, stored_part(past)) {
         (StoredVerdict::NotAccepted, Some(part)) => {
             text!("results-title-not-recognised", part = part)
-        }
-        (StoredVerdict::Unknown, Some(part)) if past.title.starts_with(MIRRORED) => {
-            text!("results-title-mirrored", part = part)
         }
         (StoredVerdict::Unknown, _) if past.score.is_some_and(|[score, _]| !is_like(score)) => {
             text!("inspect-unknown-part")
@@ -56,7 +54,7 @@ fn stored_part(past: &Summary) -> Option<&str> {
         StoredVerdict::NotAccepted => title.strip_prefix("Not recognised · nearest "),
         StoredVerdict::Unknown => title
             .strip_prefix("Unknown · nearest ")
-            .or_else(|| title.strip_prefix(MIRRORED)),
+            .or_else(|| past.mirror_of()),
         StoredVerdict::NoPart => None,
     }
 }
@@ -188,7 +186,6 @@ mod tests {
         for title in [
             "Not recognised · nearest {name}",
             "Unknown · nearest {name}",
-            "Mirror image of {name}",
         ] {
             assert!(written.contains(title), "{title}");
         }

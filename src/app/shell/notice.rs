@@ -38,12 +38,17 @@ pub enum NoticeTopic {
     Answering,
     /// The name entered for a coat: removed once it is changed or the coat is saved.
     CoatName,
+    /// Why no robot program can be written: removed once arm, nozzle or gun are changed.
+    Program,
 }
 
 impl NoticeTopic {
     /// True if a newer notice about it replaces the former one.
     fn has_one_notice(self) -> bool {
-        matches!(self, Self::Following | Self::Answering | Self::CoatName)
+        matches!(
+            self,
+            Self::Following | Self::Answering | Self::CoatName | Self::Program
+        )
     }
 }
 

@@ -26,6 +26,8 @@ pub struct ProgramSetup {
     pub arm: Option<String>,
     /// Pose of the nozzle on the flange, as typed: `kuka X Y Z A B C`, or the 16 numbers of a matrix.
     pub nozzle: String,
+    /// Pose of the arm's base in the frame of the calibration, as KUKA writes it: X, Y, Z in mm, then A, B, C in degrees.
+    pub base: [f64; 6],
     /// The rail that the arm stands on, as typed: axis, from, to and, if it moves along the path, top speed and acceleration,
     /// such as `y,-2000,2000,1000,2000`; empty: the rail of the arm's file.
     pub rail: String,
@@ -53,6 +55,7 @@ impl Default for ProgramSetup {
         Self {
             arm: None,
             nozzle: String::new(),
+            base: [0.0; 6],
             rail: String::new(),
             obstacles: None,
             clearance_mm: 1000.0 * Obstacles::default().clearance,
@@ -78,6 +81,15 @@ impl ProgramSetup {
     /// Valid blend radii, mm.
     pub const BLEND: RangeInclusive<f64> = 0.0..=100.0;
 
+    /// Valid values of the number of `base` at this place.
+    pub fn base_range(place: usize) -> RangeInclusive<f64> {
+        if place < 3 {
+            -100_000.0..=100_000.0
+        } else {
+            -180.0..=180.0
+        }
+    }
+
     /// Replaces each number out of its range, as a file may contain, by its default.
     ///
     /// NaN never equals itself, so that settings would be written and the reach checked without end.
@@ -97,6 +109,11 @@ impl ProgramSetup {
         ] {
             if !range.contains(value) {
                 *value = usual;
+            }
+        }
+        for (place, value) in self.base.iter_mut().enumerate() {
+            if !Self::base_range(place).contains(value) {
+                *value = 0.0;
             }
         }
         self
@@ -148,24 +165,34 @@ impl ProgramSetup {
         Ok(Some(written.pose))
     }
 
-    /// Returns the settings of a program, and the arm whose reach is checked, with its base as in the calibration. The part is
-    /// not among its obstacles yet.
+    /// Why the nozzle's pose cannot be used: it is wrong, or missing although there is an arm.
+    pub(in crate::app) fn nozzle_error(&self) -> Option<UserError> {
+        match self.flange_from_nozzle() {
+            Ok(None) if self.arm.is_some() => Some(UserError {
+                what: text!("program-no-nozzle"),
+                advice: text!("program-no-nozzle-advice"),
+            }),
+            Ok(_) => None,
+            Err(error) => Some(error),
+        }
+    }
+
+    /// Returns the settings of a program, and the arm whose reach is checked. The part is not among its obstacles yet.
     pub(in crate::app) fn target(&self) -> Result<ProgramTarget, UserError> {
+        if let Some(error) = self.nozzle_error() {
+            return Err(error);
+        }
         let tool = self.tool.trim();
         let flange_from_nozzle = self.flange_from_nozzle()?;
-        let arm = match (&self.arm, flange_from_nozzle) {
-            (None, _) => None,
-            (Some(_), None) => {
-                return Err(UserError {
-                    what: text!("program-no-nozzle"),
-                    advice: text!("program-no-nozzle-advice"),
-                });
-            }
-            (Some(name), Some(flange_from_nozzle)) => Some(PlacedArm {
+        let arm = match self.arm.as_deref().zip(flange_from_nozzle) {
+            None => None,
+            Some((name, flange_from_nozzle)) => Some(PlacedArm {
                 arm: self
                     .arm_on_rail(name)
                     .map_err(|error| UserError::of(&error))?,
-                robot_from_base: RigidTransform::identity(),
+                robot_from_base: Convention::Kuka
+                    .read(&self.base)
+                    .map_err(|error| UserError::of(&error))?,
                 flange_from_nozzle,
                 gun_radius: self.gun_radius_mm / 1000.0,
                 obstacles: self.boxes()?,
@@ -208,6 +235,7 @@ pub(in crate::app) fn program_file_name(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::robot::parse_written_pose;
 
     #[test]
     fn the_title_of_an_arm_is_had_without_its_file() {
@@ -247,6 +275,27 @@ mod tests {
         }
         assert_eq!(name(Some("cell.toml"), Convention::Abb), "door.mod");
         assert_eq!(name(None, Convention::Doosan), "door.drl");
+    }
+
+    #[test]
+    fn the_base_is_that_of_the_same_numbers_on_the_command_line() {
+        let placed = |base: [f64; 6]| {
+            let setup = ProgramSetup {
+                arm: Some("gp25".into()),
+                nozzle: "kuka 0 0 250 0 45 0".into(),
+                base,
+                ..ProgramSetup::default()
+            };
+            let target = setup.target().expect("an arm that is placed");
+            target.arm.expect("an arm").robot_from_base
+        };
+        // Exactly, or the program's header names a base that differs from the calibration's.
+        assert_eq!(placed([0.0; 6]), RigidTransform::identity());
+        let written = parse_written_pose("kuka 1200 -400.5 30 90 0 180").expect("a pose");
+        assert_eq!(
+            placed([1200.0, -400.5, 30.0, 90.0, 0.0, 180.0]),
+            written.pose
+        );
     }
 
     #[test]

@@ -588,14 +588,15 @@ mod tests {
     fn numbers_of_a_robot_program_that_cannot_be_are_the_usual_ones() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("settings.toml");
-        let text =
-            "[program]\narm = \"gp25\"\nspeed_mm_s = nan\nblend_mm = inf\nclearance_mm = 30.0\n";
+        let text = "[program]\narm = \"gp25\"\nspeed_mm_s = nan\nblend_mm = inf\nclearance_mm = 30.0\n\
+                    base = [nan, -800.0, 0.0, 500.0, 0.0, 90.0]\n";
         fs::write(&path, text).expect("written");
         let (settings, trouble) = load(&path);
         assert_eq!(trouble, None);
         let wanted = ProgramSetup {
             arm: Some("gp25".into()),
             clearance_mm: 30.0,
+            base: [0.0, -800.0, 0.0, 0.0, 0.0, 90.0],
             ..ProgramSetup::default()
         };
         assert_eq!(settings.program, wanted);

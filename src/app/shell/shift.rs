@@ -1,4 +1,7 @@
 //! The parts of this shift, counted in the history for the operator's view.
+//!
+//! They are the parts of the source that the view follows. Opened files and scans, single frames of the simulated cell and
+//! what is inspected for an enrolment have other sources in the history.
 
 use std::{cmp::Reverse, sync::Arc, time::Duration};
 
@@ -92,8 +95,8 @@ pub struct ShiftParts {
 #[derive(Debug)]
 pub struct ShiftWatch {
     counting: Task<ShiftParts>,
-    /// The revision of the history and the shift of the last count.
-    counted: Option<(u64, Timestamp)>,
+    /// The revision of the history, the shift and the source of the last count.
+    counted: Option<(u64, Timestamp, String)>,
     /// When to repeat a failed count, seconds of egui's clock.
     retry_at: Option<f64>,
 }
@@ -137,13 +140,16 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
         ctx.request_repaint_after_secs((at - time).max(0.0) as f32);
     }
     let is_retry = state.shift_watch.retry_at.is_some_and(|at| at <= time);
-    let wanted = (history.num_events(), since.timestamp());
-    if is_retry || state.shift_watch.counted != Some(wanted) {
-        state.shift_watch.counted = Some(wanted);
+    // What cannot be followed is not named: no part comes from there.
+    let source = state.session.source.followed();
+    let source = source.map_or_else(String::new, |source| source.to_string());
+    let wanted = Some((history.num_events(), since.timestamp(), source.clone()));
+    if is_retry || state.shift_watch.counted != wanted {
+        state.shift_watch.counted = wanted;
         state.shift_watch.retry_at = None;
         let history = Arc::clone(history);
         let count = move |_: &_| {
-            count(&history, since.clone()).map_err(|error| UserError::of(&error).into())
+            count(&history, since.clone(), &source).map_err(|error| UserError::of(&error).into())
         };
         state
             .shift_watch
@@ -152,8 +158,8 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
     }
 }
 
-/// Counts the parts since a moment: all inspections of a hung part are one part, and an empty cell is none.
-fn count(history: &HistoryBuffer, since: Zoned) -> Result<ShiftParts, HistoryError> {
+/// Counts the parts of a source since a moment: all inspections of a hung part are one part, and an empty cell is none.
+fn count(history: &HistoryBuffer, since: Zoned, source: &str) -> Result<ShiftParts, HistoryError> {
     let mut parts = ShiftParts::default();
     for verdict in StoredVerdict::ALL {
         let num = match verdict {
@@ -164,6 +170,7 @@ fn count(history: &HistoryBuffer, since: Zoned) -> Result<ShiftParts, HistoryErr
         let filter = Filter {
             since: Some(since.timestamp()),
             verdict: Some(verdict),
+            source: Some(source.to_owned()),
             ..Filter::default()
         };
         let page = history.page(&filter, 0, MAX_LISTED)?;
@@ -178,7 +185,35 @@ fn count(history: &HistoryBuffer, since: Zoned) -> Result<ShiftParts, HistoryErr
 
 #[cfg(test)]
 mod tests {
+    use std::time::Instant;
+
     use super::*;
+    use crate::kit::{history_entry, moment};
+
+    #[test]
+    fn only_parts_of_the_source_that_is_followed_are_counted() {
+        let history = HistoryBuffer::new(None);
+        // The last three: a start of the window, an opened file and a scene that was enrolled.
+        let sources = [
+            "kinect",
+            "kinect",
+            "simulated cell",
+            "/data/door.pcd",
+            "Kinect frame 12",
+        ];
+        for (seconds, source) in (1..).zip(sources) {
+            let mut entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+            entry.record.summary.source = source.into();
+            history.add(seconds as u64, entry, Instant::now());
+        }
+        let counted = |source| {
+            let since = moment(0).to_zoned(jiff::tz::TimeZone::UTC);
+            let parts = count(&history, since, source).expect("counted");
+            assert_eq!(parts.last.len(), parts.num_ok);
+            parts.num_ok
+        };
+        assert_eq!(["kinect", "simulated", ""].map(counted), [2, 0, 0]);
+    }
 
     fn around(starts: &[&str], now: &str) -> [String; 2] {
         let starts: Vec<String> = starts.iter().map(|time| (*time).to_owned()).collect();

@@ -284,6 +284,22 @@ pub(in crate::app) fn shortened(text: &str, most: usize) -> String {
     )
 }
 
+/// Cuts the middle out of a text wider than this room: serial numbers differ at their end.
+pub(in crate::app) fn fitted_middle(
+    painter: &Painter,
+    text: &str,
+    font: &FontId,
+    room: f32,
+) -> String {
+    let fits = |text: &String| {
+        let galley = painter.layout_no_wrap(text.clone(), font.clone(), Color32::PLACEHOLDER);
+        galley.size().x <= room
+    };
+    let lengths = (2..=text.chars().count()).rev();
+    let mut texts = lengths.map(|most| shortened(text, most));
+    texts.find(fits).unwrap_or_else(|| text.to_owned())
+}
+
 /// Draws a list that drops down below a button with the chosen entry. `label` is its accessible name.
 pub(in crate::app) fn drop_down(
     ui: &mut Ui,

@@ -43,6 +43,8 @@ struct RowLine<'a> {
     parent: Option<i64>,
     /// Number of re-inspections below this one.
     reinspections: usize,
+    /// Title of the part of which it is the mirror image; null if it is none.
+    mirror_of: Option<&'a str>,
     /// `serial`, `order` and `operator`, as far as known.
     #[serde(flatten)]
     trace: &'a Traceability,
@@ -70,6 +72,7 @@ impl<'a> RowLine<'a> {
             frame_kept: row.frame_bytes.is_some(),
             parent: row.parent,
             reinspections: row.num_below,
+            mirror_of: row.mirror_of(),
             trace: &row.trace,
             cell: None,
         }

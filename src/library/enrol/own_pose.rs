@@ -1,9 +1,13 @@
 //! Whether a part's shape fixes its pose, tested by confirming the reference in its own standard view.
 
+use nalgebra::Point3;
+
 use crate::{
+    geometry::rigid::RigidTransform,
     library::EnrolWarning,
     stages::{
         confirm::{ConfirmParams, Scene, confirm},
+        pose::FreeMotion,
         rank::{Query, RankParams, rank},
         reference::{Coverage, Reference, seen_around},
         scene::SceneCloud,
@@ -13,6 +17,8 @@ use crate::{
 
 /// Margin over another pose below which an inspection rejects the pose.
 const LEAST_LEAD: f64 = 0.05;
+/// Turn, degrees, below which the confirmation takes two poses for different ones only because of their shift.
+const LEAST_TURN: f64 = 10.0;
 
 /// Returns what an inspection of the whole part without noise would find wrong with its pose.
 pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<EnrolWarning> {
@@ -39,7 +45,47 @@ pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<
     let is_tied = rival > 0.0 && found.score - rival < LEAST_LEAD;
     let other = pose.runner_up.filter(|_| is_tied || pose.is_ambiguous())?;
     let between = pose.target_from_source * other.target_from_source.inverse();
-    Some(EnrolWarning::Symmetric {
-        degrees: between.rotation.angle().to_degrees().round() as u16,
-    })
+    Some(fits_after(&between, &reference.cloud.points))
+}
+
+/// Returns the warning about a part that fits as well after this motion: another side of it if it turns, else no fixed pose.
+fn fits_after(motion: &RigidTransform, points: &[Point3<f32>]) -> EnrolWarning {
+    let degrees = motion.rotation.angle().to_degrees();
+    if degrees < LEAST_TURN {
+        EnrolWarning::Unconstrained(FreeMotion::of(motion, points))
+    } else {
+        EnrolWarning::Symmetric {
+            degrees: degrees.round() as u16,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{geometry::rigid::from_euler_zyx, stages::pose::Axis};
+
+    #[test]
+    fn a_part_that_fits_a_few_degrees_or_a_shift_away_is_unconstrained_and_not_symmetric() {
+        // A sheet twice as long as wide, its middle on the z axis.
+        let steps = |num: i16| (-num..=num).map(|step| f32::from(step) * 0.01);
+        let across = |x: f32| steps(20).map(move |y| Point3::new(x, y, 1.3));
+        let points: Vec<Point3<f32>> = steps(40).flat_map(across).collect();
+        let fits = |degrees: f64, [x, y]: [f64; 2]| {
+            let motion = from_euler_zyx([0.0, 0.0, degrees.to_radians(), x, y, 0.0]);
+            fits_after(&motion, &points)
+        };
+        for (degrees, wanted) in [(180.0, 180), (-90.0, 90), (12.0, 12)] {
+            let warning = fits(degrees, [0.06, 0.0]);
+            assert_eq!(warning, EnrolWarning::Symmetric { degrees: wanted });
+        }
+        for (degrees, shift, wanted) in [
+            (1.0, [0.06, 0.0], FreeMotion::Slide(Axis::Long)),
+            (-1.0, [0.0, -0.06], FreeMotion::Slide(Axis::Short)),
+            (8.0, [0.0, 0.0], FreeMotion::Turn(Axis::Normal)),
+        ] {
+            let warning = fits(degrees, shift);
+            assert_eq!(warning, EnrolWarning::Unconstrained(wanted), "{degrees}");
+        }
+    }
 }

@@ -75,7 +75,7 @@ pub struct PoseReport {
     pub program: String,
     /// The file or frame that was inspected.
     pub scene: String,
-    /// What gave the frame, as it can be opened again; null for a file, and where it was not written down.
+    /// What gave the frame, as the history names it; null from `partsight report`, which is given the file.
     pub source: Option<String>,
     /// Whether a camera was read.
     pub seen_by: SeenBy,

@@ -78,25 +78,13 @@ mod tests {
 
     use super::*;
     use crate::{
-        app::inspection::{
-            inspected::{InspectRequest, inspect},
-            library_cache::LibraryCache,
-            source::{CellChoice, SceneSource},
-        },
+        app::inspection::{inspected::inspected_cell, source::CellChoice},
         history::FILE,
         library::Truth,
-        pipeline::Unwatched,
     };
 
     fn inspected() -> Inspected {
-        let request = InspectRequest {
-            source: SceneSource::Cell {
-                choice: CellChoice::Empty,
-                number: 1,
-            },
-            recipe: Arc::default(),
-        };
-        inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected")
+        inspected_cell(CellChoice::Empty, 1)
     }
 
     fn about(inspected: &Inspected, remark: &str) -> CaseDescription {

@@ -356,23 +356,15 @@ mod tests {
 
     use super::*;
     use crate::{
-        app::inspection::{
-            inspected::{InspectRequest, inspect},
-            source::{CellChoice, SceneSource},
-        },
+        app::inspection::{inspected::inspected_cell, source::CellChoice},
         kit::shipped_library,
         pipeline::{Recipe, Unwatched},
         simulate::{PartKind, Side},
     };
 
     fn request(choice: CellChoice) -> StudyRequest {
-        let request = InspectRequest {
-            source: SceneSource::Cell { choice, number: 2 },
-            recipe: Arc::default(),
-        };
-        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched);
         StudyRequest {
-            case: CaseScene::Inspected(Arc::new(inspected.expect("inspected"))),
+            case: CaseScene::Inspected(Arc::new(inspected_cell(choice, 2))),
             recipe: Arc::default(),
             truth: None,
             against: None,

@@ -96,6 +96,7 @@ impl ListFilter {
             verdict: self.verdict.filter(|_| !is_refused),
             is_accepted: is_refused.then_some(false),
             is_simulated: None,
+            source: None,
             with_below: false,
             text: self.text.clone(),
             shown,

@@ -18,7 +18,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::{Mark, fitted_path, focus_ring, mark},
+            widgets::{Mark, fitted_middle, fitted_path, focus_ring, mark},
         },
     },
     history::{StoredVerdict, Summary},
@@ -164,13 +164,13 @@ const COLUMNS: [Column; 5] = [
         name: || text!("history-column-scene"),
         width: Width::Share(0.42),
         is_path: true,
-        // A remark is what others look for first, then the serial number.
+        // A remark is what others look for first.
         text: |past, _| {
             let scene = stored_scene(&past.scene, past.is_simulated);
-            let texts = [&past.remark, &past.trace.serial, &scene];
-            let texts: Vec<&str> = texts.into_iter().map(String::as_str).collect();
-            let known = texts.into_iter().filter(|text| !text.is_empty());
-            known.collect::<Vec<_>>().join(" · ")
+            match past.remark.as_str() {
+                "" => scene,
+                remark => format!("{remark} · {scene}"),
+            }
         },
         look: |theme| (font::body(), theme.weak_text),
     },
@@ -331,9 +331,20 @@ fn paint(painter: &Painter, rect: Rect, past: &Summary, layout: &Layout, theme: 
     };
     let at = pos2(rect.left() + 20.0, rect.center().y);
     mark(painter, at, 9.0, sign, theme);
-    for (column, span) in layout.columns() {
+    let serial = &past.trace.serial;
+    for (place, (column, span)) in layout.columns().enumerate() {
+        let mut line = rect;
+        if place == 0 && !serial.is_empty() {
+            // Below the part, where there is room for the 17 letters of a vehicle's number.
+            let below;
+            (line, below) = rect.split_top_bottom_at_fraction(0.5);
+            let [from, to] = span;
+            let font = font::small();
+            let serial = fitted_middle(painter, serial, &font, to - space::SMALL - from);
+            column.write(painter, below, span, &serial, (font, theme.weak_text));
+        }
         let text = (column.text)(past, layout.room);
-        column.write(painter, rect, span, &text, (column.look)(theme));
+        column.write(painter, line, span, &text, (column.look)(theme));
     }
 }
 
@@ -353,4 +364,47 @@ pub(super) fn time_of_day(at: Timestamp) -> String {
 pub(super) fn when(at: Timestamp) -> String {
     let here = at.to_zoned(TimeZone::system());
     here.strftime("%Y-%m-%d %H:%M:%S").to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{RawInput, Shape};
+
+    use super::*;
+    use crate::kit::history_entry;
+
+    #[test]
+    fn a_serial_number_is_readable_to_its_end_in_a_narrow_list() {
+        let texts = |serial: &str| {
+            let mut past = history_entry(1, StoredVerdict::Accepted, "front_door")
+                .record
+                .summary;
+            past.trace.serial = serial.into();
+            let ctx = egui::Context::default();
+            Theme::install_fonts(&ctx);
+            let output = ctx.run_ui(RawInput::default(), |ui| {
+                let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, ROW));
+                paint(
+                    ui.painter(),
+                    rect,
+                    &past,
+                    &Layout::across(600.0),
+                    Theme::of(ui),
+                );
+            });
+            let written = output.shapes.iter().filter_map(|shape| match &shape.shape {
+                Shape::Text(text) if !text.galley.elided => Some(text.galley.text().to_owned()),
+                _ => None,
+            });
+            let written: Vec<String> = written.collect();
+            output.drop_without_applying_deltas();
+            written
+        };
+        let vehicle = "WVWZZZ1JZXW000017";
+        let written = texts(vehicle);
+        assert!(written.iter().any(|text| text == vehicle), "{written:?}");
+        let written = texts(&format!("{vehicle}/{vehicle}/{vehicle}"));
+        let is_cut = |text: &String| text.contains('…') && text.ends_with("000017");
+        assert!(written.iter().any(is_cut), "{written:?}");
+    }
 }

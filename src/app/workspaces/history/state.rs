@@ -297,10 +297,13 @@ impl HistoryState {
             asked,
             page,
             record,
+            is_listed,
             kept,
             frames,
             parts,
         } = looked;
+        // The newest of the list is shown instead, unless the hidden one is about to be repeated.
+        let is_hidden = !is_listed && self.selected == asked.selected && self.then.is_none();
         // Count those still being written.
         let unwritten = self.unwritten.values();
         let num_unwritten = unwritten.filter(|known| known.is_part).count();
@@ -311,7 +314,7 @@ impl HistoryState {
         self.first = asked.rows.start;
         self.kept = kept;
         self.frames = frames;
-        self.record = record;
+        self.record = record.filter(|_| !is_hidden);
         self.parts = parts.or_else(|| self.parts.take());
         if let Some(known) = &mut self.parts {
             // Parts that were first inspected since.
@@ -319,7 +322,7 @@ impl HistoryState {
                 known.entry(part.clone()).or_insert_with(|| part.clone());
             }
         }
-        if self.selected.is_none() {
+        if self.selected.is_none() || is_hidden {
             self.selected = self.page.rows.first().map(|row| row.number);
         }
     }
@@ -380,7 +383,8 @@ impl HistoryState {
         self.counting
             .start(text!("history-counting-parts"), move |_| {
                 let now = Zoned::now();
-                let outcomes = keeper.outcomes(&filter.at(&now));
+                let mut counted = filter.at(&now);
+                let outcomes = work::outcomes(&mut counted, &keeper);
                 let outcomes = outcomes.map_err(|error| UserError::of(&error))?;
                 let former_titles = RefCell::new(BTreeMap::new());
                 let title_of = |name: &str| {
@@ -396,9 +400,8 @@ impl HistoryState {
                 let mut found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
                 let part = filter.part.clone().or_else(|| most_accepted(&outcomes));
                 if let Some(part) = part {
-                    let mut of_part = filter.at(&now);
-                    of_part.part = Some(part.clone());
-                    let poses = keeper.poses(&of_part);
+                    counted.part = Some(part.clone());
+                    let poses = keeper.poses(&counted);
                     let poses = poses.map_err(|error| UserError::of(&error))?;
                     let loaded = libraries.get();
                     let middle_of = |name: &str| {

@@ -8,7 +8,10 @@ use jiff::Zoned;
 use super::filter::ListFilter;
 use crate::{
     app::user_error::UserError,
-    history::{Filter, HistoryBuffer, HistoryError, Page, Record, Retention, StoredVerdict, Usage},
+    history::{
+        Filter, HistoryBuffer, HistoryError, Page, PartOutcome, Record, Retention, StoredVerdict,
+        Usage,
+    },
 };
 
 /// A query.
@@ -33,6 +36,8 @@ pub struct HistoryResult {
     pub page: Page,
     /// The selected inspection, if it exists.
     pub record: Option<Arc<OpenedInspection>>,
+    /// False if the filter hides the selected inspection.
+    pub is_listed: bool,
     /// The retention rule, and the space that kept frames take.
     pub kept: (Retention, Usage),
     /// The folder of the kept frames.
@@ -73,10 +78,15 @@ fn looked(request: &HistoryQuery, history: &HistoryBuffer) -> Result<HistoryResu
         Some(record) => Some(Arc::new(opened(record, history)?)),
         None => None,
     };
+    let is_listed = record.as_ref().is_none_or(|record| {
+        let of_part = record.part.first().unwrap_or(&record.record);
+        filter.passes(&of_part.summary)
+    });
     Ok(HistoryResult {
         asked: request.clone(),
         page,
         record,
+        is_listed,
         kept: history.kept()?,
         frames: history.frames_folder(),
         parts: if request.with_parts {
@@ -85,6 +95,21 @@ fn looked(request: &HistoryQuery, history: &HistoryBuffer) -> Result<HistoryResu
             None
         },
     })
+}
+
+/// Outcomes of the matching parts. No part hangs in a simulated frame, so those count only where there is nothing else: the
+/// filter leaves them out otherwise.
+pub(super) fn outcomes(
+    filter: &mut Filter,
+    history: &HistoryBuffer,
+) -> Result<Vec<PartOutcome>, HistoryError> {
+    filter.is_simulated = Some(false);
+    let outcomes = history.outcomes(filter)?;
+    if !outcomes.is_empty() {
+        return Ok(outcomes);
+    }
+    filter.is_simulated = None;
+    history.outcomes(filter)
 }
 
 /// Names and titles of the parts in the history.
@@ -129,4 +154,37 @@ fn opened(record: Record, history: &HistoryBuffer) -> Result<OpenedInspection, H
         record,
         part,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Instant;
+
+    use super::*;
+    use crate::kit::history_entry;
+
+    #[test]
+    fn simulated_frames_are_counted_only_where_there_is_nothing_else() {
+        let history = HistoryBuffer::new(None);
+        let add = |seconds, part, is_simulated| {
+            let mut entry = history_entry(seconds, StoredVerdict::Accepted, part);
+            entry.record.summary.is_simulated = is_simulated;
+            history.add(seconds as u64, entry, Instant::now());
+        };
+        let num = |part: &str| {
+            let mut filter = Filter {
+                part: Some(part.to_owned()),
+                ..Filter::default()
+            };
+            let outcomes = outcomes(&mut filter, &history).expect("asked");
+            (outcomes.len(), filter.is_simulated)
+        };
+        add(1, "fender", true);
+        add(2, "fender", true);
+        assert_eq!(num("fender"), (2, None));
+        add(3, "fender", false);
+        add(4, "grille", true);
+        assert_eq!(num("fender"), (1, Some(false)));
+        assert_eq!(num("grille"), (1, None));
+    }
 }

@@ -214,28 +214,12 @@ pub(super) fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usi
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
-    use crate::{
-        app::inspection::{
-            inspected::{InspectRequest, inspect},
-            library_cache::LibraryCache,
-            source::{CellChoice, SceneSource},
-        },
-        pipeline::Unwatched,
-    };
+    use crate::app::inspection::{inspected::inspected_cell, source::CellChoice};
 
     #[test]
     fn a_part_that_is_only_in_doubt_where_it_is_is_called_by_its_name() {
-        let request = InspectRequest {
-            source: SceneSource::Cell {
-                choice: CellChoice::InTurn,
-                number: 1,
-            },
-            recipe: Arc::default(),
-        };
-        let mut found = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
+        let mut found = inspected_cell(CellChoice::InTurn, 1);
         let session = Session::default();
         let title = Headline::of(&found, &session).title;
         for (score, is_recognised) in [(0.97, true), (0.85, false)] {

@@ -16,7 +16,7 @@ use crate::{
         shell::{current_trace, live::SourceState, session::Session},
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, line_mark, mark, sentence, wrapped},
+            widgets::{Mark, fitted_middle, line_mark, mark, sentence, wrapped},
         },
     },
     history::StoredVerdict,
@@ -30,8 +30,8 @@ const BANNER: [f32; 2] = [190.0, 156.0];
 const COLUMN: [f32; 2] = [400.0, 320.0];
 /// Height of a line of the list of parts, logical pixels.
 const LINE: f32 = 40.0;
-/// Room for the name in that list beside a serial number, logical pixels.
-const LEAST_NAME: f32 = 60.0;
+/// Heights of the name and of a serial number below it, logical pixels.
+const TWO_LINES: [f32; 2] = [28.0, 26.0];
 /// Longest reason or advice that fits in the large type, characters.
 const LONG: usize = 60;
 
@@ -84,6 +84,8 @@ struct Banner {
     title: String,
     reason: String,
     next: String,
+    /// What else the operator should know about the part; may be empty.
+    caution: String,
     /// True if the picture shows what hangs there now.
     is_current: bool,
 }
@@ -100,6 +102,7 @@ impl Banner {
             title: title.into(),
             reason: reason.into(),
             next: next.into(),
+            caution: String::new(),
             is_current: false,
         }
     }
@@ -174,11 +177,14 @@ impl Banner {
                 )
             };
         };
+        let inspected = &shown.inspected;
+        let result = Self::of_result(inspected, session);
         let mut verdict = Self {
+            caution: caution(inspected, result.tone),
             is_current: true,
-            ..Self::of_result(&shown.inspected, session)
+            ..result
         };
-        let serial = &shown.inspected.trace().serial;
+        let serial = &inspected.trace().serial;
         if !serial.is_empty() {
             verdict.reason = format!("{} · {serial}", verdict.reason);
         }
@@ -187,6 +193,7 @@ impl Banner {
                 tone: Tone::Open,
                 reason: text!("operator-from-history"),
                 next: text!("operator-capture-current"),
+                caution: String::new(),
                 ..verdict
             };
         }
@@ -244,6 +251,16 @@ impl Banner {
                 Self::new(Tone::NotOk, title, sentence(&reason), advice)
             }
         }
+    }
+}
+
+/// Says that a part reaches the edge of the picture. An accepted part may be painted nevertheless.
+fn caution(inspected: &Inspected, tone: Tone) -> String {
+    let is_cut = inspected.inspection.touches_edge() && inspected.scan.is_none();
+    match tone {
+        Tone::NotOk if is_cut => text!("operator-reaches-edge"),
+        Tone::Ok if is_cut => text!("operator-reaches-edge-ok"),
+        Tone::Ok | Tone::NotOk | Tone::Open | Tone::Trouble => String::new(),
     }
 }
 
@@ -346,21 +363,27 @@ fn banner_ui(ui: &mut Ui, banner: &Banner) {
     );
 }
 
-/// Warns that robots are answered, but get no frames.
-fn robots_without_frames(ui: &mut Ui, session: &Session, theme: &Theme) {
-    if !session.answering.is_on || session.is_live() {
+/// Warns that robots are to be answered, but get no pose or no frames.
+fn robots_without_answer(ui: &mut Ui, session: &Session) {
+    if !session.answering.is_on {
         return;
     }
-    let says = if session.source.followed().is_some() {
-        text!("operator-robots-without-frames")
-    } else {
-        text!("operator-robots-without-source")
-    };
+    if session.robot.is_none() {
+        warn(ui, &text!("operator-robots-without-pose"));
+    } else if !session.is_live() && session.source.followed().is_some() {
+        warn(ui, &text!("operator-robots-without-frames"));
+    } else if !session.is_live() {
+        warn(ui, &text!("operator-robots-without-source"));
+    }
+}
+
+fn warn(ui: &mut Ui, says: &str) {
+    let theme = Theme::of(ui);
     ui.add_space(space::SMALL);
     ui.horizontal_top(|ui| {
         let (rect, _) = ui.allocate_exact_size(Vec2::splat(24.0), Sense::hover());
         mark(ui.painter(), rect.center(), 10.0, Mark::Look, theme);
-        wrapped(ui, &says, &font::far_reason(), theme.warning);
+        wrapped(ui, says, &font::far_reason(), theme.warning);
     });
 }
 
@@ -380,9 +403,18 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
         font::next_step()
     };
     wrapped(ui, &banner.next, &next, theme.text);
+    match banner.tone {
+        _ if banner.caution.is_empty() => {}
+        // A good part carries no warning.
+        Tone::Ok => {
+            ui.add_space(space::SMALL);
+            wrapped(ui, &banner.caution, &font::far_list(), theme.weak_text);
+        }
+        Tone::NotOk | Tone::Open | Tone::Trouble => warn(ui, &banner.caution),
+    }
     ui.add_space(space::MEDIUM);
     current_trace::fields(ui, session);
-    robots_without_frames(ui, session, theme);
+    robots_without_answer(ui, session);
     ui.add_space(space::MEDIUM);
     heading(ui, text!("operator-last-parts"));
     ui.add_space(space::SMALL);
@@ -414,29 +446,39 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
             };
             let at = row.at.to_zoned(jiff::tz::TimeZone::system());
             let at = at.strftime("%H:%M").to_string();
+            let serial = &row.trace.serial;
+            let [name_line, serial_line] = TWO_LINES;
             let line = ui.horizontal(|ui| {
-                ui.set_min_height(LINE);
+                ui.set_min_height(if serial.is_empty() { LINE } else { name_line });
                 line_mark(ui, 20.0, 9.0, sign);
                 ui.add_space(space::SMALL);
+                let from = ui.cursor().left();
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     let at = RichText::new(at).font(font::far_list());
                     ui.label(at.weak());
-                    if !row.trace.serial.is_empty() {
-                        // The name is cut before the number is.
-                        let serial = RichText::new(&row.trace.serial).font(font::far_list());
-                        let width = ui.available_width() - LEAST_NAME;
-                        ui.scope(|ui| {
-                            ui.set_max_width(width);
-                            ui.add(Label::new(serial).truncate());
-                        });
-                    }
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                         let name = RichText::new(name).font(font::far_list()).color(colour);
                         ui.add(Label::new(name).truncate());
                     });
                 });
+                from
             });
-            let rect = line.response.rect;
+            let mut rect = line.response.rect;
+            if !serial.is_empty() {
+                // Beside the name there is no room for the 17 letters of a vehicle's number.
+                let below = ui.horizontal(|ui| {
+                    ui.set_min_height(serial_line);
+                    ui.add_space(line.inner - ui.cursor().left());
+                    let font = font::far_list();
+                    let text = fitted_middle(ui.painter(), serial, &font, ui.available_width());
+                    let is_cut = text != *serial;
+                    let label = ui.label(RichText::new(text).font(font));
+                    if is_cut {
+                        label.on_hover_text(serial.as_str());
+                    }
+                });
+                rect = rect.union(below.response.rect);
+            }
             ui.painter()
                 .hline(rect.x_range(), rect.bottom(), theme.edge_stroke());
         }
@@ -445,10 +487,57 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use egui::{Galley, RawInput};
 
     use super::*;
-    use crate::app::ui::widgets::wrapped_rows;
+    use crate::{
+        app::{
+            inspection::{inspected::inspected_cell, source::CellChoice},
+            shell::session::Shown,
+            ui::widgets::wrapped_rows,
+        },
+        pipeline::Rejection,
+    };
+
+    #[test]
+    fn a_part_at_the_edge_of_the_picture_is_said_and_warned_of_only_if_it_is_not_accepted() {
+        let banner = |change: fn(&mut Inspected), is_past| {
+            let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+            change(&mut inspected);
+            Banner::of(&Session {
+                shown: Some(Shown {
+                    generation: 1,
+                    inspected: Arc::new(inspected),
+                    is_past,
+                    session: None,
+                }),
+                ..Session::default()
+            })
+        };
+        let cut: fn(&mut Inspected) = |inspected| {
+            if let Ok(part) = &mut inspected.inspection.segmentation.part {
+                part.touches_edge = true;
+            }
+        };
+        let refused: fn(&mut Inspected) = |inspected| {
+            if let Ok(part) = &mut inspected.inspection.segmentation.part {
+                part.touches_edge = true;
+            }
+            if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
+                *rejected = Some(Rejection::NotSteady { part: part.clone() });
+            }
+        };
+        assert_eq!(banner(|_| (), false).caution, "");
+        let good = banner(cut, false);
+        assert_eq!(good.tone, Tone::Ok);
+        assert!(good.caution.contains("the next one"), "{}", good.caution);
+        let bad = banner(refused, false);
+        assert_eq!(bad.tone, Tone::NotOk);
+        assert!(bad.caution.contains("all of it"), "{}", bad.caution);
+        assert_eq!(banner(cut, true).caution, "");
+    }
 
     const CHINESE: [&str; 2] = [
         include_str!("../../../../assets/language/zh/operator.ftl"),

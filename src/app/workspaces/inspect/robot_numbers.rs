@@ -149,30 +149,15 @@ mod tests {
 
     use super::*;
     use crate::{
-        app::inspection::{
-            inspected::{InspectRequest, inspect},
-            library_cache::LibraryCache,
-            source::{CellChoice, SceneSource},
-        },
+        app::inspection::{inspected::inspected_cell, source::CellChoice},
         geometry::rigid::from_euler_zyx,
-        pipeline::{Unwatched, Verdict},
+        pipeline::Verdict,
         robot::RobotFrame,
     };
 
-    fn door() -> Inspected {
-        let request = InspectRequest {
-            source: SceneSource::Cell {
-                choice: CellChoice::InTurn,
-                number: 1,
-            },
-            recipe: Arc::default(),
-        };
-        inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected")
-    }
-
     #[test]
     fn what_is_copied_says_which_pose_it_is_and_reads_back() {
-        let mut inspected = door();
+        let mut inspected = inspected_cell(CellChoice::InTurn, 1);
         let mut session = Session {
             convention: Convention::Fanuc,
             ..Session::default()

@@ -11,7 +11,7 @@ use crate::{
             widgets::{Scale, heading, row, sentence},
         },
     },
-    robot::spray::{BandStatus, CarriedPath, SurfaceHit},
+    robot::spray::{BandStatus, CarriedPath, MOST_TILT, SurfaceHit},
     stages::stand_off::{StandOff, StandOffParams},
 };
 
@@ -55,6 +55,12 @@ fn stored(ui: &mut Ui, path: &CarriedPath, params: &StandOffParams, units: UnitS
     row(ui, &text!("inspect-in-band"), &inside);
     let steepest = met.iter().map(|hit| hit.tilt.0).fold(0.0, f64::max);
     angle_row(ui, [mean(|hit| hit.tilt.0), steepest], units);
+    let angle_counts = text!(
+        "inspect-angle-counts",
+        count = met.iter().filter(|hit| hit.tilt > MOST_TILT).count(),
+        limit = units.angle(MOST_TILT.0)
+    );
+    ui.label(RichText::new(angle_counts).small().weak());
     if num_unseen > 0 {
         let text = text!("inspect-points-not-seen", count = num_unseen);
         ui.label(RichText::new(text).small().weak());

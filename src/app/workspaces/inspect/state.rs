@@ -391,17 +391,9 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        app::{
-            inspection::{
-                inspected::{InspectRequest, inspect},
-                library_cache::LibraryCache,
-                scan_choice::ScanFiles,
-                source::{CellChoice, SceneSource},
-            },
-            shell::{context::TestShell, session::Shown},
-        },
-        pipeline::Unwatched,
+    use crate::app::{
+        inspection::{inspected::inspected_cell, scan_choice::ScanFiles, source::CellChoice},
+        shell::{context::TestShell, session::Shown},
     };
 
     #[test]
@@ -485,14 +477,7 @@ mod tests {
         let mut state = InspectState::new(&TaskRunner::without_threads());
         state.apply(InspectAction::CopyPose, &mut shell.context());
         assert!(shell.messages.is_empty(), "nothing is shown");
-        let request = InspectRequest {
-            source: SceneSource::Cell {
-                choice: CellChoice::InTurn,
-                number: 1,
-            },
-            recipe: Arc::default(),
-        };
-        let found = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
+        let found = inspected_cell(CellChoice::InTurn, 1);
         shell.session.shown = Some(Shown {
             generation: 1,
             inspected: Arc::new(found),

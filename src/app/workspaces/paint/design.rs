@@ -4,7 +4,9 @@ use std::mem;
 
 use super::{action::ShownPath, state::PaintState};
 use crate::{
-    app::shell::context::ShellContext,
+    app::shell::{
+        context::ShellContext, message::Message, notice::NoticeTopic, program_setup::ProgramSetup,
+    },
     library::{PartName, SprayPath},
     paint::{Coat, KeepOut, PathEdit},
     pipeline::{RecipeFile, parameters::Parameter},
@@ -32,6 +34,8 @@ pub(super) enum Step {
     Design(Box<Design>),
     /// Store this path with a part; `None` removes the present one.
     Stored(PartName, Option<SprayPath>),
+    /// Set the pose of the arm's base.
+    Base([f64; 6]),
 }
 
 /// Limit of steps; the oldest are dropped.
@@ -134,8 +138,20 @@ impl PaintState {
         });
     }
 
+    /// Uses other settings for robot programs. Another base is an undoable step; dragging its numbers is one step.
+    pub(super) fn set_up(&mut self, setup: ProgramSetup, cx: &mut ShellContext<'_>) {
+        let former = cx.session.program.base;
+        let is_dragged = cx.egui.input(|input| input.pointer.any_down());
+        let is_last = matches!(self.steps.done.last(), Some(Step::Base(_)));
+        let is_same_step = is_dragged && is_last && self.steps.undone.is_empty();
+        if setup.base.iter().ne(&former) && !is_same_step {
+            self.steps.push(Step::Base(former));
+        }
+        use_setup(setup, cx);
+    }
+
     /// Undoes or redoes one step.
-    pub(super) fn step(&mut self, way: UndoDirection, cx: &ShellContext<'_>) {
+    pub(super) fn step(&mut self, way: UndoDirection, cx: &mut ShellContext<'_>) {
         if self.is_storing() {
             return;
         }
@@ -147,6 +163,21 @@ impl PaintState {
                 self.shown_path = ShownPath::Planned;
             }
             Some(Step::Stored(part, path)) => self.store(way, part, path, cx),
+            Some(Step::Base(base)) => {
+                let former = cx.session.program.clone();
+                self.steps.to(way).push(Step::Base(former.base));
+                use_setup(ProgramSetup { base, ..former }, cx);
+            }
         }
     }
+}
+
+/// Sends other settings for robot programs, and removes the notices of why the former ones gave none.
+fn use_setup(setup: ProgramSetup, cx: &mut ShellContext<'_>) {
+    cx.send(Message::RemoveNotices(NoticeTopic::Program));
+    // Inspect shows it, too.
+    if let Some(error) = cx.session.program.nozzle_error() {
+        cx.send(Message::Retract(error.into()));
+    }
+    cx.send(Message::UseProgramSetup(setup));
 }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use glam::Vec3;
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use super::{
     state::PaintState,
@@ -68,6 +68,8 @@ pub struct Reach {
     pub base: Option<PlaceSuggestion>,
     /// A position on its rail that reaches more points.
     pub rail: Option<PlaceSuggestion>,
+    /// Direction of its rail in the frame of the calibration.
+    pub rail_direction: Option<Vector3<f64>>,
     /// Whose accelerations are not checked: `joints`, `rail` or `joints and rail`.
     pub unchecked_accelerations: Option<&'static str>,
     /// The positions, metres, between which its rail moves along the path; `None` for a rail that stands still.
@@ -273,6 +275,7 @@ fn found(
         arm: arm.arm.name.clone(),
         unchecked_accelerations: arm.arm.unchecked_accelerations(),
         rail_range: moving.map(|_| check.rail_range()),
+        rail_direction: arm.arm.rail.map(|rail| rail.direction.into_inner()),
         lines: LineSet::new(lines),
         check,
         base: None,

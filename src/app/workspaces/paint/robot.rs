@@ -1,12 +1,12 @@
 //! The section on the robot: arm, nozzle and gun of its programs, what they stay clear of, and which points of the path the
 //! arm reaches.
 
-use egui::{DragValue, Label, RichText, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Button, DragValue, Label, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::{
     action::{PaintAction, PaintFile},
     reach::Reach,
-    side::TITLE,
+    side::{TITLE, close_unseen_menu},
     state::PaintState,
 };
 use crate::{
@@ -16,10 +16,13 @@ use crate::{
         ui::{
             parameter_control::fold,
             theme::{Theme, space},
-            widgets::{grouped, heading, row, shortened, text_button},
+            widgets::{grouped, heading, labelled, row, shortened, text_button},
         },
     },
-    robot::arm::{ARM_NAMES, Arm, PointProblem},
+    robot::{
+        Convention,
+        arm::{ARM_NAMES, Arm, PointProblem},
+    },
 };
 
 /// Draws the section.
@@ -44,6 +47,7 @@ pub(super) fn ui(
                 note(ui, &error.advice, theme.text);
             }
         });
+        base_ui(ui, &mut setup);
     }
     obstacles_ui(ui, &mut setup, actions);
     fold(ui, text!("paint-more-robot"), theme.weak_text)
@@ -104,7 +108,7 @@ pub(super) fn ui(
         return;
     }
     if let Some(Ok(reach)) = paint.reach(session) {
-        reasons(ui, reach, actions);
+        reasons(ui, reach, &session.program, actions);
     }
 }
 
@@ -138,7 +142,8 @@ fn arm_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAction>)
     });
     let label = text!("paint-arm", arm = title);
     let response = menu.response;
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
+    close_unseen_menu(ui, &response);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
     response.on_hover_text(text!("paint-arm-hint"));
 }
 
@@ -162,8 +167,32 @@ fn obstacles_ui(ui: &mut Ui, setup: &mut ProgramSetup, actions: &mut Vec<PaintAc
         }
     });
     let response = menu.response;
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
+    close_unseen_menu(ui, &response);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
     response.on_hover_text(text!("paint-obstacles-hint"));
+}
+
+/// Draws the pose of the arm's base, as KUKA writes it: its position on the left, its turns on the right.
+fn base_ui(ui: &mut Ui, setup: &mut ProgramSetup) {
+    ui.label(text!("paint-base"))
+        .on_hover_text(text!("paint-base-hint"));
+    let numbers = setup.base.iter_mut().zip(Convention::Kuka.names());
+    ui.columns(2, |columns| {
+        for (place, (value, name)) in numbers.enumerate() {
+            let (unit, speed) = if place < 3 { (" mm", 1.0) } else { ("°", 0.1) };
+            let drag = DragValue::new(value)
+                .range(ProgramSetup::base_range(place))
+                .speed(speed)
+                .max_decimals(2)
+                .update_while_editing(false)
+                .prefix(format!("{name} "))
+                .suffix(unit);
+            let response = columns[place / 3].add(drag);
+            let label = text!("paint-base-number", name = *name);
+            response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, &label));
+            response.on_hover_text(text!("paint-base-hint"));
+        }
+    });
 }
 
 /// Draws a text field below its label; an empty one shows an example.
@@ -196,7 +225,7 @@ pub(super) fn verdict(ui: &mut Ui, paint: &PaintState, session: &Session) {
 }
 
 /// Draws why points are not reached, and positions that reach more.
-fn reasons(ui: &mut Ui, reach: &Reach, actions: &mut Vec<PaintAction>) {
+fn reasons(ui: &mut Ui, reach: &Reach, setup: &ProgramSetup, actions: &mut Vec<PaintAction>) {
     let theme = Theme::of(ui);
     collisions_ui(ui, reach);
     if let Some(range) = reach.rail_range {
@@ -222,16 +251,38 @@ fn reasons(ui: &mut Ui, reach: &Reach, actions: &mut Vec<PaintAction>) {
     if text_button(ui, &text!("paint-show-unreached")).clicked() {
         actions.push(PaintAction::ShowUnreached);
     }
-    if let Some(place) = &reach.rail {
+    if let Some((place, direction)) = reach.rail.zip(reach.rail_direction) {
         let at = format!("{:.0}", 1000.0 * place.shift[0]);
         let words = text!("paint-rail-at", at = at, count = grouped(place.num_reached));
         note(ui, &words, theme.weak_text);
+        let shift = (direction * place.shift[0]).into();
+        apply_ui(ui, &text!("paint-apply-rail"), setup, shift, actions);
     }
-    if let Some(place) = &reach.base {
+    if let Some(place) = reach.base {
         let by = place.shift.map(|metres| format!("{:+.0}", 1000.0 * metres));
         let count = grouped(place.num_reached);
         let words = text!("paint-base-moved", by = by.join(" "), count = count);
         note(ui, &words, theme.weak_text);
+        apply_ui(ui, &text!("paint-apply-base"), setup, place.shift, actions);
+    }
+}
+
+/// Draws the button that moves the base by this shift, metres.
+fn apply_ui(
+    ui: &mut Ui,
+    label: &str,
+    setup: &ProgramSetup,
+    shift: [f64; 3],
+    actions: &mut Vec<PaintAction>,
+) {
+    let button = labelled(ui, Button::new(text!("paint-apply")), label);
+    if button.on_hover_text(label).clicked() {
+        let mut setup = setup.clone();
+        for (value, metres) in setup.base.iter_mut().zip(shift) {
+            // To the decimals that the fields show.
+            *value = (100.0 * (*value + 1000.0 * metres)).round() / 100.0;
+        }
+        actions.push(PaintAction::SetUp(setup));
     }
 }
 

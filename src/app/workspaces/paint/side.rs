@@ -1,8 +1,8 @@
 //! On the right: the part, its coat with every parameter, the figures of the film, and what can be done with the path.
 
 use egui::{
-    Button, CentralPanel, Frame, Id, Label, Margin, Panel, Rect, Response, RichText, ScrollArea,
-    Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Button, CentralPanel, Frame, Id, Label, Margin, Panel, Popup, Rect, Response, RichText,
+    ScrollArea, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::{
@@ -170,6 +170,7 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
         });
         let label = text!("paint-coat-named", coat = name);
         let response = menu.response;
+        close_unseen_menu(ui, &response);
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
         response.on_hover_text(parameters::coat_notes(&design.kept.notes));
         if design.is_coat_changed() && text_button(ui, &text!("paint-reset-coat")).clicked() {
@@ -182,6 +183,13 @@ fn coat(ui: &mut Ui, paint: &PaintState, actions: &mut Vec<PaintAction>) {
     // Most frequently changed first.
     for group in [CoatGroup::Path, CoatGroup::Film, CoatGroup::Gun] {
         parameters_of(ui, group, paint, actions);
+    }
+}
+
+/// Closes the menu of a button that was scrolled out of view: the menu would stay elsewhere in the window.
+pub(super) fn close_unseen_menu(ui: &Ui, button: &Response) {
+    if !ui.is_rect_visible(button.rect) {
+        Popup::close_id(ui.ctx(), Popup::default_response_id(button));
     }
 }
 

@@ -235,7 +235,7 @@ impl PaintState {
                 if file == PaintFile::Program
                     && let Some(error) = self.why_no_program(cx.session)
                 {
-                    return cx.notify(error);
+                    return cx.notify(Notice::from(error).about(NoticeTopic::Program));
                 }
                 let lock = &cx.services.dialogs;
                 let request = file.request(self.part(cx.session), cx.session);
@@ -244,18 +244,20 @@ impl PaintState {
             PaintAction::Chosen(PaintFile::Table, file) => self.write_table(file),
             PaintAction::Chosen(PaintFile::Program, file) => self.export_program(file, cx),
             PaintAction::Chosen(PaintFile::Arm, file) => {
-                cx.send(Message::UseProgramSetup(ProgramSetup {
+                let setup = ProgramSetup {
                     arm: Some(file.display().to_string()),
                     ..cx.session.program.clone()
-                }));
+                };
+                self.set_up(setup, cx);
             }
             PaintAction::Chosen(PaintFile::Obstacles, file) => {
-                cx.send(Message::UseProgramSetup(ProgramSetup {
+                let setup = ProgramSetup {
                     obstacles: Some(file.display().to_string()),
                     ..cx.session.program.clone()
-                }));
+                };
+                self.set_up(setup, cx);
             }
-            PaintAction::SetUp(setup) => cx.send(Message::UseProgramSetup(setup)),
+            PaintAction::SetUp(setup) => self.set_up(setup, cx),
             PaintAction::ShowUnreached => self.show_unreached(cx.session),
             PaintAction::Scrub(time) => {
                 self.playback = Playback::Paused;

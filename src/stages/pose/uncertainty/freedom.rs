@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
+
+use crate::geometry::rigid::RigidTransform;
 
 /// How a part could move and still lie on the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -14,6 +16,27 @@ pub enum FreeMotion {
     Turn(Axis),
     /// Too little of the part lies on the reference to tell.
     Anyhow,
+}
+
+impl FreeMotion {
+    /// The turn or shift about the middle of some points that a transform of them mainly is.
+    pub(crate) fn of(transform: &RigidTransform, points: &[Point3<f32>]) -> Self {
+        let num = points.len().max(1) as f64;
+        let sum: Vector3<f64> = points.iter().map(|p| p.coords.cast::<f64>()).sum();
+        let middle = Point3::from(sum / num);
+        let squares = points.iter().map(|p| {
+            let out = p.cast::<f64>() - middle;
+            out * out.transpose()
+        });
+        let frame = LocalFrame::of(&(squares.sum::<Matrix3<f64>>() / num));
+        let (turn, shift) = (
+            transform.rotation.scaled_axis(),
+            transform * middle - middle,
+        );
+        frame.freedom(&Vector6::new(
+            turn.x, turn.y, turn.z, shift.x, shift.y, shift.z,
+        ))
+    }
 }
 
 /// An axis of what was seen of the part.

@@ -3,11 +3,7 @@
 use super::*;
 use crate::{
     app::{
-        inspection::{
-            inspected::{InspectRequest, inspect},
-            library_cache::LibraryCache,
-            source::{CellChoice, SceneSource},
-        },
+        inspection::{inspected::inspected_cell, source::CellChoice},
         language::Language,
         shell::{
             context::TestShell,
@@ -18,23 +14,10 @@ use crate::{
     },
     history::{HistoryEvent, HungId, StoredVerdict},
     kit::history_entry,
-    pipeline::{PoseChoice, Recipe, Unwatched},
 };
 
 fn inspected(number: u64) -> Arc<Inspected> {
-    // Skipping the pose saves time.
-    let recipe = Recipe {
-        pose: PoseChoice::Skip,
-        ..Recipe::default()
-    };
-    let request = InspectRequest {
-        source: SceneSource::Cell {
-            choice: CellChoice::Empty,
-            number,
-        },
-        recipe: Arc::new(recipe.into()),
-    };
-    Arc::new(inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected"))
+    Arc::new(inspected_cell(CellChoice::Empty, number))
 }
 
 fn row(inspected: &Inspected, number: i64) -> Summary {
@@ -70,6 +53,7 @@ impl Bench {
                 rows,
             },
             record: None,
+            is_listed: true,
             kept: Default::default(),
             frames: None,
             parts: None,

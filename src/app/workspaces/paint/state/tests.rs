@@ -87,6 +87,18 @@ impl Bench {
         self.settle();
     }
 
+    /// Acts, and uses the settings of robot programs that this sends, as the window does.
+    fn run_set_up(&mut self, action: PaintAction) {
+        self.act(action);
+        let mut sent = self.shell.messages.iter().rev();
+        let setup = sent.find_map(|message| match message {
+            Message::UseProgramSetup(setup) => Some(setup.clone()),
+            _ => None,
+        });
+        self.shell.session.program = setup.expect("settings");
+        self.settle();
+    }
+
     fn reached(&self) -> Arc<Reach> {
         let reach = self.paint.reach(&self.shell.session).expect("checked");
         Arc::clone(reach.as_ref().expect("an arm"))
@@ -352,6 +364,89 @@ fn what_the_arm_does_not_reach_is_named_shown_and_never_exported() {
     bench.run(PaintAction::Chosen(PaintFile::Program, file.clone()));
     assert!(!file.exists());
     assert_eq!(refusals(&bench), 2);
+}
+
+#[test]
+fn another_base_is_checked_written_and_an_undoable_step() {
+    let mut bench = Bench::new();
+    bench.calibrate(1.2);
+    let (usual, all) = (bench.shell.session.program.clone(), bench.reached());
+    let with_base = |base: [f64; 6]| ProgramSetup {
+        base,
+        ..usual.clone()
+    };
+    // Turned about the vertical, the arm reaches the same points.
+    let turned = with_base([0.0, 0.0, 0.0, 30.0, 0.0, 0.0]);
+    bench.run_set_up(PaintAction::SetUp(turned.clone()));
+    assert_eq!(bench.reached().check.num_reached(), all.check.num_reached());
+    let file = bench.data.path().join("paint.src");
+    bench.run(PaintAction::Chosen(PaintFile::Program, file.clone()));
+    let text = std::fs::read_to_string(&file).expect("written");
+    assert!(text.contains("frame: that of the calibration"), "{text}");
+    // Too far from the part.
+    let far = with_base([-1800.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    bench.run_set_up(PaintAction::SetUp(far.clone()));
+    let reach = bench.reached();
+    assert!(reach.check.num_reached() < all.check.num_reached());
+    let better = reach.base.expect("a better base");
+    assert!(better.shift[0] > 0.0 && reach.rail.is_none(), "{better:?}");
+    let mut moved = far.clone();
+    for (value, metres) in moved.base.iter_mut().zip(better.shift) {
+        *value += 1000.0 * metres;
+    }
+    bench.run_set_up(PaintAction::SetUp(moved.clone()));
+    assert_eq!(bench.reached().check.num_reached(), better.num_reached);
+    // Nothing else is undone.
+    bench.shell.session.program.gun_output = 7;
+    let with_output = |setup: ProgramSetup| ProgramSetup {
+        gun_output: 7,
+        ..setup
+    };
+    for (action, wanted) in [
+        (PaintAction::Undo, far),
+        (PaintAction::Undo, turned.clone()),
+        (PaintAction::Undo, usual.clone()),
+        (PaintAction::Redo, turned),
+    ] {
+        bench.act(action);
+        let Some(Message::UseProgramSetup(setup)) = bench.shell.messages.last() else {
+            panic!("{:?}", bench.shell.messages);
+        };
+        bench.shell.session.program = setup.clone();
+        assert_eq!(bench.shell.session.program, with_output(wanted));
+    }
+    assert_eq!(bench.paint.can_undo(), [true, true]);
+}
+
+#[test]
+fn a_notice_that_no_program_can_be_written_goes_once_the_settings_change() {
+    let mut bench = Bench::new();
+    bench.calibrate(1.2);
+    bench.shell.session.program.nozzle = String::new();
+    bench.settle();
+    bench.act(PaintAction::Ask(PaintFile::Program));
+    let Some(Message::Notify(notice)) = bench.shell.messages.last() else {
+        panic!("{:?}", bench.shell.messages);
+    };
+    assert_eq!(notice.topic, NoticeTopic::Program);
+    let missing = bench.shell.session.program.nozzle_error();
+    let missing = Notice::from(missing.expect("no nozzle"));
+    bench.shell.messages.clear();
+    let setup = ProgramSetup {
+        nozzle: "kuka 0 0 250 0 -45 0".into(),
+        ..bench.shell.session.program.clone()
+    };
+    bench.act(PaintAction::SetUp(setup));
+    // Also the one of Inspect.
+    let [
+        Message::RemoveNotices(NoticeTopic::Program),
+        Message::Retract(gone),
+        Message::UseProgramSetup(_),
+    ] = &bench.shell.messages[..]
+    else {
+        panic!("{:?}", bench.shell.messages);
+    };
+    assert_eq!(*gone, missing);
 }
 
 #[test]
