@@ -76,7 +76,7 @@ pub fn history_times(num_rows: usize) -> Result<Vec<HistoryTime>, HistoryError> 
         (
             "not accepted",
             Filter {
-                verdict: Some(StoredVerdict::NotAccepted),
+                verdict: Some(StoredVerdict::Rejected),
                 ..everything()
             },
         ),
@@ -99,7 +99,7 @@ pub fn history_times(num_rows: usize) -> Result<Vec<HistoryTime>, HistoryError> 
             Filter {
                 since: since(num_rows / 2),
                 part: part(),
-                verdict: Some(StoredVerdict::NotAccepted),
+                verdict: Some(StoredVerdict::Rejected),
                 text: "grille simulated".into(),
                 ..everything()
             },
@@ -179,7 +179,7 @@ fn entry(
     let verdict = if is_accepted {
         StoredVerdict::Accepted
     } else {
-        StoredVerdict::NotAccepted
+        StoredVerdict::Rejected
     };
     NewEntry {
         record: Record {

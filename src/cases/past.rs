@@ -123,7 +123,7 @@ mod tests {
     #[test]
     fn a_case_says_what_was_found_and_what_a_person_said_of_it() {
         let (home, mut history) = new_history();
-        let mut entry = history_entry(1, StoredVerdict::NotAccepted, "grille");
+        let mut entry = history_entry(1, StoredVerdict::Rejected, "grille");
         let refusal = low_score("grille", 0.81);
         entry.record.detail.refusal = Some(refusal.clone());
         history.add(&entry, &Retention::default()).expect("written");
@@ -149,7 +149,7 @@ mod tests {
     fn the_first_case_that_cannot_be_written_ends_the_export() {
         let (home, mut history) = new_history();
         for (number, seconds) in (1..).zip(1..=2) {
-            let entry = history_entry(seconds, StoredVerdict::NotAccepted, "grille");
+            let entry = history_entry(seconds, StoredVerdict::Rejected, "grille");
             history.add(&entry, &Retention::default()).expect("written");
             let labelled = history.set_label(number, Some(&Truth::Nothing));
             labelled.expect("labelled");

@@ -133,7 +133,7 @@ impl VerdictChoice {
         match self {
             Self::Accepted => Some(StoredVerdict::Accepted),
             Self::NotAccepted => None,
-            Self::Rejected => Some(StoredVerdict::NotAccepted),
+            Self::Rejected => Some(StoredVerdict::Rejected),
             Self::Unknown => Some(StoredVerdict::Unknown),
             Self::NoPart => Some(StoredVerdict::NoPart),
         }

@@ -23,8 +23,9 @@ use crate::{
 pub enum StoredVerdict {
     /// A part was found and accepted.
     Accepted,
-    /// A part was found and not accepted.
-    NotAccepted,
+    /// An enrolled part was the best match, and was not accepted. It is stored as `not_accepted`, and people read
+    /// *Not accepted*; otherwise, *not accepted* also means [`Unknown`](Self::Unknown) and [`NoPart`](Self::NoPart).
+    Rejected,
     /// The object is not an enrolled part.
     Unknown,
     /// No part was found.
@@ -33,18 +34,13 @@ pub enum StoredVerdict {
 
 impl StoredVerdict {
     /// All verdicts.
-    pub const ALL: [Self; 4] = [
-        Self::Accepted,
-        Self::NotAccepted,
-        Self::Unknown,
-        Self::NoPart,
-    ];
+    pub const ALL: [Self; 4] = [Self::Accepted, Self::Rejected, Self::Unknown, Self::NoPart];
 
     /// Returns the name for people.
     pub fn title(self) -> &'static str {
         match self {
             Self::Accepted => "Accepted",
-            Self::NotAccepted => "Not accepted",
+            Self::Rejected => "Not accepted",
             Self::Unknown => "Unknown",
             Self::NoPart => "No part",
         }
@@ -54,7 +50,7 @@ impl StoredVerdict {
     pub fn name(self) -> &'static str {
         match self {
             Self::Accepted => "accepted",
-            Self::NotAccepted => "not_accepted",
+            Self::Rejected => "not_accepted",
             Self::Unknown => "unknown",
             Self::NoPart => "no_part",
         }
@@ -71,7 +67,7 @@ impl From<&Verdict> for StoredVerdict {
         match verdict {
             verdict if verdict.is_accepted() => Self::Accepted,
             verdict if verdict.is_unknown() => Self::Unknown,
-            Verdict::Part { .. } => Self::NotAccepted,
+            Verdict::Part { .. } => Self::Rejected,
             Verdict::NoPart(_) => Self::NoPart,
         }
     }
@@ -271,7 +267,7 @@ impl NewEntry {
         let name = nearest.as_deref().map(about.title_of).unwrap_or_default();
         let title = match verdict {
             StoredVerdict::Accepted => name,
-            StoredVerdict::NotAccepted => format!("Not recognised · nearest {name}"),
+            StoredVerdict::Rejected => format!("Not recognised · nearest {name}"),
             _ if inspection.verdict.is_mirrored() => format!("{MIRRORED}{name}"),
             StoredVerdict::Unknown => format!("Unknown · nearest {name}"),
             StoredVerdict::NoPart => "No part".to_owned(),

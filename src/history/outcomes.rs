@@ -99,7 +99,7 @@ impl History {
             let number: i64 = row.get(0)?;
             let at = Timestamp::from_microsecond(row.get(1)?);
             let verdict: String = row.get(2)?;
-            let verdict = StoredVerdict::named(&verdict).unwrap_or(StoredVerdict::NotAccepted);
+            let verdict = StoredVerdict::named(&verdict).unwrap_or(StoredVerdict::Rejected);
             let kind: Option<String> = row.get(4)?;
             let reason = match kind.as_deref().and_then(RefusalKind::named) {
                 Some(kind) => Some(RefusalReason::Kind(kind)),

@@ -24,7 +24,7 @@ pub(super) fn columns(file: &Connection) -> rusqlite::Result<String> {
     } else {
         "'' AS serial, '' AS job_order, '' AS operator"
     };
-    Ok(format!("{COLUMNS}, {trace}"))
+    Ok(format!("{COLUMNS_OF_EVERY_VERSION}, {trace}"))
 }
 
 /// Returns the columns of the rest of an inspection, with its recipe.
@@ -46,8 +46,9 @@ pub(super) fn detail_columns(file: &Connection) -> rusqlite::Result<String> {
     ))
 }
 
-const COLUMNS: &str = "number, at, scene, source, simulated, verdict, part, title, score, margin, total_ms, remark, \
-    label, frame_bytes, hung, parent, (SELECT count(*) FROM inspection AS other WHERE other.parent = inspection.number)
+/// The columns of a list row that every file has, migrated or not. Those that were added later are in [`columns`].
+const COLUMNS_OF_EVERY_VERSION: &str = "number, at, scene, source, simulated, verdict, part, title, score, margin, \
+    total_ms, remark, label, frame_bytes, hung, parent, (SELECT count(*) FROM inspection AS other WHERE other.parent = inspection.number)
     AS num_below";
 
 /// Returns the inspection that stands for a part.
@@ -213,7 +214,7 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
         source: row.get("source")?,
         is_simulated: row.get("simulated")?,
         // An unreadable verdict is not an acceptance.
-        verdict: StoredVerdict::named(&verdict).unwrap_or(StoredVerdict::NotAccepted),
+        verdict: StoredVerdict::named(&verdict).unwrap_or(StoredVerdict::Rejected),
         part: row.get("part")?,
         title: row.get("title")?,
         score: score.zip(margin).map(|(score, margin)| [score, margin]),

@@ -307,7 +307,7 @@ mod tests {
     };
 
     fn add(history: &mut History, seconds: i64) {
-        let entry = history_entry(seconds, StoredVerdict::NotAccepted, "fender");
+        let entry = history_entry(seconds, StoredVerdict::Rejected, "fender");
         history.add(&entry, &ALL).expect("written");
     }
 

@@ -187,7 +187,7 @@ mod tests {
         };
         let writer = Writer::start(Arc::clone(&keeper), hold).expect("a thread");
         for ticket in 1..=10 {
-            let mut waiting = history_entry(ticket as i64, StoredVerdict::NotAccepted, "fender");
+            let mut waiting = history_entry(ticket as i64, StoredVerdict::Rejected, "fender");
             waiting.scene = Some(small_scene(1));
             writer.add(ticket, waiting);
         }

@@ -168,7 +168,7 @@ fn everything_arrives_value_by_value_and_so_does_every_later_change() {
     add_some(&mut history, 0..BATCH as i64 + 5);
     let cell = "Halle 3's \"cell\"; --";
     let whose = cell_of(&mut history, cell);
-    let mut hostile = history_entry(9000, StoredVerdict::NotAccepted, "fender");
+    let mut hostile = history_entry(9000, StoredVerdict::Rejected, "fender");
     let summary = &mut hostile.record.summary;
     for text in [
         &mut summary.scene,
@@ -253,7 +253,7 @@ fn what_is_read_from_the_database_is_what_the_history_itself_shows() {
             ..Filter::default()
         },
         Filter {
-            verdict: Some(StoredVerdict::NotAccepted),
+            verdict: Some(StoredVerdict::Rejected),
             since: Some(moment(4)),
             ..Filter::default()
         },

@@ -646,7 +646,7 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     let mut history = crate::kit::open_history(folder.path());
     for seconds in 0..12 {
         let verdict = if seconds % 4 == 0 {
-            StoredVerdict::NotAccepted
+            StoredVerdict::Rejected
         } else {
             StoredVerdict::Accepted
         };
@@ -700,7 +700,7 @@ fn refusals_with_other_figures_count_as_one_reason() {
         (2, "grille", 0.75),
         (3, "fender", 0.62),
     ] {
-        let mut entry = crate::kit::history_entry(seconds, StoredVerdict::NotAccepted, part);
+        let mut entry = crate::kit::history_entry(seconds, StoredVerdict::Rejected, part);
         entry.record.detail.refusal = Some(crate::kit::low_score(part, score));
         history.add(&entry, &Retention::default()).expect("written");
     }

@@ -114,7 +114,7 @@ fn a_refusal_of_the_history_is_read_in_the_language_of_the_window() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut history = crate::kit::open_history(folder.path());
     for (seconds, score) in [(1, 0.81), (2, 0.75)] {
-        let mut entry = history_entry(seconds, StoredVerdict::NotAccepted, "fender");
+        let mut entry = history_entry(seconds, StoredVerdict::Rejected, "fender");
         entry.record.summary.title = "Not recognised · nearest Fender, left".into();
         entry.record.detail.refusal = Some(low_score("fender", score));
         history.add(&entry, &Retention::default()).expect("written");

@@ -245,7 +245,7 @@ fn two_parts_one_after_the_other_are_two_rows_and_one_that_swings_through_is_one
     let history = history_of(&harness);
     assert_eq!(history.num_rows(), 4);
     let last = history.row(0).expect("listed");
-    assert_eq!(last.verdict, StoredVerdict::NotAccepted);
+    assert_eq!(last.verdict, StoredVerdict::Rejected);
     assert_eq!(last.part.as_deref(), Some("fender"));
     wire.send(Step::End).expect("the camera is open");
     settle(&mut harness);

@@ -129,7 +129,7 @@ fn the_parts_of_this_shift_are_counted_and_what_is_only_tried_is_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let place = folder.path().join("history");
     // One that hung in the cell before the window was opened.
-    let mut refused = history_entry(1, StoredVerdict::NotAccepted, "fender");
+    let mut refused = history_entry(1, StoredVerdict::Rejected, "fender");
     refused.record.summary.at = Timestamp::now();
     let mut history = open_history(&place);
     history

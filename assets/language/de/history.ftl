@@ -136,7 +136,7 @@ history-not-ok-on-top = NIO, oben
 history-total = { $count } Teile, { $share } IO
 history-drift = Verlauf der Messwerte: { $part }
 history-drift-score = Score
-history-drift-fit = Abweichung von der Referenz, RMS
+history-drift-fit = Abweichung von der Referenz, rms
 history-drift-ends = erstes Fünftel { $first }, letztes Fünftel { $last } (Mediane)
 history-drift-place = Lage des Teils: vom ersten zum letzten Fünftel x { $x }, y { $y }, z { $z } (Mediane)
 

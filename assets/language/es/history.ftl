@@ -136,7 +136,7 @@ history-not-ok-on-top = NOK, encima
 history-total = { $count } piezas, { $share } OK
 history-drift = Deriva: { $part }
 history-drift-score = Puntuación
-history-drift-fit = Ajuste a la referencia, RMS
+history-drift-fit = Ajuste a la referencia, rms
 history-drift-ends = primer quinto { $first }, último quinto { $last } (medianas)
 history-drift-place = Posición de la pieza: del primer al último quinto x { $x }, y { $y }, z { $z } (medianas)
 

@@ -131,7 +131,7 @@ history-not-ok-on-top = NG（上方）
 history-total = { $count } 个零件，{ $share } OK
 history-drift = 漂移：{ $part }
 history-drift-score = 得分
-history-drift-fit = 与参考的偏差（RMS）
+history-drift-fit = 与参考的偏差（rms）
 history-drift-ends = 前五分之一 { $first }，后五分之一 { $last }（中位数）
 history-drift-place = 零件位置：从前五分之一到后五分之一 x { $x }，y { $y }，z { $z }（中位数）
 

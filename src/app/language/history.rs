@@ -26,7 +26,7 @@ pub(in crate::app) fn stored_title(past: &Summary) -> String {
         return text!("results-title-mirrored", part = part);
     }
     match (past.verdict, stored_part(past)) {
-        (StoredVerdict::NotAccepted, Some(part)) => {
+        (StoredVerdict::Rejected, Some(part)) => {
             text!("results-title-not-recognised", part = part)
         }
         (StoredVerdict::Unknown, _) if past.score.is_some_and(|[score, _]| !is_like(score)) => {
@@ -42,7 +42,7 @@ pub(in crate::app) fn stored_title(past: &Summary) -> String {
 /// of the built-in recipe decide.
 pub(in crate::app) fn recognised_part(past: &Summary) -> Option<&str> {
     let is_recognised = is_recognised(past.score?, &AcceptParams::default());
-    let is_refused = past.verdict == StoredVerdict::NotAccepted;
+    let is_refused = past.verdict == StoredVerdict::Rejected;
     stored_part(past).filter(|_| is_refused && is_recognised)
 }
 
@@ -51,7 +51,7 @@ fn stored_part(past: &Summary) -> Option<&str> {
     let title = past.title.as_str();
     match past.verdict {
         StoredVerdict::Accepted => Some(title),
-        StoredVerdict::NotAccepted => title.strip_prefix("Not recognised · nearest "),
+        StoredVerdict::Rejected => title.strip_prefix("Not recognised · nearest "),
         StoredVerdict::Unknown => title
             .strip_prefix("Unknown · nearest ")
             .or_else(|| past.mirror_of()),
@@ -170,7 +170,7 @@ mod tests {
 
     /// A refused front door whose title was "Door, left" at that time.
     fn past(refusal: StoredRefusal) -> Record {
-        let mut past = history_entry(1, StoredVerdict::NotAccepted, "front_door").record;
+        let mut past = history_entry(1, StoredVerdict::Rejected, "front_door").record;
         past.summary.title = "Not recognised · nearest Door, left".into();
         past.detail.refusal = Some(refusal);
         past
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn a_part_that_is_only_in_doubt_where_it_is_has_its_name_in_the_title() {
-        let mut past = history_entry(1, StoredVerdict::NotAccepted, "front_door").record;
+        let mut past = history_entry(1, StoredVerdict::Rejected, "front_door").record;
         past.summary.title = "Not recognised · nearest Door, left".into();
         let mut shown = |score| {
             past.summary.score = Some(score);

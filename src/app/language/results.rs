@@ -27,11 +27,20 @@ macro_rules! fixed {
     };
 }
 
+/// Says whether an inspection was accepted, for whatever reason it was not.
+pub(in crate::app) fn accepted_or_not(is_accepted: bool) -> String {
+    if is_accepted {
+        text!("results-accepted")
+    } else {
+        text!("results-not-accepted")
+    }
+}
+
 /// Returns the name of a stored verdict.
 pub(in crate::app) fn stored_verdict(verdict: StoredVerdict) -> String {
     match verdict {
-        StoredVerdict::Accepted => text!("results-accepted"),
-        StoredVerdict::NotAccepted => text!("results-not-accepted"),
+        StoredVerdict::Accepted => accepted_or_not(true),
+        StoredVerdict::Rejected => accepted_or_not(false),
         StoredVerdict::Unknown => text!("results-unknown"),
         StoredVerdict::NoPart => text!("results-no-part"),
     }

@@ -164,7 +164,7 @@ fn count(history: &HistoryBuffer, since: Zoned, source: &str) -> Result<ShiftPar
     for verdict in StoredVerdict::ALL {
         let num = match verdict {
             StoredVerdict::Accepted => &mut parts.num_ok,
-            StoredVerdict::NotAccepted | StoredVerdict::Unknown => &mut parts.num_not_ok,
+            StoredVerdict::Rejected | StoredVerdict::Unknown => &mut parts.num_not_ok,
             StoredVerdict::NoPart => continue,
         };
         let filter = Filter {

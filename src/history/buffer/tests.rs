@@ -23,7 +23,7 @@ fn failures(news: &[HistoryEvent]) -> usize {
 }
 
 fn not_accepted(seconds: i64) -> NewEntry {
-    history_entry(seconds, StoredVerdict::NotAccepted, "fender")
+    history_entry(seconds, StoredVerdict::Rejected, "fender")
 }
 
 #[test]

@@ -73,6 +73,18 @@ pub enum DatabaseError {
         /// Newest version known to this program.
         known: i32,
     },
+    /// An older version of the program created the tables, and nothing has migrated them yet.
+    #[error(
+        "{database}: the history there is still that of an older version of Partsight (format {found}, this one needs {known})"
+    )]
+    Older {
+        /// The database.
+        database: Box<DatabaseAddress>,
+        /// Version of its tables.
+        found: i32,
+        /// Version that this program reads.
+        known: i32,
+    },
     /// No cell has sent anything yet.
     #[error("{database}: there is no history yet")]
     Empty {
@@ -209,6 +221,10 @@ impl Advice for DatabaseError {
                 "Use a database that was created with ENCODING 'UTF8'".into()
             }
             Self::Newer { .. } => "Update Partsight on this computer".into(),
+            Self::Older { .. } => {
+                "Let a cell with this version send once as the user who owns the tables, which upgrades them: \
+                 partsight history send --to ADDRESS --cell NAME. Older versions cannot use them from then on".into()
+            }
             Self::Empty { .. } => {
                 "Send a history there first: partsight history send --to ADDRESS --cell NAME".into()
             }

@@ -1,6 +1,6 @@
 //! The tables in PostgreSQL, and their migrations.
 
-use super::{client::Database, error::DatabaseError};
+use super::{address::DatabaseAddress, client::Database, error::DatabaseError};
 
 /// All migrations, in order; the version of a database is the number of those applied. Released ones never change.
 const STEPS: [&str; 1] = [FIRST];
@@ -89,6 +89,36 @@ const FIRST: &str = "
     CREATE INDEX below ON partsight.inspection (cell, history, parent) WHERE parent IS NOT NULL;
     CREATE INDEX heads ON partsight.inspection (cell, verdict) WHERE parent IS NULL;";
 
+/// Refuses tables of a version that this program does not know yet.
+fn refuse_newer(found: i32, known: i32, database: &DatabaseAddress) -> Result<(), DatabaseError> {
+    if found <= known {
+        return Ok(());
+    }
+    let database = Box::new(database.clone());
+    Err(DatabaseError::Newer {
+        database,
+        found,
+        known,
+    })
+}
+
+/// Refuses tables of any version but the known one. A user who may only read cannot migrate them.
+fn refuse_other(found: i32, known: i32, database: &DatabaseAddress) -> Result<(), DatabaseError> {
+    refuse_newer(found, known, database)?;
+    if found == known {
+        return Ok(());
+    }
+    let database = Box::new(database.clone());
+    Err(match found {
+        0 => DatabaseError::Empty { database },
+        _ => DatabaseError::Older {
+            database,
+            found,
+            known,
+        },
+    })
+}
+
 const MAKE_VERSION: &str = "INSERT INTO partsight.schema_version (version) VALUES ($1)";
 
 impl Database {
@@ -106,31 +136,15 @@ impl Database {
         self.read(&row, 0)
     }
 
-    fn refuse_newer(&self, found: i32) -> Result<(), DatabaseError> {
-        if found <= VERSION {
-            return Ok(());
-        }
-        Err(DatabaseError::Newer {
-            database: self.link.address.clone(),
-            found,
-            known: VERSION,
-        })
-    }
-
-    /// Refuses tables that are missing or newer than this program.
+    /// Refuses tables that cannot be read as they are: missing, older or newer than this program.
     pub(super) fn check_version(&self) -> Result<(), DatabaseError> {
-        let found = self.version()?;
-        if found == 0 {
-            let database = self.link.address.clone();
-            return Err(DatabaseError::Empty { database });
-        }
-        self.refuse_newer(found)
+        refuse_other(self.version()?, VERSION, &self.link.address)
     }
 
     /// Migrates the tables to the current version in one transaction.
     pub(super) fn migrate(&mut self) -> Result<(), DatabaseError> {
         let found = self.version()?;
-        self.refuse_newer(found)?;
+        refuse_newer(found, VERSION, &self.link.address)?;
         if found == VERSION {
             return Ok(());
         }
@@ -140,7 +154,7 @@ impl Database {
         self.link.wait(self.client.query(lock, &[&LOCK]))?;
         // Another cell may have migrated in the meantime.
         let found = self.version()?;
-        self.refuse_newer(found)?;
+        refuse_newer(found, VERSION, &self.link.address)?;
         for (version, step) in (1..).zip(STEPS).skip(found as usize) {
             self.run(step)?;
             self.link
@@ -151,5 +165,40 @@ impl Database {
 
     fn run(&self, statements: &str) -> Result<(), DatabaseError> {
         self.link.wait(self.client.batch_execute(statements))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Advice as _;
+
+    #[test]
+    fn only_tables_of_the_known_version_are_read_and_older_ones_are_migrated() {
+        let address: DatabaseAddress = "postgres://me@localhost/parts".parse().expect("an address");
+        let read = |found| refuse_other(found, 3, &address);
+        assert_eq!(read(3), Ok(()));
+        let database = || Box::new(address.clone());
+        let empty = DatabaseError::Empty {
+            database: database(),
+        };
+        assert_eq!(read(0), Err(empty));
+        for found in [1, 2] {
+            let older = DatabaseError::Older {
+                database: database(),
+                found,
+                known: 3,
+            };
+            assert!(older.advice().contains("history send"));
+            assert_eq!(read(found), Err(older));
+        }
+        let newer = DatabaseError::Newer {
+            database: database(),
+            found: 4,
+            known: 3,
+        };
+        assert_eq!(read(4), Err(newer.clone()));
+        let migrated = [0, 1, 2, 3, 4].map(|found| refuse_newer(found, 3, &address));
+        assert_eq!(migrated, [Ok(()), Ok(()), Ok(()), Ok(()), Err(newer)]);
     }
 }

@@ -4,18 +4,15 @@ use egui::{Align, Button, Layout, RichText, ScrollArea, TextEdit, Ui, WidgetInfo
 
 use super::{
     HistoryAction, HistoryFile, HistoryState,
-    filter::{DateRange, ListFilter, day_of},
+    filter::{DateRange, ListFilter, VerdictChoice, day_of},
 };
-use crate::{
-    app::{
-        language::{results::stored_verdict, text},
-        shell::session::Session,
-        ui::{
-            theme::{Theme, space},
-            widgets::{labelled, shortened, text_button},
-        },
+use crate::app::{
+    language::text,
+    shell::session::Session,
+    ui::{
+        theme::{Theme, space},
+        widgets::{labelled, shortened, text_button},
     },
-    history::StoredVerdict,
 };
 
 /// Draws the bar.
@@ -137,7 +134,7 @@ fn days(ui: &mut Ui, filter: &mut ListFilter) {
 
 fn verdicts(ui: &mut Ui, filter: &mut ListFilter) {
     let all = std::iter::once((None, text!("history-filter-all-verdicts")));
-    let each = StoredVerdict::ALL.map(|verdict| (Some(verdict), stored_verdict(verdict)));
+    let each = VerdictChoice::ALL.map(|verdict| (Some(verdict), verdict.title()));
     let label = text!("history-filter-verdict");
     menu(ui, &label, &mut filter.verdict, all.chain(each));
 }

@@ -14,7 +14,7 @@ use crate::{
         language::{
             history::{stored_refusal, stored_scene, stored_title},
             keys,
-            results::stored_verdict,
+            results::{accepted_or_not, stored_verdict},
             text,
         },
         shell::session::Session,
@@ -128,17 +128,14 @@ fn verdict(ui: &mut Ui, record: &Record, session: &Session) {
     ui.label(title);
     let (sign, colour) = match summary.verdict {
         StoredVerdict::Accepted => (Mark::Good, theme.accepted),
-        StoredVerdict::NotAccepted | StoredVerdict::Unknown | StoredVerdict::NoPart => {
+        StoredVerdict::Rejected | StoredVerdict::Unknown | StoredVerdict::NoPart => {
             (Mark::Bad, theme.rejected)
         }
     };
     ui.horizontal(|ui| {
         line_mark(ui, 20.0, 9.0, sign);
-        let word = match summary.verdict {
-            StoredVerdict::Accepted => StoredVerdict::Accepted,
-            _ => StoredVerdict::NotAccepted,
-        };
-        let word = RichText::new(stored_verdict(word)).font(font::verdict());
+        let word = accepted_or_not(summary.verdict == StoredVerdict::Accepted);
+        let word = RichText::new(word).font(font::verdict());
         ui.label(word.color(colour));
     });
     if summary.is_simulated {

@@ -3,7 +3,11 @@
 use jiff::{Span, Timestamp, Zoned, civil};
 
 use crate::{
-    app::language::{history::shown_for_stored, text},
+    app::language::{
+        history::shown_for_stored,
+        results::{accepted_or_not, stored_verdict},
+        text,
+    },
     history::{Filter, StoredVerdict},
 };
 
@@ -16,10 +20,49 @@ pub struct ListFilter {
     pub typed: [String; 2],
     /// Only inspections recognised as this part.
     pub part: Option<String>,
-    /// Only inspections with this verdict.
-    pub verdict: Option<StoredVerdict>,
+    /// Only inspections with these verdicts.
+    pub verdict: Option<VerdictChoice>,
     /// Words to find in the names of part, scene and source (as stored or as displayed), the remark and the true label.
     pub text: String,
+}
+
+/// The verdicts of the inspections shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VerdictChoice {
+    /// A part, accepted.
+    Accepted,
+    /// Everything that was not accepted: rejected, unknown and no part.
+    NotAccepted,
+    /// Something that is not enrolled.
+    Unknown,
+    /// No part.
+    NoPart,
+}
+
+impl VerdictChoice {
+    /// Every choice, in the order of the menu.
+    pub const ALL: [Self; 4] = [
+        Self::Accepted,
+        Self::NotAccepted,
+        Self::Unknown,
+        Self::NoPart,
+    ];
+
+    /// Name for a person.
+    pub fn title(self) -> String {
+        self.verdict()
+            .map_or_else(|| accepted_or_not(false), stored_verdict)
+    }
+
+    /// Returns the only verdict that matches; `None` if several do.
+    fn verdict(self) -> Option<StoredVerdict> {
+        match self {
+            Self::Accepted => Some(StoredVerdict::Accepted),
+            Self::NotAccepted => None,
+            Self::Unknown => Some(StoredVerdict::Unknown),
+            Self::NoPart => Some(StoredVerdict::NoPart),
+        }
+    }
 }
 
 /// The days of the inspections shown.
@@ -87,14 +130,12 @@ impl ListFilter {
         } else {
             shown_for_stored()
         };
-        // Unknown parts and scenes without a part are not accepted either.
-        let is_refused = self.verdict == Some(StoredVerdict::NotAccepted);
         Filter {
             since,
             until,
             part: self.part.clone(),
-            verdict: self.verdict.filter(|_| !is_refused),
-            is_accepted: is_refused.then_some(false),
+            verdict: self.verdict.and_then(VerdictChoice::verdict),
+            is_accepted: (self.verdict == Some(VerdictChoice::NotAccepted)).then_some(false),
             is_simulated: None,
             source: None,
             with_below: false,
@@ -139,6 +180,25 @@ mod tests {
         );
         assert_eq!(filter(DateRange::Typed, "", "2026-11-0"), ["", ""]);
         assert!(day_of("2026-11-0").is_err());
+    }
+
+    #[test]
+    fn all_that_is_not_accepted_is_chosen_at_once() {
+        let filter = |verdict| {
+            let filter = ListFilter {
+                verdict,
+                ..ListFilter::default()
+            };
+            let found = filter.at(&Zoned::now());
+            (found.verdict, found.is_accepted)
+        };
+        assert_eq!(filter(None), (None, None));
+        assert_eq!(
+            filter(Some(VerdictChoice::NotAccepted)),
+            (None, Some(false))
+        );
+        let unknown = (Some(StoredVerdict::Unknown), None);
+        assert_eq!(filter(Some(VerdictChoice::Unknown)), unknown);
     }
 
     #[test]

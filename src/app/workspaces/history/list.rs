@@ -327,7 +327,7 @@ fn row(
 fn paint(painter: &Painter, rect: Rect, past: &Summary, layout: &Layout, theme: &Theme) {
     let sign = match past.verdict {
         StoredVerdict::Accepted => Mark::Good,
-        StoredVerdict::NotAccepted | StoredVerdict::Unknown | StoredVerdict::NoPart => Mark::Bad,
+        StoredVerdict::Rejected | StoredVerdict::Unknown | StoredVerdict::NoPart => Mark::Bad,
     };
     let at = pos2(rect.left() + 20.0, rect.center().y);
     mark(painter, at, 9.0, sign, theme);

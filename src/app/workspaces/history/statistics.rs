@@ -369,7 +369,7 @@ mod tests {
     #[test]
     fn parts_are_counted_by_shift_and_by_part() {
         let refused = || Some(RefusalReason::Kind(RefusalKind::LowScore));
-        let (ok, not_ok) = (StoredVerdict::Accepted, StoredVerdict::NotAccepted);
+        let (ok, not_ok) = (StoredVerdict::Accepted, StoredVerdict::Rejected);
         let found = counted(&[
             outcome("05:59:00", ok, "door", None),
             outcome("06:00:00", not_ok, "door", refused()),
@@ -409,7 +409,7 @@ mod tests {
             Some(RefusalReason::Sentence { text, nearest })
         };
         let kind = |kind| Some(RefusalReason::Kind(kind));
-        let refused = |reason| outcome("06:00:00", StoredVerdict::NotAccepted, "door", reason);
+        let refused = |reason| outcome("06:00:00", StoredVerdict::Rejected, "door", reason);
         let found = counted(&[
             refused(sentence("0.81", "Door, left", "door")),
             refused(kind(RefusalKind::Piece)),

@@ -7,7 +7,7 @@ use crate::{
         inspection::inspected::{Inspected, LiveFrameContext},
         language::{
             results::{
-                is_recognised, rejection, rejection_advice, stored_verdict, unrecognisable,
+                accepted_or_not, is_recognised, rejection, rejection_advice, unrecognisable,
                 unrecognisable_advice,
             },
             text,
@@ -18,7 +18,6 @@ use crate::{
             widgets::{Mark, line_mark, sentence, wrapped},
         },
     },
-    history::StoredVerdict,
     pipeline::{Rejection, Verdict, is_like, live::MotionState},
 };
 
@@ -167,19 +166,11 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
         2,
     )));
     let (sign, word, colour) = if headline.is_accepted {
-        (
-            Mark::Good,
-            stored_verdict(StoredVerdict::Accepted),
-            theme.accepted,
-        )
+        (Mark::Good, accepted_or_not(true), theme.accepted)
     } else if headline.is_open {
         (Mark::Look, text!("inspect-not-accepted-yet"), theme.warning)
     } else {
-        (
-            Mark::Bad,
-            stored_verdict(StoredVerdict::NotAccepted),
-            theme.rejected,
-        )
+        (Mark::Bad, accepted_or_not(false), theme.rejected)
     };
     ui.horizontal(|ui| {
         line_mark(ui, 32.0, 14.0, sign);

@@ -440,7 +440,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
             // The nearest part is only of interest to the engineer.
             let name = match row.verdict {
                 StoredVerdict::Accepted => row.title.clone(),
-                StoredVerdict::NotAccepted => recognised_part(row)
+                StoredVerdict::Rejected => recognised_part(row)
                     .map_or_else(|| text!("inspect-not-recognised"), str::to_owned),
                 StoredVerdict::Unknown | StoredVerdict::NoPart => stored_verdict(row.verdict),
             };

@@ -1,6 +1,6 @@
 //! Small valid files of every format, changed at random: the result is valid content or a named error, never a panic.
 
-use std::path::Path;
+use std::{mem::discriminant, path::Path};
 
 use nalgebra::Point3;
 use rand::{RngExt as _, SeedableRng as _};
@@ -39,8 +39,82 @@ const WORDS: [&[u8]; 18] = [
     b"\xff\xfe",
 ];
 
+/// Every format. [`seeds_of`] does not compile without a new one; add it here, too.
+const FORMATS: [Format; 7] = [
+    Format::Pcd,
+    Format::Ply,
+    Format::Xyz,
+    Format::Stl,
+    Format::Obj,
+    Format::Gltf,
+    Format::DepthPng,
+];
+
+/// A file and its name for a person.
+type Seed = (&'static str, Vec<u8>);
+
 /// A file of every format in every storage.
-fn seeds() -> Vec<(&'static str, Vec<u8>)> {
+fn seeds() -> Vec<Seed> {
+    let mut seeds = Vec::new();
+    for format in FORMATS {
+        for (name, bytes) in seeds_of(&format) {
+            let path = Path::new(name);
+            let found = recognise(Source {
+                path,
+                bytes: &bytes,
+            });
+            let is_found = found.is_ok_and(|found| discriminant(&found) == discriminant(&format));
+            assert!(is_found, "{name} is taken for another format");
+            seeds.push((name, bytes));
+        }
+    }
+    let camera = crate::files::DepthCamera::of(&depth_frame());
+    seeds.push(("camera", serde_json::to_vec(&camera).unwrap()));
+    seeds
+}
+
+fn seeds_of(format: &Format) -> Vec<Seed> {
+    match format {
+        Format::Pcd => {
+            let [ascii, binary, packed] = pcd::tests::same_points_stored_three_ways();
+            vec![
+                ("PCD, ascii", ascii),
+                ("PCD, binary", binary),
+                ("PCD, packed", packed),
+                ("PCD, as written", written(write_pcd)),
+            ]
+        }
+        Format::Ply => vec![
+            ("PLY, as written", written(write_ply)),
+            ("PLY, ascii mesh", PLY_MESH.into()),
+            ("PLY, big endian", big_endian_ply()),
+        ],
+        Format::Xyz => vec![
+            ("XYZ", written(write_xyz)),
+            (
+                "CSV",
+                b"\"X [m]\";\"Y [m]\";\"Z [m]\"\n0,1;0,2;1,5\n0,3;0,4;1,6\n".into(),
+            ),
+        ],
+        Format::Stl => vec![
+            ("STL, ascii", super::STL.into()),
+            ("STL, binary", super::binary_stl()),
+        ],
+        Format::Obj => vec![("OBJ", super::OBJ.into())],
+        Format::Gltf => vec![
+            ("glTF", gltf::tests::embedded().into()),
+            ("GLB", gltf::tests::glb()),
+        ],
+        Format::DepthPng => {
+            let mut png = Vec::new();
+            depth_png::write_depths(&mut png, &depth_frame()).unwrap();
+            vec![("depth PNG", png)]
+        }
+    }
+}
+
+/// A cloud as its writer writes it.
+fn written(write: fn(&mut dyn std::io::Write, &PointCloud) -> std::io::Result<()>) -> Vec<u8> {
     let cloud = PointCloud {
         points: (0..24)
             .map(|i| Point3::new((i % 6) as f32 * 0.1, (i / 6) as f32 * 0.1, 1.0))
@@ -53,49 +127,28 @@ fn seeds() -> Vec<(&'static str, Vec<u8>)> {
         }),
         ..PointCloud::default()
     };
-    let written = |write: fn(&mut dyn std::io::Write, &PointCloud) -> std::io::Result<()>| {
-        let mut bytes = Vec::new();
-        write(&mut bytes, &cloud).unwrap();
-        bytes
-    };
-    let frame = small_frame(6, 900..924);
-    let mut png = Vec::new();
-    depth_png::write_depths(&mut png, &frame).unwrap();
-    let ply_mesh = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
-                    element face 2\nproperty list uchar int vertex_indices\nend_header\n\
-                    0 0 1\n1 0 1\n1 1 1\n0 1 1\n3 0 1 2\n3 0 2 3\n";
-    let mut big_endian = b"ply\nformat binary_big_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\n\
-                           property float z\nproperty list uchar uint seen\nend_header\n"
+    let mut bytes = Vec::new();
+    write(&mut bytes, &cloud).unwrap();
+    bytes
+}
+
+fn depth_frame() -> DepthFrame {
+    small_frame(6, 900..924)
+}
+
+const PLY_MESH: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
+    element face 2\nproperty list uchar int vertex_indices\nend_header\n\
+    0 0 1\n1 0 1\n1 1 1\n0 1 1\n3 0 1 2\n3 0 2 3\n";
+
+fn big_endian_ply() -> Vec<u8> {
+    let mut bytes = b"ply\nformat binary_big_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\n\
+        property float z\nproperty list uchar uint seen\nend_header\n"
         .to_vec();
     for point in [[0.0_f32, 0.1, 1.0], [0.2, 0.3, 1.1]] {
-        big_endian.extend(point.iter().flat_map(|c| c.to_be_bytes()));
-        big_endian.extend([1, 0, 0, 0, 7]);
+        bytes.extend(point.iter().flat_map(|c| c.to_be_bytes()));
+        bytes.extend([1, 0, 0, 0, 7]);
     }
-    let [ascii, binary, packed] = pcd::tests::same_points_stored_three_ways();
-    vec![
-        ("PCD, ascii", ascii),
-        ("PCD, binary", binary),
-        ("PCD, packed", packed),
-        ("PCD, as written", written(write_pcd)),
-        ("PLY, as written", written(write_ply)),
-        ("PLY, ascii mesh", ply_mesh.into()),
-        ("PLY, big endian", big_endian),
-        ("XYZ", written(write_xyz)),
-        (
-            "CSV",
-            b"\"X [m]\";\"Y [m]\";\"Z [m]\"\n0,1;0,2;1,5\n0,3;0,4;1,6\n".into(),
-        ),
-        ("STL, ascii", super::STL.into()),
-        ("STL, binary", super::binary_stl()),
-        ("OBJ", super::OBJ.into()),
-        ("glTF", gltf::tests::embedded().into()),
-        ("GLB", gltf::tests::glb()),
-        ("depth PNG", png),
-        (
-            "camera",
-            serde_json::to_vec(&crate::files::DepthCamera::of(&frame)).unwrap(),
-        ),
-    ]
+    bytes
 }
 
 /// Makes one change, such as copying, editing and failing disks cause.
