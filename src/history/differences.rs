@@ -127,7 +127,14 @@ impl Differences {
             Some(off) => off.shift.0 < SAME_POSE && off.rotation.0 < SAME_POSE,
             None => before.camera_from_part.is_none() && now.camera_from_part.is_none(),
         };
-        before.verdict == now.verdict && before.nearest == now.nearest && has_score && has_pose
+        self.has_same_result() && has_score && has_pose
+    }
+
+    /// Returns whether verdict and best guess are the same: what two frames of one part have in common, whose scores and
+    /// poses differ by noise.
+    pub fn has_same_result(&self) -> bool {
+        let Self { before, now, .. } = self;
+        before.verdict == now.verdict && before.nearest == now.nearest
     }
 
     /// Returns the parameters whose values differ.
@@ -182,7 +189,7 @@ mod tests {
         let same = Differences::between(finding(0.0), finding(0.0), None);
         assert!(same.is_same() && same.changed_inputs().is_empty());
         let moved = Differences::between(finding(0.0), finding(0.003), None);
-        assert!(!moved.is_same());
+        assert!(!moved.is_same() && moved.has_same_result());
         let off = moved.pose.expect("both have one");
         assert!((off.shift.0 - 0.003).abs() < 1e-12 && off.rotation.0 < 1e-9);
     }

@@ -32,7 +32,7 @@ pub enum WrittenPoseError {
         word: String,
     },
     /// Numbers without a convention, other than the 16 of a matrix.
-    #[error("{found} numbers without the name of a convention")]
+    #[error("{found} {} without the name of a convention", if *found == 1 { "number" } else { "numbers" })]
     NoConvention {
         /// Number of numbers.
         found: usize,

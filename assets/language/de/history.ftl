@@ -134,6 +134,11 @@ history-shift = Schicht vom { $start }: { $ok } IO, { $nok } NIO
 history-by-shift = Teile nach Schicht
 history-not-ok-on-top = NIO, oben
 history-total = { $count } Teile, { $share } IO
+history-simulated-left-out =
+    { $count ->
+        [one] 1 simuliertes Teil ist nicht mitgezählt
+       *[other] { $count } simulierte Teile sind nicht mitgezählt
+    }
 history-drift = Verlauf der Messwerte: { $part }
 history-drift-score = Score
 history-drift-fit = Abweichung von der Referenz, rms

@@ -20,6 +20,7 @@ operator-from-history = Aus dem Verlauf, nicht das aktuelle Teil
 operator-capture-current = Für das aktuelle Teil „Aufnehmen“ drücken
 operator-simulated-next = Den Einrichter eine Kamera wählen lassen: Dieses Bild ist simuliert
 operator-ambiguous-next = Prüfen, wie herum das Teil hängt, dann den Roboter starten
+operator-file-next = Aus einer Datei: Prüfen, ob sie dieses Teil zeigt, wie es hängt, dann den Roboter starten
 operator-start-robot = Roboter starten
 operator-recognised = Erkannt, Pose bekannt
 operator-an-enrolled-part = ein eingelerntes Teil

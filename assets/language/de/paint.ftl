@@ -151,6 +151,7 @@ paint-unchecked-accelerations =
     }
 paint-arm-folds-over = der Arm müsste umschlagen
 paint-collisions = Kollisionen
+paint-no-collisions-reached = keine, wo er hinreicht
 paint-num-collisions =
     { $count ->
         [0] keine

@@ -134,6 +134,11 @@ history-shift = Shift of { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Parts by shift
 history-not-ok-on-top = NOK, on top
 history-total = { $count } parts, { $share } OK
+history-simulated-left-out =
+    { $count ->
+        [one] 1 simulated part is not counted
+       *[other] { $count } simulated parts are not counted
+    }
 history-drift = Drift: { $part }
 history-drift-score = Score
 history-drift-fit = Fit to the reference, rms

@@ -20,6 +20,7 @@ operator-from-history = From the history, not the current part
 operator-capture-current = Press Capture for the current part
 operator-simulated-next = Ask the engineer to choose a camera: this frame is simulated
 operator-ambiguous-next = Check which way round the part hangs, then start the robot
+operator-file-next = From a file: check that it shows this part as it hangs, then start the robot
 operator-start-robot = Start the robot
 operator-recognised = Recognised, and its pose is known
 operator-an-enrolled-part = an enrolled part

@@ -151,6 +151,7 @@ paint-unchecked-accelerations =
     }
 paint-arm-folds-over = the arm would fold over
 paint-collisions = Collisions
+paint-no-collisions-reached = none where it reaches
 paint-num-collisions =
     { $count ->
         [0] none

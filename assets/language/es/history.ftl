@@ -134,6 +134,11 @@ history-shift = Turno del { $start }: { $ok } OK, { $nok } NOK
 history-by-shift = Piezas por turno
 history-not-ok-on-top = NOK, encima
 history-total = { $count } piezas, { $share } OK
+history-simulated-left-out =
+    { $count ->
+        [one] 1 pieza simulada no cuenta
+       *[other] { $count } piezas simuladas no cuentan
+    }
 history-drift = Deriva: { $part }
 history-drift-score = Puntuación
 history-drift-fit = Ajuste a la referencia, rms

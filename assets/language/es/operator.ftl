@@ -20,6 +20,7 @@ operator-from-history = Del historial, no es la pieza actual
 operator-capture-current = Pulsar Capturar para la pieza actual
 operator-simulated-next = Pedir al técnico que elija una cámara: esta imagen es simulada
 operator-ambiguous-next = Comprobar en qué sentido cuelga la pieza y arrancar el robot
+operator-file-next = De un archivo: comprobar que muestra esta pieza tal como cuelga y arrancar el robot
 operator-start-robot = Arrancar el robot
 operator-recognised = Reconocida, con pose conocida
 operator-an-enrolled-part = una pieza registrada

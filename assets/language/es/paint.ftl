@@ -151,6 +151,7 @@ paint-unchecked-accelerations =
     }
 paint-arm-folds-over = el brazo tendría que voltearse
 paint-collisions = Colisiones
+paint-no-collisions-reached = ninguna donde alcanza
 paint-num-collisions =
     { $count ->
         [0] ninguna

@@ -129,6 +129,7 @@ history-shift = { $start } 的班次：{ $ok } OK，{ $nok } NG
 history-by-shift = 各班次零件数
 history-not-ok-on-top = NG（上方）
 history-total = { $count } 个零件，{ $share } OK
+history-simulated-left-out = 未计入 { $count } 个仿真零件
 history-drift = 漂移：{ $part }
 history-drift-score = 得分
 history-drift-fit = 与参考的偏差（rms）

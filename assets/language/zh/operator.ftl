@@ -20,6 +20,7 @@ operator-from-history = 来自历史记录，不是当前零件
 operator-capture-current = 按“采集”检测当前零件
 operator-simulated-next = 请工程师选择相机：此帧为仿真数据
 operator-ambiguous-next = 确认零件的悬挂方向，然后启动机器人
+operator-file-next = 来自文件：确认文件显示的是当前悬挂的零件，再启动机器人
 operator-start-robot = 启动机器人
 operator-recognised = 已识别，位姿已知
 operator-an-enrolled-part = 某个已注册零件

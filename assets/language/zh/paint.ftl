@@ -151,6 +151,7 @@ paint-unchecked-accelerations =
     }
 paint-arm-folds-over = 机械臂需要翻转
 paint-collisions = 碰撞
+paint-no-collisions-reached = 可达处无
 paint-num-collisions =
     { $count ->
         [0] 无

@@ -191,13 +191,14 @@ fn part(ui: &mut Ui, past: &OpenedInspection, units: UnitSystem, actions: &mut V
     };
     let found = Differences::between(head.into(), other.into(), None);
     let names = [head, other].map(|record| record.summary.number.abs().to_string());
-    let sentence = if found.is_same() {
+    let is_same = found.has_same_result();
+    let sentence = if is_same {
         text!("history-found-same", number = &names[1])
     } else {
         text!("history-found-other", number = &names[1])
     };
     let names = [&*names[0], &*names[1]];
-    differences::table(ui, &found, &sentence, names, units, theme);
+    differences::table(ui, &found, (&sentence, is_same), names, units, theme);
 }
 
 fn figures(ui: &mut Ui, record: &Record) {

@@ -22,31 +22,28 @@ type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
 pub(super) fn today(ui: &mut Ui, found: &Differences, units: UnitSystem) {
     let theme = Theme::of(ui);
     heading(ui, &text!("history-differences"));
-    let sentence = if found.is_same() {
+    let is_same = found.is_same();
+    let sentence = if is_same {
         text!("history-same-today")
     } else {
         text!("history-other-today")
     };
     let names = [text!("history-then"), text!("history-today")];
     let names = [names[0].as_str(), names[1].as_str()];
-    table(ui, found, &sentence, names, units, theme);
+    table(ui, found, (&sentence, is_same), names, units, theme);
 }
 
-/// Draws the table, with a sentence above it and the names of its columns.
+/// Draws the table, with the names of its columns, below a sentence that says whether the inspections are the same.
 pub(super) fn table(
     ui: &mut Ui,
     found: &Differences,
-    sentence: &str,
+    (sentence, is_same): (&str, bool),
     names: [&str; 2],
     units: UnitSystem,
     theme: &Theme,
 ) {
     let strong = RichText::new(sentence).font(font::body_strong());
-    ui.label(strong.color(if found.is_same() {
-        theme.text
-    } else {
-        theme.warning
-    }));
+    ui.label(strong.color(if is_same { theme.text } else { theme.warning }));
     let Differences { before, now, pose } = found;
     let none = || "-".to_owned();
     let rows: [(String, FindingText<'_>); 5] = [

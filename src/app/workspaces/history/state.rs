@@ -385,7 +385,7 @@ impl HistoryState {
                 let now = Zoned::now();
                 let mut counted = filter.at(&now);
                 let outcomes = work::outcomes(&mut counted, &keeper);
-                let outcomes = outcomes.map_err(|error| UserError::of(&error))?;
+                let (outcomes, num_left_out) = outcomes.map_err(|error| UserError::of(&error))?;
                 let former_titles = RefCell::new(BTreeMap::new());
                 let title_of = |name: &str| {
                     let library = library.as_deref();
@@ -398,6 +398,7 @@ impl HistoryState {
                     title.or_insert_with(|| former_title(&keeper, name)).clone()
                 };
                 let mut found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
+                found.num_left_out = num_left_out;
                 let part = filter.part.clone().or_else(|| most_accepted(&outcomes));
                 if let Some(part) = part {
                     counted.part = Some(part.clone());

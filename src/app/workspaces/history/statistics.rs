@@ -96,6 +96,8 @@ pub struct Statistics {
     pub parts: Vec<(Option<String>, Tally)>,
     /// By reason, the most frequent first.
     pub reasons: Vec<(ReasonGroup, usize)>,
+    /// Number of simulated parts that are not counted.
+    pub num_left_out: usize,
     /// Drift of the part that the filter names, or of the one accepted most often.
     pub drift: Option<Drift>,
 }
@@ -217,6 +219,10 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
         // Lines of text need less height than controls.
         ui.spacing_mut().interact_size.y = 22.0;
         shifts(ui, &found.shifts);
+        if found.num_left_out > 0 {
+            let count = found.num_left_out;
+            ui.weak(text!("history-simulated-left-out", count = count));
+        }
         heading(ui, &text!("history-by-part"));
         Grid::new("by part")
             .num_columns(4)

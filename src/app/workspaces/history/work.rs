@@ -97,19 +97,21 @@ fn looked(request: &HistoryQuery, history: &HistoryBuffer) -> Result<HistoryResu
     })
 }
 
-/// Outcomes of the matching parts. No part hangs in a simulated frame, so those count only where there is nothing else: the
-/// filter leaves them out otherwise.
+/// Outcomes of the matching parts, and the number of simulated parts among them that are left out. No part hangs in a
+/// simulated frame, so those count only where there is nothing else: the filter leaves them out otherwise.
 pub(super) fn outcomes(
     filter: &mut Filter,
     history: &HistoryBuffer,
-) -> Result<Vec<PartOutcome>, HistoryError> {
+) -> Result<(Vec<PartOutcome>, usize), HistoryError> {
+    filter.is_simulated = Some(true);
+    let num_simulated = history.page(filter, 0, 0)?.num_matching;
     filter.is_simulated = Some(false);
     let outcomes = history.outcomes(filter)?;
     if !outcomes.is_empty() {
-        return Ok(outcomes);
+        return Ok((outcomes, num_simulated));
     }
     filter.is_simulated = None;
-    history.outcomes(filter)
+    Ok((history.outcomes(filter)?, 0))
 }
 
 /// Names and titles of the parts in the history.
@@ -176,15 +178,15 @@ mod tests {
                 part: Some(part.to_owned()),
                 ..Filter::default()
             };
-            let outcomes = outcomes(&mut filter, &history).expect("asked");
-            (outcomes.len(), filter.is_simulated)
+            let (outcomes, num_left_out) = outcomes(&mut filter, &history).expect("asked");
+            (outcomes.len(), num_left_out, filter.is_simulated)
         };
         add(1, "fender", true);
         add(2, "fender", true);
-        assert_eq!(num("fender"), (2, None));
+        assert_eq!(num("fender"), (2, 0, None));
         add(3, "fender", false);
         add(4, "grille", true);
-        assert_eq!(num("fender"), (1, Some(false)));
-        assert_eq!(num("grille"), (1, None));
+        assert_eq!(num("fender"), (1, 2, Some(false)));
+        assert_eq!(num("grille"), (1, 0, None));
     }
 }

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     app::{
-        inspection::inspected::Inspected,
+        inspection::{inspected::Inspected, source::Origin},
         language::{history::recognised_part, results::stored_verdict, text},
         shell::{current_trace, live::SourceState, session::Session},
         ui::{
@@ -215,6 +215,8 @@ impl Banner {
                 text!("operator-simulated-next")
             } else if pose.is_some_and(PoseEstimate::is_ambiguous) {
                 text!("operator-ambiguous-next")
+            } else if matches!(inspected.origin, Origin::File { .. }) {
+                text!("operator-file-next")
             } else {
                 text!("operator-start-robot")
             };
@@ -502,7 +504,7 @@ mod tests {
     };
 
     #[test]
-    fn a_part_at_the_edge_of_the_picture_is_said_and_warned_of_only_if_it_is_not_accepted() {
+    fn a_part_at_the_edge_and_a_file_are_said_and_only_a_refused_part_is_warned_of() {
         let banner = |change: fn(&mut Inspected), is_past| {
             let mut inspected = inspected_cell(CellChoice::InTurn, 1);
             change(&mut inspected);
@@ -537,6 +539,15 @@ mod tests {
         assert_eq!(bad.tone, Tone::NotOk);
         assert!(bad.caution.contains("all of it"), "{}", bad.caution);
         assert_eq!(banner(cut, true).caution, "");
+        let file: fn(&mut Inspected) = |inspected| {
+            inspected.origin = Origin::File {
+                path: "/data/door.png".into(),
+                is_simulated: false,
+            };
+        };
+        // It may show what hung there days ago.
+        let next = banner(file, false).next;
+        assert!(next.starts_with("From a file"), "{next}");
     }
 
     const CHINESE: [&str; 2] = [

@@ -288,6 +288,11 @@ fn apply_ui(
 
 fn collisions_ui(ui: &mut Ui, reach: &Reach) {
     let count = reach.check.num_collisions();
-    let value = text!("paint-num-collisions", count = count);
+    // Where the arm cannot be, nothing is known.
+    let value = if count == 0 && reach.check.num_reached() < reach.check.points.len() {
+        text!("paint-no-collisions-reached")
+    } else {
+        text!("paint-num-collisions", count = count)
+    };
     row(ui, &text!("paint-collisions"), &value);
 }
