@@ -17,7 +17,7 @@ use crate::{
         Coat, Film, FilmFigures, PaintError, PaintSurface, PathFigures, Pattern, best_speed,
         propose, simulate,
     },
-    robot::spray::carry,
+    robot::{program::ProgramSettings, spray::carry},
     stages::{reference::Reference, stand_off::StandOffParams},
     units::Metres,
 };
@@ -57,6 +57,14 @@ pub struct PoseCost {
     pub turn_deg: f64,
     /// Shift along the rotation axis, metres.
     pub shift_m: f64,
+    /// The film against that without the error.
+    #[serde(flatten)]
+    pub film: FilmChange,
+}
+
+/// Film of a path with errors, against that without: the worst of several errors.
+#[derive(Clone, Debug, Serialize)]
+pub struct FilmChange {
     /// Smallest share of the surface within the tolerance.
     pub least_within: f64,
     /// Relative change of the mean thickness.
@@ -82,6 +90,9 @@ pub struct PaintedPart {
     pub hung_change: f64,
     /// Effects of pose errors.
     pub pose_costs: Vec<PoseCost>,
+    /// Effect of a nozzle that is tilted everywhere as far as a robot program may tilt it by default: the worst of four
+    /// directions.
+    pub tilt_cost: FilmChange,
     /// Surface of the part, for pictures.
     #[serde(skip)]
     pub surface: PaintSurface,
@@ -127,6 +138,24 @@ pub fn paint_part(
             *shift,
         )
     });
+    let tilt = ProgramSettings::default().max_tilt.0;
+    let along = surface.longest;
+    let across = surface.side.cross(&along);
+    let tilted = [along, -along, across, -across].map(|towards| {
+        let points = found.path.points().iter().map(|point| {
+            let axis = Unit::new_normalize(point.direction.cross(&towards));
+            let turn = UnitQuaternion::from_axis_angle(&axis, tilt);
+            let aim = *point.direction * point.stand_off.map_or(0.0, |distance| distance.0);
+            PathPoint {
+                nozzle: point.nozzle + aim - turn * aim,
+                direction: turn * point.direction,
+                fan: point.fan.map(|fan| turn * fan),
+                ..*point
+            }
+        });
+        points.collect()
+    });
+    let tilt_cost = film_change(&surface, tilted, &found.coat, &found.film)?;
     Ok(PaintedPart {
         name: reference.name.clone(),
         num_surface_points: surface.points.len(),
@@ -134,6 +163,7 @@ pub fn paint_part(
         trials: vec![planned, plain, rings],
         hung_change: hung_change(reference, &surface, &found.path, &found.coat, &found.film)?,
         pose_costs: pose_costs.collect::<Result<_, _>>()?,
+        tilt_cost,
         film: found.film,
         surface,
     })
@@ -267,15 +297,7 @@ fn pose_cost(
     shift_m: f64,
 ) -> Result<PoseCost, PaintError> {
     let across = surface.side.cross(&surface.longest);
-    let mut cost = PoseCost {
-        turn_deg,
-        shift_m,
-        least_within: 1.0,
-        mean_change: 0.0,
-        change_95: 0.0,
-        most_change: 0.0,
-    };
-    for axis in [surface.longest, across, surface.side] {
+    let wrong = [surface.longest, across, surface.side].map(|axis| {
         let axis = Unit::new_normalize(axis);
         let turn = UnitQuaternion::from_axis_angle(&axis, turn_deg.to_radians());
         let about = surface.middle.coords;
@@ -287,7 +309,30 @@ fn pose_cost(
             fan: point.fan.map(|fan| wrong * fan),
             ..*point
         });
-        let wrong = SprayPath::new(points.collect()).ok_or(PaintError::NoRows)?;
+        points.collect()
+    });
+    Ok(PoseCost {
+        turn_deg,
+        shift_m,
+        film: film_change(surface, wrong, coat, standard)?,
+    })
+}
+
+/// Simulates paths with errors, and returns the worst of their films.
+fn film_change(
+    surface: &PaintSurface,
+    wrong: impl IntoIterator<Item = Vec<PathPoint>>,
+    coat: &Coat,
+    standard: &Film,
+) -> Result<FilmChange, PaintError> {
+    let mut cost = FilmChange {
+        least_within: 1.0,
+        mean_change: 0.0,
+        change_95: 0.0,
+        most_change: 0.0,
+    };
+    for points in wrong {
+        let wrong = SprayPath::new(points).ok_or(PaintError::NoRows)?;
         let film = simulate(surface, &wrong, coat, &[])?;
         let mut changes = changes(standard, &film, coat);
         changes.sort_by(f64::total_cmp);

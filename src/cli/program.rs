@@ -20,7 +20,7 @@ use crate::{
         program::{Program, ProgramFormat, ProgramSettings, check_reach, program_points},
         spray::CarriedPath,
     },
-    units::Metres,
+    units::{Metres, Radians},
 };
 
 /// Tool, gun and arm of a program; the command names its file `program`.
@@ -80,9 +80,17 @@ pub(super) struct CellChoice {
     /// Radius of the gun around the line from the flange to the nozzle's mouth, 1 to 1000 mm
     #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = |text: &str| within(text, &(1.0..=1000.0)), allow_negative_numbers = true, requires = "arm")]
     gun_radius: f64,
+    /// Greatest tilt of the nozzle about the point that it aims at, where the arm cannot follow the path as it is, 0 to 30
+    /// degrees
+    #[arg(long, value_name = "DEG", default_value_t = 10.0, value_parser = |text: &str| within(text, &(0.0..=30.0)), allow_negative_numbers = true, requires = "arm")]
+    max_tilt: f64,
 }
 
 impl CellChoice {
+    pub(super) fn max_tilt(&self) -> Radians {
+        Radians::from_degrees(self.max_tilt)
+    }
+
     /// Places an arm in this cell.
     pub(super) fn place(
         &self,
@@ -185,6 +193,7 @@ impl ProgramOptions {
                 gun_output: self.gun_output,
                 speed: self.speed / 1000.0,
                 approach: Metres::from_mm(self.approach),
+                max_tilt: self.cell.max_tilt(),
                 blend: Metres::from_mm(self.blend),
             },
             arm,

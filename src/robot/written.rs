@@ -41,7 +41,7 @@ pub enum WrittenPoseError {
     #[error(transparent)]
     Numbers(#[from] ConventionError),
     /// A nozzle where no gun has it, as with lengths in another unit.
-    #[error("the nozzle is {:.3} mm from the flange, expected {:.0} to {:.0} mm", distance.mm(), NOZZLE.start() * 1000.0, NOZZLE.end() * 1000.0)]
+    #[error("the nozzle is {:.3} mm from the flange, expected {:.0} to {:.0} mm", distance.mm(), NOZZLE_DISTANCE.start() * 1000.0, NOZZLE_DISTANCE.end() * 1000.0)]
     Nozzle {
         /// Its distance from the flange.
         distance: Metres,
@@ -68,8 +68,8 @@ impl Advice for WrittenPoseError {
     }
 }
 
-/// Distances of a nozzle from the flange, metres.
-const NOZZLE: RangeInclusive<f64> = 0.01..=3.0;
+/// Valid distances of a nozzle from the flange, metres.
+pub const NOZZLE_DISTANCE: RangeInclusive<f64> = 0.01..=3.0;
 
 /// Reads `kuka 1450 -310 890 10 20 30`, or the 16 numbers of a matrix.
 pub fn parse_written_pose(text: &str) -> Result<WrittenPose, WrittenPoseError> {
@@ -122,7 +122,7 @@ pub fn parse_written_pose(text: &str) -> Result<WrittenPose, WrittenPoseError> {
 pub fn parse_nozzle(text: &str) -> Result<WrittenPose, WrittenPoseError> {
     let written = parse_written_pose(text)?;
     let at = written.pose.translation.vector;
-    if at == Vector3::zeros() || NOZZLE.contains(&at.norm()) {
+    if at == Vector3::zeros() || NOZZLE_DISTANCE.contains(&at.norm()) {
         return Ok(written);
     }
     Err(WrittenPoseError::Nozzle {

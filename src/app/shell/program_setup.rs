@@ -6,7 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use super::file_dialog::FileFilter;
 use crate::{
-    app::{inspection::report_files::ProgramTarget, language::text, user_error::UserError},
+    app::{
+        inspection::report_files::ProgramTarget,
+        language::{robot::written_pose_error, text},
+        user_error::UserError,
+    },
     files::file_name,
     geometry::rigid::RigidTransform,
     robot::{
@@ -15,7 +19,7 @@ use crate::{
         parse_nozzle,
         program::{PROGRAM_ENDINGS, ProgramFormat, ProgramSettings},
     },
-    units::Metres,
+    units::{Metres, Radians},
 };
 
 /// Settings for robot programs; kept with the settings.
@@ -47,6 +51,8 @@ pub struct ProgramSetup {
     pub approach_mm: f64,
     /// Blend radius of the robot at corners, mm.
     pub blend_mm: f64,
+    /// Greatest tilt of the nozzle where the arm cannot follow the path as it is, degrees.
+    pub max_tilt_deg: f64,
 }
 
 impl Default for ProgramSetup {
@@ -65,6 +71,7 @@ impl Default for ProgramSetup {
             speed_mm_s: 1000.0 * settings.speed,
             approach_mm: settings.approach.mm(),
             blend_mm: settings.blend.mm(),
+            max_tilt_deg: settings.max_tilt.degrees(),
         }
     }
 }
@@ -80,6 +87,8 @@ impl ProgramSetup {
     pub const APPROACH: RangeInclusive<f64> = 10.0..=1000.0;
     /// Valid blend radii, mm.
     pub const BLEND: RangeInclusive<f64> = 0.0..=100.0;
+    /// Valid limits of the nozzle's tilt, degrees.
+    pub const MAX_TILT: RangeInclusive<f64> = 0.0..=30.0;
 
     /// Valid values of the number of `base` at this place.
     pub fn base_range(place: usize) -> RangeInclusive<f64> {
@@ -106,6 +115,7 @@ impl ProgramSetup {
             (&mut self.speed_mm_s, Self::SPEED, usual.speed_mm_s),
             (&mut self.approach_mm, Self::APPROACH, usual.approach_mm),
             (&mut self.blend_mm, Self::BLEND, usual.blend_mm),
+            (&mut self.max_tilt_deg, Self::MAX_TILT, usual.max_tilt_deg),
         ] {
             if !range.contains(value) {
                 *value = usual;
@@ -160,8 +170,10 @@ impl ProgramSetup {
         if self.nozzle.trim().is_empty() {
             return Ok(None);
         }
-        let written = parse_nozzle(&self.nozzle);
-        let written = written.map_err(|error| UserError::of(&error))?;
+        let written = parse_nozzle(&self.nozzle).map_err(|error| {
+            let [what, advice] = written_pose_error(&error);
+            UserError { what, advice }
+        })?;
         Ok(Some(written.pose))
     }
 
@@ -204,6 +216,7 @@ impl ProgramSetup {
             gun_output: self.gun_output,
             speed: self.speed_mm_s / 1000.0,
             approach: Metres::from_mm(self.approach_mm),
+            max_tilt: Radians::from_degrees(self.max_tilt_deg),
             blend: Metres::from_mm(self.blend_mm),
         };
         Ok(ProgramTarget { settings, arm })
@@ -235,7 +248,7 @@ pub(in crate::app) fn program_file_name(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::parse_written_pose;
+    use crate::{app::language::Language, robot::parse_written_pose};
 
     #[test]
     fn the_title_of_an_arm_is_had_without_its_file() {
@@ -275,6 +288,23 @@ mod tests {
         }
         assert_eq!(name(Some("cell.toml"), Convention::Abb), "door.mod");
         assert_eq!(name(None, Convention::Doosan), "door.drl");
+    }
+
+    #[test]
+    fn what_is_wrong_with_the_nozzle_is_said_in_the_language_of_the_window() {
+        let setup = ProgramSetup {
+            nozzle: "kuka 0 0 0.25 0 45 0".into(),
+            ..ProgramSetup::default()
+        };
+        Language::German.make_current();
+        let error = setup.nozzle_error();
+        Language::English.make_current();
+        let error = error.expect("a nozzle that no gun has");
+        assert!(
+            error.what.starts_with("die Düse ist 0.250 mm "),
+            "{error:?}"
+        );
+        assert!(error.advice.starts_with("Ihre Position"), "{error:?}");
     }
 
     #[test]

@@ -139,20 +139,24 @@ fn show(parts: &[PaintedPart], coat: &Coat, console: &mut Console) {
     }
     table.show(console);
     console.line(&"");
-    console.line(&"The planned path: carried to the part hung 15° and 10 cm off, and with an error of the pose, the worst of three axes.");
+    console.line(&"The planned path: carried to the part hung 15° and 10 cm off; with an error of the pose, the worst of three axes; with the nozzle tilted everywhere as far as a robot program may tilt it, the worst of four directions.");
     let mut table = Table::new(&[
         "part", "hung", "error", "within", "mean by", "95 % by", "most by",
     ]);
     for part in parts {
-        for cost in &part.pose_costs {
+        let errors = part.pose_costs.iter().map(|cost| {
+            let error = format!("{}° and {:.0} mm", cost.turn_deg, 1000.0 * cost.shift_m);
+            (error, &cost.film)
+        });
+        for (error, film) in errors.chain([("tilt".to_owned(), &part.tilt_cost)]) {
             table.row([
                 part.name.clone(),
                 format!("{:.3} %", 100.0 * part.hung_change),
-                format!("{}° and {:.0} mm", cost.turn_deg, 1000.0 * cost.shift_m),
-                percent(cost.least_within),
-                percent(cost.mean_change),
-                percent(cost.change_95),
-                percent(cost.most_change),
+                error,
+                percent(film.least_within),
+                percent(film.mean_change),
+                percent(film.change_95),
+                percent(film.most_change),
             ]);
         }
     }

@@ -19,7 +19,7 @@ use crate::{
     robot::{
         Convention, WrittenPose,
         arm::{
-            Arm, PathCheck, PlaceSuggestion, PlacedArm, PointCheck, PointProblem, check_path,
+            Arm, PathCheck, PlaceSuggestion, PlacedArm, PointCheck, PointProblem, Way, check_path,
             suggest_base, suggest_rail,
         },
         program::{ProgramSettings, arm_points},
@@ -87,6 +87,7 @@ pub(super) fn run(
     let settings = ProgramSettings {
         speed: args.speed / 1000.0,
         approach: Metres::from_mm(args.approach),
+        max_tilt: args.cell.max_tilt(),
         ..ProgramSettings::default()
     };
     let points = arm_points(&carried, &frame, settings.speed);
@@ -113,6 +114,12 @@ pub(super) fn run(
                 "index": i + 1,
                 "joints_deg": joints,
                 "turn_deg": point.turn.to_degrees(),
+                "tilt_deg": point.tilt.to_degrees(),
+                "slower_mm_s": match point.way {
+                    Way::Slower(speed) => Some(1000.0 * speed),
+                    Way::Planned | Way::Joints => None,
+                },
+                "joint_move": point.way == Way::Joints,
                 "rail_mm": moving.map(|_| 1000.0 * point.rail),
                 "problem": point.problem.as_ref().map(PointProblem::describe),
                 "problem_kind": point.problem.as_ref().map(PointProblem::kind),
@@ -157,6 +164,18 @@ fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
         let [low, high] = found.rail_range().map(|at| 1000.0 * at);
         console.line(&format_args!(
             "  its rail is between {low:.0} and {high:.0} mm"
+        ));
+    }
+    if let Some((num, most)) = found.tilted() {
+        console.line(&format_args!(
+            "  the nozzle tilts at {num} of them, by up to {:.1} degrees",
+            most.to_degrees()
+        ));
+    }
+    let [num_slower, num_by_joints] = found.changed_moves();
+    if num_slower + num_by_joints > 0 {
+        console.line(&format_args!(
+            "  of the moves with the gun off, {num_slower} are slower than in the path and {num_by_joints} are joint moves"
         ));
     }
     if let Some(what) = placed.arm.unchecked_accelerations() {
@@ -264,10 +283,8 @@ mod tests {
 
     fn point(problem: Option<PointProblem>) -> PointCheck {
         PointCheck {
-            joints: None,
-            turn: 0.0,
-            rail: 0.0,
             problem,
+            ..PointCheck::default()
         }
     }
 

@@ -75,7 +75,6 @@ pub(super) fn check_accelerations(
 struct Run<'a> {
     placed: &'a PlacedArm,
     /// Begins with the first of them; may continue after the last.
-    points: &'a [ArmPoint],
     checked: &'a [PointCheck],
     /// Time of the nozzle at each point, seconds from the first.
     times: Vec<f64>,
@@ -94,7 +93,6 @@ impl<'a> Run<'a> {
         });
         Self {
             placed,
-            points,
             checked,
             times: std::iter::once(0.0).chain(later).collect(),
         }
@@ -188,7 +186,7 @@ impl<'a> Run<'a> {
 
     /// The joints at a time during the move from one point to the next, nearest to those at `near`.
     fn joints_at(&self, from: usize, time: f64, near: usize) -> Option<Joints> {
-        let end = |place: usize| WayEnd::of(&self.points[place], &self.checked[place]);
+        let end = |place: usize| WayEnd::of(&self.checked[place]);
         let (start, end) = (end(from)?, end(from + 1)?);
         let share = (time - self.times[from]) / (self.times[from + 1] - self.times[from]);
         start.joints_towards(&end, share, self.placed, &self.checked[near].joints?)

@@ -1,19 +1,28 @@
 //! The joints that an arm may take at each point of a path, and the cheapest chain of them.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
-use nalgebra::UnitQuaternion;
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::{
     Arm,
     check::ArmPoint,
     kinematics::{Joints, Solver},
+    way::{SLOWEST, may_move_by_joints},
 };
 use crate::geometry::rigid::RigidTransform;
 
 /// Costs in seconds of joint motion: of a singularity nearby, and of turning the nozzle by one step.
 const SINGULAR_COST: f64 = 2.0;
 const TURN_COST: f64 = 0.02;
+/// Cost of a tilt at its limit, so that the nozzle is only tilted where that avoids a problem or a singularity.
+const TILT_COST: f64 = 1.0;
+/// Cost of a joint move between two strokes, which takes a stop at both ends.
+const JOINT_MOVE_COST: f64 = 5.0;
+/// Cost of joints that are faster than this share of their top speeds, times the excess: between two points they may be
+/// faster than on average.
+const RUSH_COST: f64 = 20.0;
+const RUSH: f64 = 0.7;
 /// Least cost of a move that is too fast for a joint, changes the configuration or turns a joint by more than half a
 /// turn.
 const JUMP_COST: f64 = 1e4;
@@ -27,6 +36,7 @@ const LAZY_ROUNDS: usize = 3;
 pub(super) struct Candidate {
     pub(super) joints: Joints,
     pub(super) turn: usize,
+    pub(super) tilt: Tilt,
     /// The configuration, one of eight, as one bit.
     configuration: u8,
     /// Cost of the point itself, without the move to it.
@@ -62,41 +72,84 @@ fn turns_apart(a: usize, b: usize, num_turns: usize) -> usize {
     apart.min(num_turns - apart)
 }
 
+/// A tilt of the nozzle about the point that it aims at: a rotation vector in the nozzle's xy plane, radians.
+pub(super) type Tilt = [f64; 2];
+
+/// No tilt, and tilts in eight directions by half of the limit and by all of it.
+pub(super) fn tilts_up_to(limit: f64) -> Vec<Tilt> {
+    let mut all = vec![[0.0; 2]];
+    for angle in [0.5 * limit, limit] {
+        all.extend((0..8).map(|k| {
+            let (sin, cos) = (FRAC_PI_4 * f64::from(k)).sin_cos();
+            [angle * cos, angle * sin]
+        }));
+    }
+    all
+}
+
+/// The nozzle at a point, turned about its z axis.
 pub(super) fn turned(point: &ArmPoint, angle: f64) -> RigidTransform {
     point.robot_from_nozzle * UnitQuaternion::from_euler_angles(0.0, 0.0, angle)
 }
 
-/// The turns to be tried at a point.
-pub(super) fn turns_of(point: &ArmPoint, num_turns: usize) -> std::ops::Range<usize> {
-    0..if point.is_turn_free { num_turns } else { 1 }
+/// The nozzle at a point, tilted and turned about its z axis.
+pub(super) fn held(point: &ArmPoint, [x, y]: Tilt, angle: f64) -> RigidTransform {
+    let aim = Translation3::new(0.0, 0.0, point.aim);
+    let tilt = UnitQuaternion::from_scaled_axis(Vector3::new(x, y, 0.0));
+    let turn = UnitQuaternion::from_euler_angles(0.0, 0.0, angle);
+    point.robot_from_nozzle * aim * tilt * aim.inverse() * turn
 }
 
+/// The turns to be tried at a point: all of a round jet; half a turn of a fan, which is symmetric.
+pub(super) fn turns_of(point: &ArmPoint, num_turns: usize) -> impl Iterator<Item = usize> + use<> {
+    let step = match (point.is_turn_free, num_turns.is_multiple_of(2)) {
+        (true, _) => 1,
+        (false, true) => num_turns / 2,
+        (false, false) => num_turns,
+    };
+    (0..num_turns).step_by(step)
+}
+
+/// All joints at a point with these tilts of the nozzle, whose limit is `max_tilt`.
 pub(super) fn candidates_of(
     solver: &Solver<'_>,
     point: &ArmPoint,
     num_turns: usize,
+    tilts: &[Tilt],
+    max_tilt: f64,
 ) -> Vec<Candidate> {
     let mut all = Vec::new();
-    for turn in turns_of(point, num_turns) {
-        let pose = turned(point, angle_of(turn, num_turns));
-        for solution in solver.solutions(&pose, None) {
-            let is_singular = solver.singularity(&solution).is_some();
-            let configuration = solver.arm.configuration_bit(&solution);
-            // Turning away from the path's own orientation has no benefit of its own.
-            let away = turn.min(num_turns - turn) as f64;
-            let cost = 0.1 * TURN_COST * away + if is_singular { SINGULAR_COST } else { 0.0 };
-            all.extend(
-                solver
-                    .within_limits(&solution)
-                    .into_iter()
-                    .map(|joints| Candidate {
-                        joints,
-                        turn,
-                        configuration,
-                        cost,
-                        is_collision: None,
-                    }),
-            );
+    for tilt in tilts {
+        let [x, y] = *tilt;
+        let share = if max_tilt > 0.0 {
+            x.hypot(y) / max_tilt
+        } else {
+            0.0
+        };
+        for turn in turns_of(point, num_turns) {
+            let pose = held(point, *tilt, angle_of(turn, num_turns));
+            for solution in solver.solutions(&pose, None) {
+                let is_singular = solver.singularity(&solution).is_some();
+                let configuration = solver.arm.configuration_bit(&solution);
+                // Turning away from the path's own orientation has no benefit of its own.
+                let away = turn.min(num_turns - turn) as f64;
+                let cost = 0.1 * TURN_COST * away
+                    + TILT_COST * share
+                    + if is_singular { SINGULAR_COST } else { 0.0 };
+                all.extend(
+                    solver
+                        .within_limits(&solution)
+                        .into_iter()
+                        .map(|joints| Candidate {
+                            joints,
+                            turn,
+                            tilt: *tilt,
+                            configuration,
+                            cost,
+                            is_collision: None,
+                        }),
+                );
+            }
         }
     }
     all
@@ -193,20 +246,38 @@ fn best_chain(
                 &points[i - 1].robot_from_nozzle,
                 &points[i].robot_from_nozzle,
             );
-            let allowed = move_time(from, to, points[i - 1].speed);
+            let (start, end) = (&points[i - 1], &points[i]);
+            // With the gun off the arm may take its time.
+            let speed = if start.is_gun_on {
+                start.speed
+            } else {
+                start.speed.min(SLOWEST)
+            };
+            let allowed = move_time(from, to, speed);
+            let jump_cost = if may_move_by_joints(arm, start, end) {
+                JOINT_MOVE_COST
+            } else {
+                JUMP_COST
+            };
             let step = |previous: &Candidate| {
                 let apart = turns_apart(previous.turn, candidate.turn, num_turns);
                 let (time, angle) = joint_time(arm, &previous.joints, &candidate.joints);
-                let is_jump = allowed.map_or(time > 1.0, |allowed| time > allowed)
+                // The joints' greatest speed as a share of what they can.
+                let share = allowed.map_or(time, |allowed| time / allowed);
+                let is_jump = share > 1.0
                     || angle > PI
+                    || 4 * apart > num_turns
                     || previous.configuration != candidate.configuration;
-                time + TURN_COST * apart as f64 + if is_jump { JUMP_COST } else { 0.0 }
+                let rush = RUSH_COST * (share - RUSH).max(0.0);
+                time + TURN_COST * apart as f64 + if is_jump { jump_cost } else { rush }
             };
             let cheapest = |is_near: bool| {
                 let mut best = (f64::INFINITY, None);
                 for (k, (previous, (cost, _))) in former.iter().zip(costs).enumerate() {
-                    let is_out = turns_apart(previous.turn, candidate.turn, num_turns) > 1;
-                    if *cost >= best.0 || (is_near && is_out) {
+                    let is_out = is_near
+                        && end.is_turn_free
+                        && turns_apart(previous.turn, candidate.turn, num_turns) > 1;
+                    if *cost >= best.0 || is_out {
                         continue;
                     }
                     let cost = cost + step(previous);

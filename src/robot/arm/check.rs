@@ -1,15 +1,17 @@
 //! Checks a path against an arm.
 
+use std::f64::consts::FRAC_PI_6;
+
 use nalgebra::Translation3;
 
 use super::{
     ArmError, PlacedArm,
     acceleration::check_accelerations,
-    chain::{Candidate, angle_of, candidates_of, free_chain, turned, turns_of},
+    chain::{Candidate, angle_of, candidates_of, free_chain, held, tilts_up_to, turned, turns_of},
     kinematics::{Joints, Solver},
     problem::PointProblem,
     rail_plan::rail_positions,
-    way::{WayEnd, way_problem},
+    way::{Way, WayEnd, way_between},
 };
 use crate::{
     geometry::rigid::{RigidTransform, is_finite},
@@ -23,7 +25,9 @@ pub struct ArmPoint {
     pub robot_from_nozzle: RigidTransform,
     /// Speed on the way to the next point, m/s.
     pub speed: f64,
-    /// True if the jet is round: the nozzle may turn about its z axis.
+    /// Distance from the mouth to the point on the part that it aims at, metres: the nozzle is tilted about that point.
+    pub aim: f64,
+    /// True if the jet is round: the nozzle may turn about its z axis. A fan may turn by 180° only.
     pub is_turn_free: bool,
     /// True if the gun sprays on the way to the next point; a rail moves there only if it must.
     pub is_gun_on: bool,
@@ -36,6 +40,8 @@ pub struct ArmPoint {
 pub struct CheckParams {
     /// Turns about the nozzle's z axis that are tried, 1..72. The time grows in proportion.
     pub num_turns: usize,
+    /// Greatest tilt of the nozzle where the arm cannot follow the path as it is, radians, 0..[`MAX_TILT`].
+    pub max_tilt: f64,
     /// Position of a rail that does not move along the path, metres; 0 without one.
     pub rail: f64,
     /// Distance of the approach point behind the first point, and of the end behind the last, metres; none to check the
@@ -47,11 +53,16 @@ pub struct CheckParams {
 const LEAST_GUN_RADIUS: f64 = 0.001;
 /// Most turns: steps of 5°.
 const MAX_TURNS: usize = 72;
+/// Greatest limit of the tilt, radians: beyond it a coat is uneven.
+pub const MAX_TILT: f64 = FRAC_PI_6;
+/// Points on either side of a problem at which the nozzle may tilt as well, so that it tilts gradually.
+const NEAR: usize = 8;
 
 impl Default for CheckParams {
     fn default() -> Self {
         Self {
             num_turns: 24,
+            max_tilt: 0.0,
             rail: 0.0,
             approach: None,
         }
@@ -59,14 +70,20 @@ impl Default for CheckParams {
 }
 
 /// Result for one point.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointCheck {
     /// The joints; none if the point is out of reach or beyond a limit.
     pub joints: Option<Joints>,
+    /// The nozzle there: as in the path but for turn and tilt.
+    pub robot_from_nozzle: RigidTransform,
     /// Turn about the nozzle's z axis relative to the path, radians within ±π.
     pub turn: f64,
+    /// Tilt relative to the path about the point that the nozzle aims at, radians, 0 or more.
+    pub tilt: f64,
     /// Position of the rail, metres; 0 without one.
     pub rail: f64,
+    /// How the arm comes here from the previous point.
+    pub way: Way,
     /// The problem of the point, or of the way to it, if any.
     pub problem: Option<PointProblem>,
 }
@@ -88,6 +105,23 @@ impl PathCheck {
             .iter()
             .filter(|point| point.problem.is_none())
             .count()
+    }
+
+    /// Number of points at which the nozzle is tilted, and the greatest tilt, radians; `None` if it is nowhere.
+    pub fn tilted(&self) -> Option<(usize, f64)> {
+        let tilts = self.points.iter().map(|point| point.tilt);
+        let tilts = tilts.filter(|tilt| *tilt > 0.0);
+        let (num, most) = tilts.fold((0, 0.0_f64), |(num, most), tilt| (num + 1, most.max(tilt)));
+        (num > 0).then_some((num, most))
+    }
+
+    /// Numbers of moves between strokes that are slower than in the path, and of those that became joint moves.
+    pub fn changed_moves(&self) -> [usize; 2] {
+        let count = |is: fn(Way) -> bool| self.points.iter().filter(|point| is(point.way)).count();
+        [
+            count(|way| matches!(way, Way::Slower(_))),
+            count(|way| way == Way::Joints),
+        ]
     }
 
     /// Number of points at which, or on the way to which, gun or arm collide. The way to a point that is out of reach
@@ -119,7 +153,8 @@ impl PathCheck {
 }
 
 /// Finds the joints for every point of the path, or the problem there. Points without a problem are reached one after
-/// the other by straight moves at their speed. With an approach distance, the ways to the path and from it are checked
+/// the other by straight moves at their speed; with the gun off, more slowly or by joint moves where that is needed.
+/// With an approach distance, the ways to the path and from it are checked
 /// as well; their problems are reported at the first and the last point.
 pub fn check_path(
     placed: &PlacedArm,
@@ -204,20 +239,78 @@ fn check_points(
     let mut candidates: Vec<Vec<Candidate>> = Vec::with_capacity(points.len());
     for (solver, point) in solvers.iter().zip(points) {
         go_on()?;
-        candidates.push(candidates_of(solver, point, params.num_turns));
+        candidates.push(candidates_of(
+            solver,
+            point,
+            params.num_turns,
+            &[[0.0; 2]],
+            0.0,
+        ));
     }
-    let num_turns = params.num_turns;
-    let chosen = free_chain(&solvers, points, &mut candidates, num_turns, is_cancelled);
-    let chosen = chosen.ok_or(ArmError::Cancelled)?;
+    let check = |candidates: &mut [Vec<Candidate>]| {
+        let chosen = free_chain(&solvers, points, candidates, params.num_turns, is_cancelled);
+        let chosen = chosen.ok_or(ArmError::Cancelled)?;
+        let chosen = chosen.into_iter().zip(candidates.iter());
+        let chosen = chosen.map(|(index, here)| index.map(|index| here[index]));
+        check_chosen(
+            placed,
+            &solvers,
+            &rails,
+            points,
+            params,
+            chosen.collect(),
+            go_on,
+        )
+    };
+    let checked = check(&mut candidates)?;
+    let is_bad: Vec<bool> = checked
+        .iter()
+        .map(|point| point.problem.is_some())
+        .collect();
+    if params.max_tilt <= 0.0 || !is_bad.contains(&true) {
+        return Ok(checked);
+    }
+    let tilts = tilts_up_to(params.max_tilt);
+    for (i, (solver, point)) in solvers.iter().zip(points).enumerate() {
+        let near = i.saturating_sub(NEAR)..points.len().min(i + NEAR + 1);
+        if is_bad[near].contains(&true) {
+            go_on()?;
+            let (num_turns, tilts) = (params.num_turns, &tilts[1..]);
+            let tilted = candidates_of(solver, point, num_turns, tilts, params.max_tilt);
+            candidates[i].extend(tilted);
+        }
+    }
+    let tilted = check(&mut candidates)?;
+    let num_bad = |checked: &[PointCheck]| checked.iter().filter(|p| p.problem.is_some()).count();
+    Ok(if num_bad(&tilted) < num_bad(&checked) {
+        tilted
+    } else {
+        checked
+    })
+}
+
+/// The result for these joints at every point; `None` where there are none.
+fn check_chosen(
+    placed: &PlacedArm,
+    solvers: &[Solver<'_>],
+    rails: &[f64],
+    points: &[ArmPoint],
+    params: &CheckParams,
+    chosen: Vec<Option<Candidate>>,
+    go_on: impl Fn() -> Result<(), ArmError>,
+) -> Result<Vec<PointCheck>, ArmError> {
     let mut checked: Vec<PointCheck> = Vec::with_capacity(points.len());
-    for (i, point) in points.iter().enumerate() {
+    for (i, (point, candidate)) in points.iter().zip(chosen).enumerate() {
         go_on()?;
         let (solver, rail) = (&solvers[i], rails[i]);
-        let Some(candidate) = chosen[i].map(|index| candidates[i][index]) else {
+        let Some(candidate) = candidate else {
             checked.push(PointCheck {
                 joints: None,
+                robot_from_nozzle: point.robot_from_nozzle,
                 turn: 0.0,
+                tilt: 0.0,
                 rail,
+                way: Way::Planned,
                 problem: Some(why_not(solver, point, params.num_turns)),
             });
             continue;
@@ -225,11 +318,12 @@ fn check_points(
         let turn = angle_of(candidate.turn, params.num_turns);
         let singular = solver.singularity(&candidate.joints);
         let before = i.checked_sub(1).and_then(|before| {
-            let end = WayEnd::of(&points[before], &checked[before])?;
-            Some((end, points[before].speed))
+            let end = WayEnd::of(&checked[before])?;
+            Some((end, &points[before]))
         });
+        let robot_from_nozzle = held(point, candidate.tilt, turn);
         let to = WayEnd {
-            nozzle: turned(point, turn),
+            nozzle: robot_from_nozzle,
             joints: candidate.joints,
             rail,
         };
@@ -239,17 +333,41 @@ fn check_points(
         } else {
             None
         };
-        let problem = here
-            .or_else(|| before.and_then(|(from, speed)| way_problem(placed, &from, &to, speed)));
+        let (way, on_the_way) = match before {
+            Some((from, start)) if here.is_none() => {
+                way_between(placed, &from, &to, [start, point])
+            }
+            _ => (Way::Planned, None),
+        };
+        let problem = here.or(on_the_way);
         checked.push(PointCheck {
             joints: Some(candidate.joints),
+            robot_from_nozzle,
             turn,
+            tilt: candidate.tilt[0].hypot(candidate.tilt[1]),
             rail,
+            way,
             problem: problem.or(singular.map(PointProblem::NearSingularity)),
         });
     }
-    check_accelerations(placed, points, &mut checked);
+    check_accelerations(placed, &as_passed(points, &checked), &mut checked);
     Ok(checked)
+}
+
+/// The points with the speeds and stops of the ways that were found.
+fn as_passed(points: &[ArmPoint], checked: &[PointCheck]) -> Vec<ArmPoint> {
+    let mut passed = points.to_vec();
+    for (i, point) in checked.iter().enumerate().skip(1) {
+        match point.way {
+            Way::Planned => {}
+            Way::Slower(speed) => passed[i - 1].speed = speed,
+            Way::Joints => {
+                passed[i - 1].is_stop = true;
+                passed[i].is_stop = true;
+            }
+        }
+    }
+    passed
 }
 
 /// Refuses what cannot be checked. An error counts the points of `points` from 1.
@@ -283,6 +401,12 @@ pub(super) fn refuse_bad(
             value: params.num_turns as f64,
         });
     }
+    if !(0.0..=MAX_TILT + 1e-9).contains(&params.max_tilt) {
+        return Err(ArmError::Value {
+            what: "the greatest tilt of the nozzle".into(),
+            value: params.max_tilt,
+        });
+    }
     if let Some(rail) = placed.arm.rail {
         rail.checked()?;
     }
@@ -302,7 +426,7 @@ pub(super) fn refuse_bad(
     }
     for (i, point) in points.iter().enumerate() {
         let is_speed = point.speed > 0.0 && point.speed < 100.0;
-        if !(is_finite(&point.robot_from_nozzle) && is_speed) {
+        if !(is_finite(&point.robot_from_nozzle) && point.aim.is_finite() && is_speed) {
             return not_finite(format!("the pose or speed of point {}", i + 1));
         }
     }

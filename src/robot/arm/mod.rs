@@ -5,7 +5,9 @@
 //! Problem of Industrial Serial Manipulators with an Ortho-parallel Basis and a Spherical Wrist", Austrian Robotics
 //! Workshop 2014. Each point has up to eight solutions, with every whole turn that the joints' limits allow; dynamic
 //! programming picks those with the least time of joint motion. A round jet leaves the turn about the nozzle free: it
-//! is tried in steps of 15°. Straight moves longer than 50 mm are checked in between.
+//! is tried in steps of 15°; a fan is the same turned by 180°. Near points that are not reached, the nozzle may also tilt
+//! about the point that it aims at. Straight moves longer than 50 mm are checked in between. With the gun off the arm may
+//! move more slowly than the path, or by joints (`way`).
 //!
 //! Gun and arm must stay clear of [`Obstacles`] at every point and on the way to it.
 //!
@@ -38,7 +40,7 @@ use nalgebra::{Point3, Vector3};
 use crate::{geometry::rigid::RigidTransform, robot::Convention};
 
 pub use self::{
-    check::{ArmPoint, CheckParams, PathCheck, PointCheck, check_path},
+    check::{ArmPoint, CheckParams, MAX_TILT, PathCheck, PointCheck, check_path},
     error::ArmError,
     kinematics::{Joints, Singularity},
     models::ARM_NAMES,
@@ -46,6 +48,7 @@ pub use self::{
     place::{PlaceSuggestion, suggest_base, suggest_rail},
     problem::PointProblem,
     rail::Rail,
+    way::Way,
 };
 
 /// A six-axis arm with a spherical wrist.

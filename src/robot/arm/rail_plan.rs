@@ -100,9 +100,11 @@ pub(super) fn rail_positions(
 
 /// The configurations that reach a point at some turn of the nozzle, a bit for each.
 fn configurations(arm: &Arm, solver: &Solver<'_>, point: &ArmPoint) -> u8 {
+    // A fan does not turn on the way, and a configuration that only the other way round reaches is another one.
+    let num_turns = if point.is_turn_free { NUM_TURNS } else { 1 };
     let mut found = 0;
-    for turn in turns_of(point, NUM_TURNS) {
-        let pose = turned(point, angle_of(turn, NUM_TURNS));
+    for turn in turns_of(point, num_turns) {
+        let pose = turned(point, angle_of(turn, num_turns));
         for joints in solver.solutions(&pose, None) {
             let bit = arm.configuration_bit(&joints);
             let is_reached = found & bit == 0

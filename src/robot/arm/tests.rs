@@ -1,6 +1,7 @@
 mod accelerations;
 mod collisions;
 mod files;
+mod freedom;
 mod kinematics;
 mod moving_rail;
 mod own_arm;
@@ -42,6 +43,7 @@ fn row(arm: &PlacedArm, num: usize, length: f64) -> Vec<ArmPoint> {
                 turn,
             ),
             speed: 0.3,
+            aim: 0.15,
             is_turn_free: false,
             is_gun_on: true,
             is_stop: false,
@@ -51,6 +53,15 @@ fn row(arm: &PlacedArm, num: usize, length: f64) -> Vec<ArmPoint> {
 
 fn check(placed: &PlacedArm, points: &[ArmPoint]) -> PathCheck {
     check_path(placed, points, &CheckParams::default()).expect("checked")
+}
+
+/// The same without turning a fan.
+fn check_unturned(placed: &PlacedArm, points: &[ArmPoint]) -> PathCheck {
+    let params = CheckParams {
+        num_turns: 1,
+        ..CheckParams::default()
+    };
+    check_path(placed, points, &params).expect("checked")
 }
 
 #[test]
@@ -121,6 +132,7 @@ fn each_reason_is_named() {
     let point = ArmPoint {
         robot_from_nozzle: solver.forward(&straight).expect("finite"),
         speed: 0.3,
+        aim: 0.15,
         is_turn_free: false,
         is_gun_on: true,
         is_stop: false,
@@ -142,6 +154,7 @@ fn a_long_way_through_a_limit_or_a_fold_is_found_between_its_ends() {
             UnitQuaternion::from_axis_angle(&Vector3::x_axis(), PI),
         ),
         speed: 0.3,
+        aim: 0.15,
         is_turn_free: false,
         is_gun_on: true,
         is_stop: false,
@@ -165,6 +178,7 @@ fn a_slow_move_neither_turns_a_joint_once_around_nor_folds_the_arm_over() {
     let points = poses.map(|robot_from_nozzle| ArmPoint {
         robot_from_nozzle,
         speed: 0.001,
+        aim: 0.15,
         is_turn_free: false,
         is_gun_on: true,
         is_stop: false,
@@ -183,7 +197,7 @@ fn a_slow_move_neither_turns_a_joint_once_around_nor_folds_the_arm_over() {
     ] {
         placed.arm.limits[3] = joint_4;
         placed.arm.limits[5] = joint_6;
-        let found = check(&placed, &points);
+        let found = check_unturned(&placed, &points);
         assert!(found.points.iter().all(|point| point.joints.is_some()));
         assert_eq!(found.points[0].problem, None, "{found:?}");
         let problem = &found.points[1].problem;

@@ -2,7 +2,7 @@
 
 use super::{
     Arm, ArmPoint, PlacedArm, PointCheck,
-    chain::{move_time, turned},
+    chain::move_time,
     kinematics::{Joints, Solver},
     problem::PointProblem,
 };
@@ -13,6 +13,23 @@ const STEP: [f64; 2] = [0.05, 0.175];
 /// Differences of joints up to this are ignored, radians.
 const SAME: f64 = 1e-4;
 
+/// Lowest speed at which the arm moves between strokes, m/s.
+pub(super) const SLOWEST: f64 = 0.01;
+/// Longest steps in which joint moves are followed, radians.
+const JOINT_STEP: f64 = 0.05;
+
+/// How the arm comes to a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Way {
+    /// Straight, at the path's speed.
+    #[default]
+    Planned,
+    /// Straight and with the gun off, at this lower speed, m/s.
+    Slower(f64),
+    /// By a joint move with the gun off, for instance into another configuration.
+    Joints,
+}
+
 /// One end of a straight move.
 pub(super) struct WayEnd {
     pub(super) nozzle: RigidTransform,
@@ -22,9 +39,9 @@ pub(super) struct WayEnd {
 
 impl WayEnd {
     /// The end at a checked point; `None` if it is not reached.
-    pub(super) fn of(point: &ArmPoint, checked: &PointCheck) -> Option<Self> {
+    pub(super) fn of(checked: &PointCheck) -> Option<Self> {
         Some(Self {
-            nozzle: turned(point, checked.turn),
+            nozzle: checked.robot_from_nozzle,
             joints: checked.joints?,
             rail: checked.rail,
         })
@@ -54,6 +71,54 @@ impl WayEnd {
             from.rotation.slerp(&to.rotation, share),
         )
     }
+}
+
+/// Whether the arm may come to `end` by a joint move: with the gun off, and only if the program can name the
+/// configuration there. The approach and the retreat are straight.
+pub(super) fn may_move_by_joints(arm: &Arm, start: &ArmPoint, end: &ArmPoint) -> bool {
+    let is_end_of_program = start.is_stop && end.is_stop;
+    arm.maker().is_some() && !start.is_gun_on && !end.is_gun_on && !is_end_of_program
+}
+
+/// Finds how the arm moves from one chosen solution to the next, and the problem of that move, if any.
+pub(super) fn way_between(
+    placed: &PlacedArm,
+    from: &WayEnd,
+    to: &WayEnd,
+    [start, end]: [&ArmPoint; 2],
+) -> (Way, Option<PointProblem>) {
+    let problem = way_problem(placed, from, to, start.speed);
+    if problem.is_none() || start.is_gun_on {
+        return (Way::Planned, problem);
+    }
+    let mut speed = start.speed;
+    while speed > SLOWEST
+        && matches!(
+            problem,
+            Some(PointProblem::TooFast { .. } | PointProblem::RailTooFast { .. })
+        )
+    {
+        speed = (speed / 2.0).max(SLOWEST);
+        if way_problem(placed, from, to, speed).is_none() {
+            return (Way::Slower(speed), None);
+        }
+    }
+    if may_move_by_joints(&placed.arm, start, end) && is_joint_move_free(placed, from, to) {
+        return (Way::Joints, None);
+    }
+    (Way::Planned, problem)
+}
+
+/// Whether gun and arm are clear of everything during a joint move.
+fn is_joint_move_free(placed: &PlacedArm, from: &WayEnd, to: &WayEnd) -> bool {
+    let num = (apart(&from.joints, &to.joints) / JOINT_STEP).ceil();
+    (1..num as usize).all(|k| {
+        let share = k as f64 / num;
+        let solver = Solver::new(placed, from.rail_towards(to, share));
+        let joints =
+            std::array::from_fn(|i| from.joints[i] + (to.joints[i] - from.joints[i]) * share);
+        !solver.collides(&joints)
+    })
 }
 
 /// Follows a straight move from one chosen solution to the next, and returns its problem, if any.

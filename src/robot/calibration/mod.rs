@@ -30,6 +30,9 @@ pub use self::{
     file::{Loaded, SCHEMA_VERSION, default_path},
 };
 
+/// What a calibration without a name is called.
+pub const UNNAMED: &str = "an unnamed calibration";
+
 /// Where the camera of a cell sits, and how that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellCalibration {
@@ -301,7 +304,7 @@ impl CellCalibration {
     /// Its name, or a placeholder if it has none.
     pub fn shown_name(&self) -> &str {
         if self.name.is_empty() {
-            "an unnamed calibration"
+            UNNAMED
         } else {
             &self.name
         }

@@ -70,6 +70,16 @@ pub enum ProgramError {
         /// The language.
         format: ProgramFormat,
     },
+    /// The arm changes its configuration in a joint move, which the language cannot name for this arm.
+    #[error("on the way to point {point} {arm} changes its configuration, which a program in {} cannot name", format.title())]
+    Configuration {
+        /// The language.
+        format: ProgramFormat,
+        /// The point, from 1.
+        point: usize,
+        /// Name of the arm.
+        arm: String,
+    },
     /// Not a digital output of the controller.
     #[error("{} has no digital output {output}", format.title())]
     Output {
@@ -119,6 +129,9 @@ impl Advice for ProgramError {
             Self::Output { format, .. } => {
                 let [low, high] = format.outputs();
                 format!("Give a number from {low} to {high} with --gun-output")
+            }
+            Self::Configuration { .. } => {
+                "Write the program for the controller of the arm's maker, or move the arm's base until no such move is needed".into()
             }
             Self::Rail { .. } => {
                 "Leave out the rail's speed so that it stands still, or write the program for KUKA, FANUC, ABB or Yaskawa".into()

@@ -48,11 +48,11 @@ mod tests;
 
 use jiff::Timestamp;
 
-use self::{steps::Step, text::Lines};
+use self::{configuration::configuration, steps::Step, text::Lines};
 use crate::{
     geometry::rigid::{RigidTransform, is_finite},
-    robot::arm::{PathCheck, PlacedArm},
-    units::Metres,
+    robot::arm::{Joints, PathCheck, PlacedArm, Way},
+    units::{Metres, Radians},
 };
 
 pub use self::{
@@ -86,6 +86,9 @@ pub struct ProgramSettings {
     pub speed: f64,
     /// Distance of the approach point behind the first point, and of the end behind the last, 10..1000 mm.
     pub approach: Metres,
+    /// Greatest tilt of the nozzle about the point that it aims at, where a checked arm cannot follow the path as it is,
+    /// 0..30°.
+    pub max_tilt: Radians,
     /// Radius within which the robot may cut a corner, 0..100 mm; at most 0.45 of the distance to the neighbouring
     /// points.
     pub blend: Metres,
@@ -99,6 +102,8 @@ impl Default for ProgramSettings {
             gun_output: 1,
             speed: 0.25,
             approach: Metres(0.1),
+            // The film within a tolerance of 20 % hardly changes by that.
+            max_tilt: Radians::from_degrees(10.0),
             blend: Metres(0.005),
         }
     }
@@ -197,6 +202,19 @@ impl Program<'_> {
         if !is_sound {
             return Err(ProgramError::NotFinite { point: 0 });
         }
+        if let Some((arm, check)) = self.reach {
+            for (i, point) in check.points.iter().enumerate() {
+                let joints = point.joints.filter(|_| point.way == Way::Joints);
+                let is_named = |joints: &Joints| configuration(format, &arm.arm, joints).is_some();
+                if joints.is_some_and(|joints| !is_named(&joints)) {
+                    return Err(ProgramError::Configuration {
+                        format,
+                        point: i + 1,
+                        arm: arm.arm.name.clone(),
+                    });
+                }
+            }
+        }
         if self.moves_on_rail() && format.rail_axis().is_none() {
             return Err(ProgramError::Rail { format });
         }
@@ -269,7 +287,19 @@ impl Program<'_> {
                 "rail: {axis}, mm, 0 where the cell was calibrated, coupled to the arm; the frame does not move along"
             ));
         }
-        if let Some((arm, _)) = self.reach {
+        if let Some((arm, check)) = self.reach {
+            if let Some((num, most)) = check.tilted() {
+                lines.push(format!(
+                    "nozzle: tilted at {num} points by up to {:.1} degrees, where the arm could not follow the path as it is",
+                    most.to_degrees()
+                ));
+            }
+            let [num_slower, num_by_joints] = check.changed_moves();
+            if num_slower + num_by_joints > 0 {
+                lines.push(format!(
+                    "moves with the gun off: {num_slower} slower than in the path, {num_by_joints} by joints"
+                ));
+            }
             let is_named = steps.first().is_some_and(|s| s.configuration.is_some());
             lines.push(if is_named {
                 format!(

@@ -5,8 +5,6 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-use nalgebra::UnitQuaternion;
-
 use super::{ProgramPoint, ProgramSettings};
 use crate::robot::{
     RobotFrame,
@@ -33,6 +31,7 @@ pub fn is_stale_file(scene: &Path) -> bool {
 /// sets none.
 pub fn arm_points(carried: &CarriedPath, frame: &RobotFrame, speed: f64) -> Vec<ArmPoint> {
     let last = carried.points.len().saturating_sub(1);
+    let aim = carried.stand_off();
     let points = carried
         .points
         .iter()
@@ -40,6 +39,7 @@ pub fn arm_points(carried: &CarriedPath, frame: &RobotFrame, speed: f64) -> Vec<
         .map(|(i, point)| ArmPoint {
             robot_from_nozzle: frame.robot_from_camera * point.camera_from_nozzle,
             speed: point.speed.unwrap_or(speed),
+            aim: point.meets.map_or(aim, |hit| hit.distance.0),
             is_turn_free: point.is_round,
             is_gun_on: point.is_gun_on,
             // A program blends neither the first nor the last point.
@@ -52,6 +52,7 @@ impl ProgramSettings {
     /// How the arm of a program with these settings is checked: with its approach point and its end.
     pub fn check_params(&self) -> CheckParams {
         CheckParams {
+            max_tilt: self.max_tilt.0,
             approach: Some(self.approach.0),
             ..CheckParams::default()
         }
@@ -69,20 +70,20 @@ pub fn check_reach(
     check_path(arm, &points, &settings.check_params())
 }
 
-/// Returns the points of a program. With `reach`, the nozzle of a round jet is turned about its axis as in the check.
+/// Returns the points of a program. With `reach`, the nozzle is turned and tilted as in the check.
 pub fn program_points(
     carried: &CarriedPath,
     frame: &RobotFrame,
     reach: Option<&PathCheck>,
 ) -> Vec<ProgramPoint> {
     let points = carried.points.iter().enumerate().map(|(i, point)| {
-        let robot_from_nozzle = frame.robot_from_camera * point.camera_from_nozzle;
-        let turn = reach
-            .and_then(|reach| reach.points.get(i))
-            .map_or(0.0, |checked| checked.turn);
+        let checked = reach.and_then(|reach| reach.points.get(i));
+        let robot_from_nozzle = checked.map_or_else(
+            || frame.robot_from_camera * point.camera_from_nozzle,
+            |checked| checked.robot_from_nozzle,
+        );
         ProgramPoint {
-            robot_from_nozzle: robot_from_nozzle
-                * UnitQuaternion::from_euler_angles(0.0, 0.0, turn),
+            robot_from_nozzle,
             is_gun_on: point.is_gun_on,
             speed: point.speed,
         }
@@ -101,7 +102,7 @@ mod tests {
             arm::{Arm, Body, GUN_RADIUS, Obstacle, Obstacles, PointProblem},
             spray::{BandStatus, CarriedPoint},
         },
-        units::Metres,
+        units::{Metres, Radians},
     };
 
     /// A line 200 mm across, 1.6 m in front of the robot at this height, with the nozzle pointing away from it.
@@ -158,8 +159,8 @@ mod tests {
             assert!(moved.fold(0.0, f64::max) > 0.01, "{near:?}");
             assert_eq!(arm.arm.configuration(&end), arm.arm.configuration(&point));
         }
-        // 1.4 m behind the nozzle the arm would be inside its own base.
-        settings.approach = Metres(1.4);
+        // 5 m behind the nozzle nothing is reached.
+        settings.approach = Metres(5.0);
         let far = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
         let problems: Vec<bool> = far.points.iter().map(|p| p.problem.is_some()).collect();
         assert_eq!(problems, [true, false, false, false, true]);
@@ -182,6 +183,7 @@ mod tests {
             let arm = arm.clone().with_part(points, &robot_from_part);
             let settings = ProgramSettings {
                 approach: Metres(approach),
+                max_tilt: Radians(0.0),
                 ..ProgramSettings::default()
             };
             check_reach(&arm, &line(1.2), &frame, &settings).expect("checked")

@@ -2,10 +2,13 @@
 
 use std::ops::Range;
 
-use nalgebra::{Translation3, UnitQuaternion};
+use nalgebra::Translation3;
 
 use super::{Program, ProgramFormat, ProgramPoint, configuration::configuration};
-use crate::{geometry::rigid::RigidTransform, robot::arm::PointCheck};
+use crate::{
+    geometry::rigid::RigidTransform,
+    robot::arm::{PointCheck, Way},
+};
 
 /// One step of a program.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,20 +86,20 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
         Some(point?.rail)
     };
     let at = |index: usize| checked.and_then(|(_, check)| check.points.get(index));
-    // The pose behind a point, turned about the nozzle as in the check.
-    let behind = |point: &ProgramPoint, index: usize, end: Option<&PointCheck>| {
-        let turns = at(index).zip(end).map(|(point, end)| end.turn - point.turn);
-        let turn = UnitQuaternion::from_euler_angles(0.0, 0.0, turns.unwrap_or(0.0));
-        point.robot_from_nozzle * Translation3::new(0.0, 0.0, -settings.approach.0) * turn
+    // The pose behind a point, turned and tilted as in the check.
+    let behind = |point: &ProgramPoint, end: Option<&PointCheck>| {
+        let away = Translation3::new(0.0, 0.0, -settings.approach.0);
+        end.map_or(point.robot_from_nozzle * away, |end| end.robot_from_nozzle)
     };
     let place = |point: &ProgramPoint| point.robot_from_nozzle.translation.vector;
     let begin = ends.map(|[begin, _]| begin);
     let mut steps = vec![Step {
-        to: behind(first, 0, begin),
+        to: behind(first, begin),
         configuration: stands(begin),
         rail: rail(begin),
         motion: Motion::Joints,
     }];
+    let way = |point: Option<&PointCheck>| point.map_or(Way::Planned, |point| point.way);
     let mut is_on = false;
     // The way to a point has the speed of the point before it.
     let mut speed = first.speed.unwrap_or(settings.speed);
@@ -111,26 +114,39 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
             // The first and the last point are not blended.
             _ => 0.0,
         };
+        let is_joint_move_next = way(at(i + 1)) == Way::Joints;
+        let line = Line {
+            speed,
+            blend: if is_joint_move_next {
+                0.0
+            } else {
+                settings.blend.0.min(BLEND_SHARE * neighbours)
+            },
+            gun: (wanted != is_on).then_some(wanted),
+        };
         steps.push(Step {
             to: point.robot_from_nozzle,
             configuration: stands(at(i)),
             rail: rail(at(i)),
-            motion: Motion::Line(Line {
-                speed,
-                blend: settings.blend.0.min(BLEND_SHARE * neighbours),
-                gun: (wanted != is_on).then_some(wanted),
-            }),
+            motion: match way(at(i)) {
+                Way::Planned => Motion::Line(line),
+                Way::Slower(speed) => Motion::Line(Line { speed, ..line }),
+                Way::Joints => Motion::Joints,
+            },
         });
         is_on = wanted;
         speed = point.speed.unwrap_or(settings.speed);
     }
     let end = ends.map(|[_, end]| end);
     steps.push(Step {
-        to: behind(last, points.len() - 1, end),
+        to: behind(last, end),
         configuration: stands(end),
         rail: rail(end),
         motion: Motion::Line(Line {
-            speed,
+            speed: match way(end) {
+                Way::Slower(slower) => slower,
+                _ => speed,
+            },
             blend: 0.0,
             gun: None,
         }),

@@ -12,7 +12,7 @@ use super::{save::beside, *};
 use crate::{
     error::Advice as _,
     geometry::rigid::from_euler_zyx,
-    robot::arm::{Arm, GUN_RADIUS, Joints, Obstacles, PointCheck},
+    robot::arm::{Arm, GUN_RADIUS, Joints, Obstacles, PointCheck, Way},
 };
 
 fn any_rotation(random: &mut Pcg64) -> UnitQuaternion<f64> {
@@ -485,9 +485,7 @@ fn a_set_of_programs_is_written_whole_or_not_at_all_and_removed_whole() {
 fn reached(arm: Arm, joints: &[Joints]) -> (PlacedArm, PathCheck) {
     let stands = |joints: &Joints| PointCheck {
         joints: Some(*joints),
-        turn: 0.0,
-        rail: 0.0,
-        problem: None,
+        ..PointCheck::default()
     };
     let placed = PlacedArm {
         arm,
@@ -515,22 +513,59 @@ fn in_radians(degrees: [f64; 6]) -> Joints {
 }
 
 #[test]
+fn moves_with_the_gun_off_are_slower_or_by_joints_as_they_were_checked() {
+    let joints = vec![in_radians([20.0, 10.0, 5.0, 0.0, 40.0, 0.0]); 5];
+    let points = points_for(&joints);
+    let settings = ProgramSettings::default();
+    let mut reach = reached(Arm::named("irb4600").expect("known"), &joints);
+    reach.1.points[1].way = Way::Slower(0.04);
+    reach.1.points[4].way = Way::Joints;
+    let program = Program {
+        reach: Some(&reach),
+        ..program(&points, &settings)
+    };
+    let read = parse::read(
+        ProgramFormat::Rapid,
+        &text_of(&program, ProgramFormat::Rapid),
+    );
+    let speeds: Vec<Option<f64>> = read.moves.iter().map(|step| step.speed).collect();
+    let usual = Some(settings.speed);
+    assert_eq!(speeds, [None, usual, Some(0.04), usual, usual, None, usual]);
+    // The robot stops before and after a joint move.
+    let exact: Vec<bool> = read.moves.iter().map(|step| step.is_exact).collect();
+    assert_eq!(exact, [true, true, false, false, true, true, true]);
+    let words = "moves with the gun off: 1 slower than in the path, 1 by joints";
+    assert!(
+        read.comments.join(" ").contains(words),
+        "{:?}",
+        read.comments
+    );
+    // Another maker's controller does not know the configuration.
+    let error = program
+        .texts(ProgramFormat::Krl, "paint")
+        .expect_err("no name");
+    assert!(
+        matches!(error, ProgramError::Configuration { point: 5, .. }),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_program_begins_and_ends_with_the_nozzle_turned_as_it_was_checked() {
     let joints = vec![in_radians([20.0, 10.0, 5.0, 0.0, 40.0, 0.0]); 5];
     let points = points_for(&joints);
     let settings = ProgramSettings::default();
     let mut reach = reached(Arm::named("irb4600").expect("known"), &joints);
-    for (i, point) in reach.1.points.iter_mut().enumerate() {
-        point.turn = 0.1 * i as f64;
-    }
+    let before = Translation3::new(0.0, 0.0, -settings.approach.0);
     let ends = reach.1.ends.as_mut().expect("ends");
-    ends[0].turn = -0.2;
-    ends[1].turn = 0.9;
+    for ((end, point), turn) in ends.iter_mut().zip([0, 4]).zip([-0.2, 0.5]) {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
+        end.robot_from_nozzle = points[point].robot_from_nozzle * before * turn;
+    }
     let program = Program {
         reach: Some(&reach),
         ..program(&points, &settings)
     };
-    let before = Translation3::new(0.0, 0.0, -settings.approach.0);
     for format in ProgramFormat::ALL {
         let moves = parse::read(format, &text_of(&program, format)).moves;
         for (found, point, turn) in [(0, 0, -0.2), (6, 4, 0.5)] {

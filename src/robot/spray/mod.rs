@@ -8,7 +8,8 @@
 //!
 //! The tool's frame: the origin is the nozzle's mouth, z the direction of the nozzle (towards the part), x along the
 //! long side of the fan or, for a round jet, as close as possible to the part's own x axis, y = z × x. A round jet
-//! leaves the rotation about z free; this choice turns with the part and does not spin from point to point.
+//! leaves the rotation about z free, and a fan its sign; this choice turns with the part and does not spin from point to
+//! point.
 //!
 //! Source of the band: the paper's section V-B, eq. 14 (10 to 20 cm, normal at the nozzle). It gives no limit for the
 //! angle; ours is [`MOST_TILT`].
@@ -19,6 +20,8 @@
 mod export;
 #[cfg(test)]
 mod tests;
+
+use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
@@ -123,6 +126,15 @@ impl CarriedPath {
         self.points.len() - self.count(BandStatus::NotSeen)
     }
 
+    /// Median distance from the nozzle to the surface where the camera sees it; that of the band's middle if nowhere.
+    pub fn stand_off(&self) -> f64 {
+        let hits = self.points.iter().filter_map(|point| point.meets);
+        let mut distances: Vec<f64> = hits.map(|hit| hit.distance.0).collect();
+        distances.sort_by(f64::total_cmp);
+        let middle = distances.get(distances.len() / 2).copied();
+        middle.unwrap_or(StandOffParams::default().taught.0)
+    }
+
     /// Number of points within the band.
     pub fn num_inside(&self) -> usize {
         self.count(BandStatus::Inside)
@@ -146,8 +158,17 @@ pub fn carry(
 ) -> CarriedPath {
     let seen = SeenSurface::of(seen);
     let surface = seen.surface();
+    let mut before: Option<Vector3<f64>> = None;
     let points = path.points().iter().map(|point| {
-        let part_from_nozzle = tool_frame(point);
+        let mut part_from_nozzle = tool_frame(point);
+        // A fan is the same turned by 180°; the nozzle must not turn for that.
+        if point.fan.is_some() {
+            let x = part_from_nozzle * Vector3::x();
+            if before.is_some_and(|before| before.dot(&x) < 0.0) {
+                part_from_nozzle *= UnitQuaternion::from_euler_angles(0.0, 0.0, PI);
+            }
+            before = Some(part_from_nozzle * Vector3::x());
+        }
         let camera_from_nozzle = camera_from_part * part_from_nozzle;
         let expected = point.stand_off.unwrap_or(params.taught);
         let meets = meeting(&camera_from_nozzle, &surface, expected);

@@ -148,6 +148,28 @@ fn the_tools_frame_is_right_handed_and_turns_with_the_part() {
 }
 
 #[test]
+fn the_nozzle_does_not_turn_around_where_a_fan_changes_its_sign() {
+    // The fan's x passes the value up to which its sign decides, and every other row runs back.
+    let points = (0..40).map(|i| {
+        let x = 0.3 * f64::from(i % 20) / 20.0;
+        let sign = if i < 20 { -1.0 } else { 1.0 };
+        PathPoint {
+            fan: Some(Unit::new_normalize(Vector3::new(x, -0.9, 0.0) * sign)),
+            ..before(0.01 * f64::from(i) - 0.2, 0.0, 0.15)
+        }
+    });
+    let path = SprayPath::new(points.collect()).expect("points");
+    let pose = pose();
+    let carried = carry(&path, &pose, &seen_at(&pose), &StandOffParams::default());
+    for (pair, taught) in carried.points.windows(2).zip(path.points()) {
+        let [a, b] = [&pair[0], &pair[1]].map(|point| point.camera_from_nozzle.rotation);
+        assert!(a.angle_to(&b) < 0.4, "{}", a.angle_to(&b));
+        let fan = pair[0].part_from_nozzle * Vector3::x();
+        assert!(fan.cross(&taught.fan.expect("a fan")).norm() < 1e-9);
+    }
+}
+
+#[test]
 fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
     let pose = pose();
     let carried = carry(&path(), &pose, &seen_at(&pose), &StandOffParams::default());

@@ -99,6 +99,8 @@ pub(super) fn ui(
             );
             let blend = &mut setup.blend_mm;
             number(text!("paint-blend"), blend, ProgramSetup::BLEND, "mm");
+            let tilt = &mut setup.max_tilt_deg;
+            number(text!("paint-max-tilt"), tilt, ProgramSetup::MAX_TILT, "°");
         });
     if setup != session.program {
         actions.push(PaintAction::SetUp(setup));
@@ -233,6 +235,16 @@ fn reasons(ui: &mut Ui, reach: &Reach, setup: &ProgramSetup, actions: &mut Vec<P
         let words = text!("paint-rail-moves", from = from, to = to);
         note(ui, &words, theme.weak_text);
     }
+    if let Some((num, most)) = reach.check.tilted() {
+        let degrees = format!("{:.0}", most.to_degrees());
+        let words = text!("paint-tilted", num = grouped(num), degrees = degrees);
+        note(ui, &words, theme.weak_text);
+    }
+    let [slower, by_joints] = reach.check.changed_moves();
+    if slower + by_joints > 0 {
+        let words = text!("paint-changed-moves", slower = slower, joints = by_joints);
+        note(ui, &words, theme.weak_text);
+    }
     if let Some(what) = reach.unchecked_accelerations {
         let words = text!("paint-unchecked-accelerations", what = what);
         note(ui, &words, theme.weak_text);
@@ -259,12 +271,23 @@ fn reasons(ui: &mut Ui, reach: &Reach, setup: &ProgramSetup, actions: &mut Vec<P
         apply_ui(ui, &text!("paint-apply-rail"), setup, shift, actions);
     }
     if let Some(place) = reach.base {
-        let by = place.shift.map(|metres| format!("{:+.0}", 1000.0 * metres));
         let count = grouped(place.num_reached);
-        let words = text!("paint-base-moved", by = by.join(" "), count = count);
+        let words = text!(
+            "paint-base-moved",
+            by = moved_by(place.shift),
+            count = count
+        );
         note(ui, &words, theme.weak_text);
         apply_ui(ui, &text!("paint-apply-base"), setup, place.shift, actions);
     }
+}
+
+/// Writes a shift, metres, in millimetres along each axis that it moves along.
+fn moved_by(shift: [f64; 3]) -> String {
+    let axes = Convention::Kuka.names().iter().zip(shift);
+    let moved = axes.filter(|(_, metres)| metres.abs() >= 0.0005);
+    let moved = moved.map(|(axis, metres)| format!("{axis} {:+.0}", 1000.0 * metres));
+    moved.collect::<Vec<String>>().join(", ")
 }
 
 /// Draws the button that moves the base by this shift, metres.
@@ -295,4 +318,15 @@ fn collisions_ui(ui: &mut Ui, reach: &Reach) {
         text!("paint-num-collisions", count = count)
     };
     row(ui, &text!("paint-collisions"), &value);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shift_names_the_axes_along_which_it_moves() {
+        assert_eq!(moved_by([0.2, 0.0, -0.1]), "X +200, Z -100");
+        assert_eq!(moved_by([-0.0, 0.35, 1e-7]), "Y +350");
+    }
 }

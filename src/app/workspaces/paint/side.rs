@@ -19,7 +19,7 @@ use crate::{
             parameter_control::{self, fold},
             theme::{Theme, font, space},
             tool_row::choice,
-            widgets::{grouped, heading, row, shortened, text_button},
+            widgets::{grouped, heading, row, shortened, show_scroll_bar, text_button},
         },
     },
     paint::{Coat, CoatGroup, FilmFigures},
@@ -91,6 +91,7 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
     let chosen = part.clone();
     let text = RichText::new(format!("{} ▼", shortened(title, TITLE))).font(font::verdict());
     let menu = ui.menu_button(text, |ui| {
+        show_scroll_bar(ui);
         ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
             for meta in &library.parts {
                 let is_chosen = meta.name == chosen;
@@ -369,17 +370,25 @@ fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec
         });
     }
     let is_ready = paint.planned.is_some() && !paint.is_old(session);
+    let unready = (!is_ready).then(|| match &paint.failed {
+        Some(failed) => failed.what.clone(),
+        None => text!("paint-planning"),
+    });
     let half = (ui.available_width() - space::SMALL) / 2.0;
     ui.horizontal(|ui| {
         let export = button(ui, &text!("paint-export"), is_ready, half, None);
-        if export.on_hover_text(text!("paint-export-hint")).clicked() {
+        let export = export
+            .on_hover_text(text!("paint-export-hint"))
+            .on_disabled_hover_text(unready.clone().unwrap_or_default());
+        if export.clicked() {
             actions.push(PaintAction::Ask(PaintFile::Table));
         }
         let can = is_ready && session.robot.is_some();
         let program = button(ui, &text!("paint-export-program"), can, half, None);
+        let why_not = unready.clone();
         let program = program
             .on_hover_text(text!("paint-export-program-hint"))
-            .on_disabled_hover_text(text!("paint-not-calibrated"));
+            .on_disabled_hover_text(why_not.unwrap_or_else(|| text!("paint-not-calibrated")));
         if program.clicked() {
             actions.push(PaintAction::Ask(PaintFile::Program));
         }
@@ -397,7 +406,10 @@ fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec
     let can_propose = paint.planned.is_some() || paint.failed.is_some();
     let response = ui.horizontal(|ui| {
         let propose = button(ui, &text!("paint-propose"), can_propose, half, None);
-        if propose.on_hover_text(text!("paint-propose-hint")).clicked() {
+        let propose = propose
+            .on_hover_text(text!("paint-propose-hint"))
+            .on_disabled_hover_text(text!("paint-planning"));
+        if propose.clicked() {
             actions.push(PaintAction::Propose);
         }
         button(ui, &store, can, half, Some(theme))
@@ -409,7 +421,8 @@ fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec
     let reason = match (fixed, is_stored) {
         (Some(fixed), _) => format!("{}\n{}", fixed.what, fixed.advice),
         (None, true) => text!("paint-is-stored"),
-        (None, false) => text!("paint-store-hint"),
+        (None, false) if paint.is_storing() => text!("paint-storing"),
+        (None, false) => unready.unwrap_or_default(),
     };
     let response = response
         .on_hover_text(text!("paint-store-hint"))

@@ -215,9 +215,8 @@ fn of_rail(limit: f64, step: f64, rail_at: impl Fn(f64) -> f64) -> Vec<Option<Po
     assert_eq!(points.len(), num + 1);
     let checked = (0..=num).map(|i| PointCheck {
         joints: Some([0.1; 6]),
-        turn: 0.0,
         rail: rail_at(i as f64 * step),
-        problem: None,
+        ..PointCheck::default()
     });
     let mut checked: Vec<PointCheck> = checked.collect();
     check_accelerations(&placed, &points, &mut checked);

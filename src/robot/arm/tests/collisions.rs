@@ -48,11 +48,11 @@ fn gun_at(name: &str) -> PointProblem {
 fn a_box_beside_the_gun_is_run_into_as_far_as_gun_and_clearance_reach() {
     let placed = with_gun("irb2600");
     let points = row(&placed, 60, 0.3);
-    let free = check(&placed, &points);
+    let free = check_unturned(&placed, &points);
     assert_eq!(free.num_collisions(), 0);
     let end = end_of_gun(&placed, &free.points[30].joints.expect("reached"));
     let blocked = among(&placed, &[("post", end, 0.02)]);
-    let found = check(&blocked, &points);
+    let found = check_unturned(&blocked, &points);
     for (checked, point) in found.points.iter().zip(&points) {
         // The gun's own 50 mm, 20 of clearance and half the box.
         let aside = (point.robot_from_nozzle.translation.vector.y - end.y).abs();
@@ -71,13 +71,13 @@ fn a_box_beside_the_gun_is_run_into_as_far_as_gun_and_clearance_reach() {
     // A wider clearance finds more.
     let mut wider = blocked.clone();
     wider.obstacles.clearance = 0.06;
-    assert!(check(&wider, &points).num_collisions() > found.num_collisions() + 10);
+    assert!(check_unturned(&wider, &points).num_collisions() > found.num_collisions() + 10);
     // The order of the boxes changes nothing.
     let twin = ("twin", end, 0.02);
     let post = ("post", end, 0.02);
     assert_eq!(
-        check(&among(&placed, &[post, twin]), &points),
-        check(&among(&placed, &[twin, post]), &points)
+        check_unturned(&among(&placed, &[post, twin]), &points),
+        check_unturned(&among(&placed, &[twin, post]), &points)
     );
 }
 

@@ -24,6 +24,7 @@ fn a_wrist_that_is_folded_into_the_upper_arm_is_named() {
     let point = ArmPoint {
         robot_from_nozzle: Solver::new(&placed, 0.0).forward(&folded).expect("finite"),
         speed: 0.3,
+        aim: 0.15,
         is_turn_free: false,
         is_gun_on: true,
         is_stop: false,
