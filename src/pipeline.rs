@@ -120,9 +120,10 @@ pub struct Inspection {
     pub contour: Option<Contour>,
     /// Signature.
     pub signature: Option<FanSignature>,
-    /// References, best first; in the order of the confirmed scores once poses were confirmed.
+    /// References, best first; in the order of the confirmed scores once poses were confirmed. The part that a mirror image is
+    /// called the image of comes first.
     pub ranking: ConfirmedRanking,
-    /// Pose of the reference ranked first, if the recipe asks for one.
+    /// Pose of the reference ranked first; `None` if the recipe asks for none, or the reference ranked too low to be aligned.
     pub pose: Option<Result<PoseEstimate, PoseError>>,
     /// The verdict.
     pub verdict: Verdict,

@@ -357,8 +357,9 @@ fn a_right_hand_part_is_refused_as_the_mirror_image_of_the_left_one() {
     let library = standard();
     for kind in [PartKind::FrontDoor, PartKind::BackDoor, PartKind::Fender] {
         let setup = CellSetup::with_part(kind, Side::Right, 0, 41);
-        let verdict = inspected(&scene_of(&setup), &library, &Recipe::default()).verdict;
-        let mirrored = match &verdict {
+        let inspection = inspected(&scene_of(&setup), &library, &Recipe::default());
+        let verdict = &inspection.verdict;
+        let mirrored = match verdict {
             Verdict::Part {
                 rejected: Some(Rejection::Mirrored { part, .. }),
                 ..
@@ -367,6 +368,8 @@ fn a_right_hand_part_is_refused_as_the_mirror_image_of_the_left_one() {
         };
         assert_eq!(mirrored, kind.name());
         assert!(verdict.is_unknown());
+        // The pose is of the part that the verdict names.
+        assert_eq!(inspection.reference(), Some(kind.name()));
     }
 }
 

@@ -25,6 +25,7 @@ use super::{
     open::OpenedHistory,
     retention::{PruneResult, Retention, Usage},
     store::History,
+    traceability::Traceability,
     waiting::wait,
 };
 use crate::{
@@ -55,6 +56,8 @@ struct Inner {
     retention: Retention,
     /// Oldest first.
     waiting: VecDeque<NewEntry>,
+    /// What became known of parts whose rows are written, oldest first.
+    untraced: VecDeque<(HungId, Traceability)>,
     /// Number of the newest row, written or waiting; a waiting one is listed with its negative.
     last: i64,
     num_lost: usize,
@@ -145,6 +148,24 @@ impl HistoryBuffer {
             number = written.map_or(number, |(_, written)| written);
         }
         self.tell(HistoryEvent::Added { ticket, number });
+    }
+
+    /// Adds what became known of a part after its verdict to its inspections, written or waiting, where they lack it.
+    pub fn trace_part(&self, hung: &HungId, known: &Traceability, now: Instant) {
+        let mut inner = self.lock();
+        for entry in &mut inner.waiting {
+            let summary = &mut entry.record.summary;
+            if summary.hung == *hung {
+                summary.trace = std::mem::take(&mut summary.trace).or(known);
+            }
+        }
+        if self.place.is_some() {
+            inner.untraced.push_back((hung.clone(), known.clone()));
+            if inner.next_try.is_none_or(|at| at <= now) {
+                self.write_waiting(&mut inner, now);
+            }
+        }
+        self.tell(HistoryEvent::FilesChanged);
     }
 
     /// Sets the remark on an inspection.
@@ -304,7 +325,8 @@ impl HistoryBuffer {
         }
     }
 
-    /// Writes all waiting inspections, the oldest first. Returns each one's number before and after.
+    /// Writes all waiting inspections, the oldest first, then what became known of written ones. Returns each inspection's
+    /// number before and after.
     fn write_waiting(&self, inner: &mut Inner, now: Instant) -> Vec<(i64, i64)> {
         let has_failed = inner.next_try.is_some();
         let mut numbers = Vec::new();
@@ -327,6 +349,17 @@ impl HistoryBuffer {
                     self.failed(inner, &error, now);
                     break;
                 }
+            }
+        }
+        while inner.waiting.is_empty()
+            && let Some((hung, known)) = inner.untraced.pop_front()
+        {
+            let history = inner.history.as_mut();
+            let traced = history.map(|history| history.trace_part(&hung, &known));
+            if let Err(error) = traced.transpose() {
+                inner.untraced.push_front((hung, known));
+                self.failed(inner, &error, now);
+                return numbers;
             }
         }
         if has_failed && inner.waiting.is_empty() {

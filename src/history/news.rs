@@ -40,7 +40,8 @@ pub enum HistoryEvent {
         /// What to do about it.
         advice: String,
     },
-    /// Rows may have changed: another program may have written, or keeping a case labelled a part.
+    /// Rows may have changed: another program may have written, keeping a case labelled a part, or a serial number came
+    /// after its part's verdict.
     FilesChanged,
     /// The retention rule changed.
     RuleChanged,

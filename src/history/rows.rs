@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
-use rusqlite::{Connection, OptionalExtension as _, Row, params};
+use rusqlite::{Connection, OptionalExtension as _, Row, TransactionBehavior, params};
 
 use super::{
     entry::{InspectionDetail, NewEntry, Record, StoredRefusal, StoredVerdict, Summary, png_of},
@@ -69,7 +69,7 @@ pub(super) fn insert(
     let (parent, gives_way) = match &head {
         Some(head) if entry.takes_over_from(head) => (None, Some(head)),
         Some(head) => {
-            trace_head(file, head, &summary.trace)?;
+            trace_row(file, head, &summary.trace)?;
             (Some(head.number), None)
         }
         None => (None, None),
@@ -150,24 +150,43 @@ pub(super) fn insert(
     Ok(number)
 }
 
-/// Traces the inspection that stands for a part by what was not known yet when it was written.
-fn trace_head(file: &Connection, head: &Summary, known: &Traceability) -> rusqlite::Result<()> {
-    let trace = head.trace.clone().or(known);
-    if trace == head.trace {
+/// Traces all inspections of a part by what was not known yet when they were written.
+pub(super) fn trace_part(
+    file: &mut Connection,
+    hung: &HungId,
+    known: &Traceability,
+) -> rusqlite::Result<()> {
+    let file = file.transaction_with_behavior(TransactionBehavior::Immediate)?;
+    let columns = columns(&file)?;
+    let asked = format!("SELECT {columns} FROM inspection WHERE hung = ?");
+    let mut asked = file.prepare(&asked)?;
+    let rows = asked.query_map([&hung.0], summary_of)?;
+    let rows = rows.collect::<rusqlite::Result<Vec<Summary>>>()?;
+    drop(asked);
+    for row in &rows {
+        trace_row(&file, row, known)?;
+    }
+    file.commit()
+}
+
+/// Traces an inspection by what was not known yet when it was written.
+fn trace_row(file: &Connection, row: &Summary, known: &Traceability) -> rusqlite::Result<()> {
+    let trace = row.trace.clone().or(known);
+    if trace == row.trace {
         return Ok(());
     }
-    let head = Summary {
+    let row = Summary {
         trace,
-        ..head.clone()
+        ..row.clone()
     };
     file.execute(
         "UPDATE inspection SET serial = ?, job_order = ?, operator = ?, search = ? WHERE number = ?",
         params![
-            head.trace.serial,
-            head.trace.order,
-            head.trace.operator,
-            head.search(),
-            head.number
+            row.trace.serial,
+            row.trace.order,
+            row.trace.operator,
+            row.search(),
+            row.number
         ],
     )?;
     Ok(())

@@ -295,7 +295,7 @@ impl RowReader {
 mod tests {
     use super::*;
     use crate::{
-        history::{FILE, KeepFrames, Retention, StoredVerdict},
+        history::{FILE, KeepFrames, Retention, StoredVerdict, Traceability},
         kit::{history_entry, moment, new_history, open_history},
         library::Truth,
     };
@@ -365,6 +365,19 @@ mod tests {
         assert_eq!(numbers(&history.unsent(10).expect("read")), [2]);
         assert_eq!(history.note_changes().expect("noted"), identity);
         assert_eq!(history.num_unsent().expect("asked"), 1);
+        // A serial number comes after the verdict.
+        let hung = other.known(1).expect("there").summary.hung;
+        let known = Traceability {
+            serial: "TL-4711".into(),
+            ..Traceability::default()
+        };
+        other.trace_part(&hung, &known).expect("written");
+        let changed = history.unsent(10).expect("read");
+        assert_eq!(numbers(&changed), [2, 1]);
+        let mut columns = INSPECTION_COLUMNS.iter();
+        let serial = columns.position(|(name, _)| *name == "serial");
+        let serial = &changed.inspections[1][serial.expect("a column")];
+        assert_eq!(*serial, Value::Text("TL-4711".into()));
     }
 
     #[test]

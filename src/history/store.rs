@@ -15,8 +15,9 @@ use super::{
     hung::HungId,
     open::{FILE, FRAMES, Lock},
     retention::Retention,
-    rows::{columns, detail_columns, head_of, insert, json, record_of, summary_of},
+    rows::{columns, detail_columns, head_of, insert, json, record_of, summary_of, trace_part},
     shots,
+    traceability::Traceability,
 };
 use crate::{library::Truth, scan::Shot, stages::scene::SceneCloud};
 
@@ -265,6 +266,11 @@ impl History {
     /// Sets the remark on an inspection.
     pub fn set_remark(&mut self, number: i64, remark: &str) -> Result<(), HistoryError> {
         self.change(number, |row| remark.trim().clone_into(&mut row.remark))
+    }
+
+    /// Adds what became known of a part after its verdict to its inspections, where they lack it.
+    pub fn trace_part(&mut self, hung: &HungId, known: &Traceability) -> Result<(), HistoryError> {
+        trace_part(&mut self.file, hung, known).map_err(|error| self.error(error))
     }
 
     /// Sets the true label of an inspection; `None` clears it.

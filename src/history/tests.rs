@@ -822,6 +822,35 @@ fn a_reinspection_is_traced_as_its_part_and_a_serial_number_is_found() {
     );
 }
 
+#[test]
+fn a_serial_number_that_comes_later_is_added_to_the_inspections_of_its_part_that_have_none() {
+    let (_folder, mut history) = new_history();
+    let first = history_entry(1, StoredVerdict::Accepted, "grille");
+    let mut traced = history_entry(3, StoredVerdict::Accepted, "grille");
+    traced.record.summary.trace.serial = "TL-1".into();
+    let second = again(&first, 2, StoredVerdict::Accepted);
+    let entries = [first, second, traced];
+    for entry in &entries {
+        history.add(entry, &ALL).expect("written");
+    }
+    let known = Traceability {
+        serial: "TL-4711".into(),
+        ..Traceability::default()
+    };
+    for entry in &entries {
+        let hung = &entry.record.summary.hung;
+        history.trace_part(hung, &known).expect("written");
+    }
+    history.trace_part(&HungId::new(), &known).expect("no rows");
+    let serial = |number| history.known(number).expect("there").summary.trace.serial;
+    assert_eq!([1, 2, 3].map(serial), ["TL-4711", "TL-4711", "TL-1"]);
+    let found = Filter {
+        text: "tl-4711".into(),
+        ..Filter::default()
+    };
+    assert_eq!(numbers(&history, &found), [1]);
+}
+
 #[cfg(unix)]
 #[test]
 fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all() {

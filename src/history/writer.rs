@@ -11,7 +11,10 @@ use std::{
     time::Instant,
 };
 
-use super::{buffer::HistoryBuffer, entry::NewEntry, retention::Retention};
+use super::{
+    buffer::HistoryBuffer, entry::NewEntry, hung::HungId, retention::Retention,
+    traceability::Traceability,
+};
 use crate::library::Truth;
 
 /// Maximum number of inspections queued with their scenes, 4 MB each; beyond it frames are not kept.
@@ -23,6 +26,7 @@ const MAX_INSPECTIONS: usize = 4096;
 #[derive(Debug)]
 enum Job {
     Add(u64, Box<NewEntry>),
+    Trace(HungId, Traceability),
     Remark(i64, String),
     Label(i64, Option<Truth>),
     Retention(Retention),
@@ -98,6 +102,11 @@ impl Writer {
         self.post(Job::Add(ticket, Box::new(entry)));
     }
 
+    /// Queues what became known of a part after its verdict.
+    pub fn trace(&self, hung: HungId, known: Traceability) {
+        self.post(Job::Trace(hung, known));
+    }
+
     /// Queues a remark.
     pub fn remark(&self, number: i64, remark: String) {
         self.post(Job::Remark(number, remark));
@@ -161,6 +170,7 @@ fn work(keeper: &HistoryBuffer, job: Job, counts: &Counts) {
             counts.scenes.fetch_sub(num_scenes, Ordering::Relaxed);
             keeper.add(ticket, *entry, Instant::now());
         }
+        Job::Trace(hung, known) => keeper.trace_part(&hung, &known, Instant::now()),
         Job::Remark(number, remark) => keeper.set_remark(number, &remark),
         Job::Label(number, label) => keeper.set_label(number, label.as_ref()),
         Job::Retention(retention) => keeper.set_retention(retention),

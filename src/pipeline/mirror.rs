@@ -11,7 +11,7 @@ use super::{
     Inspection, Recipe,
     rejection::Rejection,
     surface::{SurfaceResult, inspect_surface},
-    verdict::{Verdict, model_deviation},
+    verdict::{Verdict, model_deviation, verdict},
     watch::{Cancelled, StageClock},
 };
 use crate::{error::Advice, library::Library, stages::scene::SceneCloud};
@@ -21,7 +21,8 @@ const MIRROR_LEAD: f64 = 0.3;
 /// Where the part itself fits nearly as well, its mirror image must deviate less by this factor.
 const CLOSER: f64 = 2.0;
 
-/// Rejects the best guess as mirrored if the mirror image of an enrolled part fits and the part itself does not.
+/// Rejects the best guess as mirrored if the mirror image of an enrolled part fits and the part itself does not. That part
+/// becomes the first of the ranking.
 pub(super) fn check_mirror_image(
     inspection: &mut Inspection,
     scene: &SceneCloud,
@@ -65,10 +66,25 @@ pub(super) fn check_mirror_image(
     } else {
         mirror_only_match(&found, least)
     };
-    if let (Some(seen), Verdict::Part { rejected, .. }) = (seen, &mut inspection.verdict) {
-        *rejected = Some(seen);
+    if let (Some(seen), Some(named)) = (seen, found.ranking.entries.first()) {
+        put_first(inspection, &named.part, recipe);
+        if let Verdict::Part { rejected, .. } = &mut inspection.verdict {
+            *rejected = Some(seen);
+        }
     }
     Ok(())
+}
+
+/// Moves a part to the front of the ranking, so that name, score, pose and pictures are of the same part. There is no pose
+/// if it ranked too low to be aligned.
+fn put_first(inspection: &mut Inspection, part: &str, recipe: &Recipe) {
+    let entries = &mut inspection.ranking.entries;
+    let place = entries.iter().position(|entry| entry.part == part);
+    if let Some(place) = place.filter(|place| *place > 0) {
+        entries[..=place].rotate_right(1);
+        inspection.pose = entries[0].pose.clone().map(Ok);
+        inspection.verdict = verdict(&inspection.ranking, inspection.pose.as_ref(), recipe);
+    }
 }
 
 /// The rejection where the mirror image fits and the part itself is nothing like it.
@@ -196,7 +212,52 @@ impl MirrorTally {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::PartKind;
+    use crate::{
+        bench::suites::enrol_standard_parts,
+        kit::scene_of,
+        library::EnrolParams,
+        pipeline::{Unwatched, run},
+        simulate::{CellSetup, PartKind, Side},
+    };
+
+    #[test]
+    fn pose_and_score_of_a_mirror_image_are_those_of_the_part_that_it_is_called_the_image_of() {
+        let recipe = Recipe::default();
+        let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
+        let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Right, 0, 41);
+        let scene = scene_of(&setup);
+        let seen = run(&scene, &library, &recipe, &Unwatched).expect("nobody cancels");
+        assert!(seen.verdict.is_mirrored(), "{:?}", seen.verdict);
+        for is_aligned in [true, false] {
+            // Another part is the nearest, and the door is the last, aligned or not.
+            let mut inspection = seen.clone();
+            let entries = &mut inspection.ranking.entries;
+            let door = &mut entries[0];
+            assert_eq!(door.part, "front_door");
+            if !is_aligned {
+                (door.is_examined, door.pose, door.evidence) = (false, None, None);
+                door.score = 0.0;
+            }
+            let door = door.clone();
+            entries.rotate_left(1);
+            inspection.pose = entries[0].pose.clone().map(Ok);
+            inspection.verdict = verdict(&inspection.ranking, inspection.pose.as_ref(), &recipe);
+            assert_ne!(inspection.verdict.guess(), Some("front_door"));
+
+            let clock = StageClock::start(&Unwatched);
+            check_mirror_image(&mut inspection, &scene, &library, &recipe, &clock)
+                .expect("nobody cancels");
+            assert!(inspection.verdict.is_mirrored());
+            assert_eq!(inspection.verdict.guess(), Some("front_door"));
+            assert_eq!(inspection.reference(), Some("front_door"));
+            let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+            assert_eq!(pose, door.pose.as_ref());
+            let [score, margin] = inspection.verdict.score().expect("a part");
+            assert!((score - door.score).abs() < 1e-12 && margin >= 0.0);
+            let score = inspection.ranking.score_of(&door);
+            assert_eq!(score.is_some(), door.is_examined);
+        }
+    }
 
     #[test]
     fn names_tell_which_parts_a_car_has_once() {

@@ -173,7 +173,8 @@ pub(super) fn verdict(
     };
     let accept = &recipe.accept;
     let next = ranking.runner_up();
-    let margin = lead(best.score, next.map_or(0.0, |n| n.score));
+    // The part that a mirror image is called the image of comes first, even if another one scores more.
+    let margin = lead(best.score, next.map_or(0.0, |n| n.score)).max(0.0);
     let unlike = best.evidence.map_or(0.0, |e| model_deviation(&e, accept));
     let other_model = best.evidence.filter(|_| unlike > 1.0);
     // The bounds of the other methods ignore the outline and are wider than necessary.

@@ -5,6 +5,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         inspection::source::CellChoice,
+        language::Language,
         shell::{action::Action, notice::NoticeKind, session::WorkspaceKind},
         workspaces::align::{
             AlignAction, AlignFile, AlignState, AlignWorkspace, Pairing, Playback, Start,
@@ -74,7 +75,7 @@ fn a_part_from_t4_is_aligned_by_every_method_and_scrubbed() {
     let num_methods = PoseMethod::ALL.len();
     let align = own(&harness);
     let shown = align.shown.as_ref().expect("a result");
-    assert_eq!(shown.pair.title, "Fender, left from T4");
+    assert_eq!(shown.pair.title(), "Fender, left from T4");
     assert_eq!(shown.runs.len(), num_methods);
     harness.get_by_label("Fender, left from T4");
     assert_eq!(
@@ -114,6 +115,13 @@ fn a_part_from_t4_is_aligned_by_every_method_and_scrubbed() {
     harness.run_steps(2);
     assert_eq!(place(&harness), paused + 1);
     assert_eq!(harness.state().state().inspector.num_captures, num_captures);
+
+    // In a small window, the longest words leave room for the title, which follows the language.
+    harness.set_size(SMALL);
+    act(&mut harness, Action::Speak(Language::German));
+    let title = harness.get_by_label("Fender, left · T4").rect();
+    let iteration = harness.get_by_label_contains("Iteration ").rect();
+    assert!(title.right() < iteration.left(), "{title} {iteration}");
 }
 
 #[test]

@@ -149,6 +149,13 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     assert_eq!(study.against.as_deref(), Some("back_door"));
     press(&mut harness, "Back to matrix");
     harness.get_by_label(cell);
+    // The rows are named in the language of the window, whatever it was during the run.
+    harness.get_by_label("Not enrolled, not accepted: 1, right");
+    press(&mut harness, "Language: English");
+    press(&mut harness, "Deutsch");
+    harness.get_by_label("Nicht eingelernt, nicht akzeptiert: 1, richtig");
+    press(&mut harness, "Sprache: Deutsch");
+    press(&mut harness, "English");
 
     press(&mut harness, "Remove case");
     let num = || {

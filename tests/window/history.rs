@@ -31,6 +31,8 @@ use partsight::{
     simulate::ObjectKind,
 };
 
+use crate::kit::{history_entry, low_score, open_history};
+
 use super::{
     set_up::{
         SMALL, USUAL, WindowHarness, act, act_in, choose_in_inspect, history_of, open, open_with,
@@ -146,6 +148,24 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     harness.get_by_label("Last day").type_text("2020-01-31");
     settle(&mut harness);
     harness.get_by_label("0 of 2 parts");
+}
+
+#[test]
+fn the_reason_of_a_refusal_begins_with_a_capital_letter() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = open_history(folder.path());
+    let mut entry = history_entry(1, StoredVerdict::Rejected, "fender");
+    entry.record.summary.title = "Not recognised · nearest Fender, left".into();
+    entry.record.detail.refusal = Some(low_score("fender", 0.81));
+    history.add(&entry, &Retention::default()).expect("written");
+    drop(history);
+    let mut harness = open_with(USUAL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    press(
+        &mut harness,
+        "Inspection 1: Not recognised · nearest Fender, left, Not accepted",
+    );
+    harness.get_by_label("The best match, Fender, left, scores 0.81, below the threshold of 0.90");
 }
 
 #[test]
@@ -605,10 +625,7 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     // The one from the start of the window can be simulated again.
     assert!(!harness.get_by_label("Open").accesskit_node().is_disabled());
     press(&mut harness, "Inspection 200: fender, Accepted");
-    let open = harness.get_by_label("Open");
-    assert!(open.accesskit_node().is_disabled());
-    open.hover();
-    harness.run_steps(40);
+    assert!(harness.get_by_label("Open").accesskit_node().is_disabled());
     harness.get_by_label_contains("The frame of frame 199 is not kept");
 
     // Scroll far down, then inspect again.
@@ -638,6 +655,37 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     settle(&mut harness);
     harness.get_by_label_contains("Inspection 203:");
     assert_eq!(history_of(&harness).listed(), Some(199));
+}
+
+#[test]
+fn the_details_of_another_part_begin_at_the_top() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = crate::kit::open_history(folder.path());
+    for (seconds, part) in [(1, "fender"), (2, "grille")] {
+        let entry = crate::kit::history_entry(seconds, StoredVerdict::Accepted, part);
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let low = egui::vec2(SMALL.x, 480.0);
+    let mut harness = open_with(low, keeping(folder.path()));
+    go_to_history(&mut harness);
+    press(&mut harness, "Inspection 1: fender, Accepted");
+    let top_of_verdict = |harness: &WindowHarness| harness.get_by_label("Accepted").rect().top();
+    let top = top_of_verdict(&harness);
+    harness.get_by_label("Accepted").hover();
+    harness.run_steps(2);
+    harness.event(egui::Event::MouseWheel {
+        source: egui::MouseWheelSource::Wheel,
+        unit: egui::MouseWheelUnit::Page,
+        delta: egui::vec2(0.0, -1.0),
+        phase: egui::TouchPhase::Move,
+        modifiers: egui::Modifiers::NONE,
+    });
+    harness.run_steps(12);
+    assert!(top_of_verdict(&harness) < top - 1.0);
+    press(&mut harness, "Inspection 2: grille, Accepted");
+    let again = top_of_verdict(&harness);
+    assert!((again - top).abs() < 1.0, "{again} {top}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use partsight::{
         language::Language,
         shell::{
             action::Action,
-            live::LiveAction,
+            live::{LiveAction, SourceState},
             robot::{CheckAction, RobotAction, RobotPage},
             roles::RoleAction,
             session::WorkspaceKind,
@@ -25,8 +25,12 @@ use partsight::{
     history::{Retention, StoredVerdict},
 };
 
-use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, act_in, enrol_of, open_with, plain_options, press, settle,
+use super::{
+    live::{Step, sees, wired_options},
+    set_up::{
+        SMALL, USUAL, WindowHarness, act, act_in, enrol_of, open_with, plain_options, press,
+        settle, wait_until,
+    },
 };
 use crate::kit::{history_entry, low_score};
 
@@ -409,6 +413,46 @@ fn in_no_language_do_the_buttons_of_the_top_bar_touch() {
                 "{language}: {left} {right}"
             );
         }
+    }
+}
+
+#[test]
+fn in_every_language_the_bar_shows_the_whole_status_of_live() {
+    /// Checks the text in the top bar that contains these words.
+    fn check(harness: &WindowHarness, words: &str) {
+        let drawn = texts(harness);
+        let in_bar = |drawn: &&Drawn| drawn.rect.bottom() < 52.0 && drawn.text.contains(words);
+        let status = drawn.iter().find(in_bar);
+        let status = status.unwrap_or_else(|| panic!("no {words} in {drawn:?}"));
+        assert!(!status.is_elided, "{status:?}");
+    }
+    for (language, lost) in [
+        (Language::English, "lost, reconnecting"),
+        (Language::German, "getrennt, neuer Versuch"),
+        (Language::Spanish, "reconectando"),
+        (Language::Chinese, "已断开"),
+    ] {
+        let (options, wire) = wired_options();
+        let options = WindowOptions {
+            language: Some(language),
+            ..options
+        };
+        let mut harness = open_with(SMALL, options);
+        act(&mut harness, Action::GoTo(WorkspaceKind::History));
+        let context = harness.ctx.clone();
+        let toggle = Action::Live(LiveAction::Toggle);
+        harness.state_mut().act(toggle, &context);
+        if language == Language::German {
+            sees(&mut harness, &wire, [0.0; 16]);
+            check(&harness, "ruhig seit");
+        }
+        wire.send(Step::Unplugged).expect("the camera is open");
+        wait_until(&mut harness, |state| {
+            let status = state.session.live.status.as_ref();
+            status.is_some_and(|status| matches!(status.source, SourceState::Lost(_)))
+        });
+        harness.run_steps(2);
+        check(&harness, lost);
     }
 }
 

@@ -12,6 +12,7 @@ use partsight::{
     app::{
         WindowOptions,
         inspection::source::CellChoice,
+        language::Language,
         shell::{
             action::Action,
             robot::{AnswerSetup, RobotAction},
@@ -207,6 +208,32 @@ fn the_serial_number_of_a_vehicle_is_readable_in_a_small_window() {
 }
 
 #[test]
+fn the_list_of_parts_says_of_which_part_something_is_the_mirror_image() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = open_history(folder.path());
+    let mut part = history_entry(1, StoredVerdict::Unknown, "fender");
+    part.record.summary.at = Timestamp::now();
+    part.record.summary.title = "Mirror image of Fender, left".into();
+    part.record.summary.trace.serial = "TL471".into();
+    history.add(&part, &Retention::default()).expect("written");
+    drop(history);
+    for (language, named) in [
+        (Language::English, "Mirror image of Fender, left"),
+        (Language::German, "Spiegelbild von Fender, left"),
+        (Language::Spanish, "Imagen reflejada de Fender, left"),
+        (Language::Chinese, "“Fender, left”的镜像"),
+    ] {
+        let harness = open_operators(WindowOptions {
+            history: Some(folder.path().to_owned()),
+            language: Some(language),
+            ..plain_options()
+        });
+        harness.get_by_label(named);
+        harness.get_by_label("TL471");
+    }
+}
+
+#[test]
 fn the_view_is_remembered_without_a_pin_too() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("settings.toml");
@@ -378,12 +405,17 @@ fn a_serial_number_scanned_after_the_verdict_is_of_the_part_that_hangs_there_and
         serial(window).as_deref() == Some("LATE77")
     });
     assert_eq!(harness.state().state().session.trace.get().serial, "");
+    // It is added to the row of that part: nothing was inspected again.
+    let num_below = |harness: &WindowHarness| history_of(harness).row(0).map(|row| row.num_below);
+    assert_eq!(num_below(&harness), Some(0));
+    assert!(shows(&harness, "· LATE77"), "in the banner");
     // That part has one now.
     scan(&mut harness, "NEXT8");
     sees(&mut harness, &wire, [0.0; 2]);
     harness.get_by_label("For the next part that is inspected");
     assert_eq!(harness.state().state().session.trace.get().serial, "NEXT8");
     assert_eq!(serial(harness.state()).as_deref(), Some("LATE77"));
+    assert_eq!(num_below(&harness), Some(0));
 }
 
 #[test]

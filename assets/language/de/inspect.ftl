@@ -124,6 +124,12 @@ inspect-part-spray-path = Lackierbahn
 inspect-part-robot-base = Roboterbasis
 inspect-part-shot-cameras = Kameras der Aufnahmen
 inspect-part-unseen = Von keiner Aufnahme gesehen
+inspect-needs-pose = Erfordert ein Teil, dessen Pose gefunden wurde
+inspect-needs-camera = Erfordert eine einzelne Aufnahme, deren Kamera bekannt ist
+inspect-needs-no-path = Erfordert ein akzeptiertes Teil ohne gespeicherte Lackierbahn
+inspect-needs-path = Erfordert ein akzeptiertes Teil mit gespeicherter Lackierbahn
+inspect-needs-calibration = Erfordert eine kalibrierte Zelle
+inspect-needs-scan = Erfordert einen Scan
 inspect-caption-planes = { $points } Punkte · Teil { $part } · { $planes ->
         [one] 1 Hintergrundebene entfernt
        *[other] { $planes } Hintergrundebenen entfernt

@@ -114,6 +114,7 @@ shell-empty-cell = Leere Zelle
 shell-capture-empty-cell = Leere Zelle aufnehmen
 shell-capture-empty-cell-says = Die angezeigte Szene wird zur leeren Zelle: Nichts darin wird künftig für ein Teil gehalten
 shell-discard-empty-cell = Leere Zelle verwerfen
+shell-no-empty-cell = Es wurde keine leere Zelle aufgenommen
 shell-empty-cell-discarded = Leere Zelle verworfen
 shell-cell-not-empty = Die Zelle ist nicht leer: Darin hängt ein Teil
 shell-cell-not-empty-advice = Das Teil entfernen, aufnehmen, dann „Leere Zelle aufnehmen“ drücken

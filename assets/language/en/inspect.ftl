@@ -124,6 +124,12 @@ inspect-part-spray-path = Spray path
 inspect-part-robot-base = Robot base
 inspect-part-shot-cameras = Cameras of the shots
 inspect-part-unseen = Not seen by any shot
+inspect-needs-pose = Needs a part whose pose was found
+inspect-needs-camera = Needs a single capture whose camera is known
+inspect-needs-no-path = Needs an accepted part without a stored spray path
+inspect-needs-path = Needs an accepted part with a stored spray path
+inspect-needs-calibration = Needs a calibrated cell
+inspect-needs-scan = Needs a scan
 inspect-caption-planes = { $points } points · part { $part } · { $planes ->
         [one] 1 background plane removed
        *[other] { $planes } background planes removed

@@ -114,6 +114,7 @@ shell-empty-cell = Empty cell
 shell-capture-empty-cell = Capture empty cell
 shell-capture-empty-cell-says = The scene in front becomes the empty cell: nothing in it is taken for a part from now on
 shell-discard-empty-cell = Discard empty cell
+shell-no-empty-cell = No empty cell has been captured
 shell-empty-cell-discarded = Empty cell discarded
 shell-cell-not-empty = The cell is not empty: a part hangs in it
 shell-cell-not-empty-advice = Remove the part, capture, then press Capture empty cell

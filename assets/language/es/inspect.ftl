@@ -124,6 +124,12 @@ inspect-part-spray-path = Trayectoria de pintura
 inspect-part-robot-base = Base del robot
 inspect-part-shot-cameras = Cámaras de las tomas
 inspect-part-unseen = No visto por ninguna toma
+inspect-needs-pose = Requiere una pieza cuya pose se haya encontrado
+inspect-needs-camera = Requiere una sola captura cuya cámara se conozca
+inspect-needs-no-path = Requiere una pieza aceptada sin trayectoria de pintura guardada
+inspect-needs-path = Requiere una pieza aceptada con trayectoria de pintura guardada
+inspect-needs-calibration = Requiere una celda calibrada
+inspect-needs-scan = Requiere un escaneo
 inspect-caption-planes = { $points } puntos · pieza { $part } · { $planes ->
         [one] 1 plano de fondo eliminado
        *[other] { $planes } planos de fondo eliminados

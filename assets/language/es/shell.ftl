@@ -114,6 +114,7 @@ shell-empty-cell = Celda vacía
 shell-capture-empty-cell = Capturar celda vacía
 shell-capture-empty-cell-says = La escena mostrada pasa a ser la celda vacía: desde ahora nada de ella se toma por una pieza
 shell-discard-empty-cell = Descartar celda vacía
+shell-no-empty-cell = No se ha capturado ninguna celda vacía
 shell-empty-cell-discarded = Celda vacía descartada
 shell-cell-not-empty = La celda no está vacía: hay una pieza colgada
 shell-cell-not-empty-advice = Retirar la pieza, capturar y después pulsar Capturar celda vacía

@@ -105,6 +105,7 @@ shell-empty-cell = 空工位
 shell-capture-empty-cell = 采集空工位
 shell-capture-empty-cell-says = 当前场景成为空工位：此后其中的任何物体都不视为零件
 shell-discard-empty-cell = 放弃空工位
+shell-no-empty-cell = 尚未采集空工位
 shell-empty-cell-discarded = 已放弃空工位
 shell-cell-not-empty = 工位不是空的：其中挂有零件
 shell-cell-not-empty-advice = 移走零件并采集，然后按“采集空工位”

@@ -174,6 +174,8 @@ impl Alignment {
     fn of(entry: &ConfirmedMatch, inspection: &Inspection, library: &Library) -> Self {
         let reference = library.references.get(entry.reference);
         let is_flat = reference.is_none_or(|reference| reference.cloud.points.is_empty());
+        let mut entries = inspection.ranking.entries.iter();
+        let is_any_examined = entries.any(|entry| entry.is_examined);
         match (&entry.pose, &inspection.pose) {
             (Some(pose), _) => Self::Done {
                 log_e: pose
@@ -185,10 +187,10 @@ impl Alignment {
                     .collect(),
                 rms_m: pose.fit.rms_m,
             },
-            (None, None) => Self::None(NotAligned::NotAskedFor),
-            (None, Some(_)) if is_flat => Self::None(NotAligned::FlatShape),
+            (None, None) if !is_any_examined => Self::None(NotAligned::NotAskedFor),
+            (None, _) if is_flat => Self::None(NotAligned::FlatShape),
             (None, Some(Err(_))) => Self::None(NotAligned::NoPose),
-            (None, Some(Ok(_))) => Self::None(NotAligned::LowScore),
+            (None, Some(Ok(_)) | None) => Self::None(NotAligned::LowScore),
         }
     }
 }

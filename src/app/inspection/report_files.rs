@@ -12,7 +12,7 @@ use nalgebra::Point3;
 use super::{inspected::Inspected, source::Origin};
 use crate::{
     app::{
-        language::text,
+        language::{robot::convention_title, text},
         ui::viewport::{ViewColours, ViewShot},
         user_error::UserError,
     },
@@ -121,7 +121,7 @@ pub(in crate::app) fn spray_path(
         path = path.display().to_string(),
         inside = carried.num_inside(),
         num = carried.num_seen(),
-        convention = convention.title()
+        convention = convention_title(convention)
     ))
 }
 

@@ -21,6 +21,7 @@ pub(in crate::app) mod enrolment;
 pub(in crate::app) mod history;
 pub(in crate::app) mod parameters;
 pub(in crate::app) mod results;
+pub(in crate::app) mod robot;
 
 use std::{cell::Cell, fmt};
 

@@ -107,6 +107,8 @@ pub enum Event {
     },
     /// A part left the followed source before its verdict counted, or following stopped before.
     Left(Box<NewEntry>),
+    /// The serial number of this part, which has been recorded, came after its verdict.
+    TracedLate(HungId, Traceability),
     /// The poses of these shots were not found: the user has to choose their file.
     PosesWanted(ScanOrder),
     /// Ask the user where to save the report of the inspection in front.

@@ -17,7 +17,7 @@ use crate::{
         language::text,
         ui::{
             theme::{font, space},
-            widgets::shortened,
+            widgets::{shortened, show_scroll_bar},
         },
     },
     capture::{GenicamSpec, KinectSpec, OpenNiSpec, RealsenseSpec, SimulatedSpec, SourceSpec},
@@ -64,6 +64,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) 
 fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
     ui.vertical(|ui| {
         ui.set_width(COLUMN);
+        show_scroll_bar(ui);
         ScrollArea::vertical()
             .id_salt(name)
             .max_height(height)
@@ -234,7 +235,8 @@ fn empty_cell(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     let take = Button::new(text!("shell-capture-empty-cell"));
     let take = ui
         .add_enabled(state.session.shown.is_some(), take)
-        .on_hover_text(text!("shell-capture-empty-cell-says"));
+        .on_hover_text(text!("shell-capture-empty-cell-says"))
+        .on_disabled_hover_text(text!("align-nothing-inspected"));
     if take.clicked() {
         actions.push(Action::TakeEmptyCell);
         ui.close();
@@ -242,6 +244,7 @@ fn empty_cell(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     let forget = Button::new(text!("shell-discard-empty-cell"));
     if ui
         .add_enabled(state.session.empty_cell.is_some(), forget)
+        .on_disabled_hover_text(text!("shell-no-empty-cell"))
         .clicked()
     {
         actions.push(Action::ForgetEmptyCell);

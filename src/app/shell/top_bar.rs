@@ -6,22 +6,24 @@ use super::{
     action::{Action, DialogRequest},
     live::{self, LiveAction},
     robot::{self, RobotAction, RobotCell},
-    session::WorkspaceKind,
+    session::{Session, WorkspaceKind},
     source_menu,
     state::State,
 };
 use crate::app::{
     inspection::{figures::StagePanel, library_cache::LibraryView, source::file_name},
-    language::{Language, keys, text},
+    language::{Language, keys, robot::calibration_name, text},
     task::Running,
     ui::{
         theme::{Theme, ThemeChoice, font, space},
-        widgets::{labelled, shortened, text_button},
+        widgets::{labelled, shortened, status_label, text_button},
     },
 };
 
 /// Width of the window, logical pixels, below which the bar has no room for keys.
 pub(in crate::app) const NARROW: f32 = 1100.0;
+/// Width of the bar that is left to the status of Live, logical pixels.
+const LIVE: f32 = 180.0;
 
 /// The running work shown in the bar.
 pub(in crate::app) struct Progress {
@@ -81,15 +83,18 @@ pub(in crate::app) fn ui(
                     settings(ui, state, work.is_some(), actions);
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                         let session = &state.session;
-                        let is_following =
-                            session.is_live() && session.workspace != WorkspaceKind::Inspect;
-                        let shares = work.is_some() || is_following;
+                        let shares = work.is_some() || has_live_chip(session);
                         robot::chip(ui, robot, session, shares);
                         progress(ui, state, work, actions);
                     });
                 });
             });
         });
+}
+
+/// True while the status of Live is in the bar; in Inspect it is on the verdict card.
+fn has_live_chip(session: &Session) -> bool {
+    session.is_live() && session.workspace != WorkspaceKind::Inspect
 }
 
 /// Adds the key to a button if there is room.
@@ -135,7 +140,9 @@ fn robot_button(ui: &mut Ui, state: &State, robot: &RobotCell, actions: &mut Vec
     let name = text!("shell-robot");
     let button = with_key(ui, Button::new(&*name), "B", theme.weak_text);
     let says = match (&state.session.robot, robot.in_use()) {
-        (Some(frame), _) => text!("shell-calibrated-by", name = &frame.name),
+        (Some(frame), _) => {
+            text!("shell-calibrated-by", name = calibration_name(&frame.name))
+        }
         (None, Some(_)) => text!("shell-no-flange-pose"),
         (None, None) => text!("shell-not-calibrated"),
     };
@@ -174,8 +181,13 @@ fn settings(ui: &mut Ui, state: &State, is_at_work: bool, actions: &mut Vec<Acti
         actions.push(Action::SwitchUnits);
     }
     language_menu(ui, state, actions);
-    // Running work and its cancel button take precedence.
-    let has_room = !is_at_work || ui.available_width() > 480.0;
+    // Running work with its cancel button, and the status of Live, take precedence.
+    let room = ui.available_width();
+    let has_room = match (is_at_work, has_live_chip(&state.session)) {
+        (true, _) => room > 480.0,
+        (false, true) => room > 300.0,
+        (false, false) => true,
+    };
     if let Some(library) = state.session.library.as_ref().filter(|_| has_room) {
         library_menu(ui, state, library, actions);
     }
@@ -203,9 +215,14 @@ pub(super) fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action
 fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut Vec<Action>) {
     let num = library.parts.len();
     let opened = |text: String| format!("{text} ▼");
+    let shared = if has_live_chip(&state.session) {
+        LIVE
+    } else {
+        0.0
+    };
     let text = if library.unloaded.is_some() {
         opened(text!("shell-no-library"))
-    } else if ui.available_width() > 300.0 {
+    } else if ui.available_width() > 300.0 + shared {
         let name = shortened(&file_name(&library.path), 20);
         opened(text!("shell-library-named", num = num, name = name))
     } else {
@@ -244,8 +261,7 @@ pub(super) fn progress(
 ) {
     let theme = Theme::of(ui);
     let Some(Progress { running, cancel }) = work else {
-        // In Inspect the verdict card shows it.
-        if state.session.is_live() && state.session.workspace != WorkspaceKind::Inspect {
+        if has_live_chip(&state.session) {
             live::chip(ui, &state.session);
         }
         return;
@@ -281,5 +297,5 @@ pub(super) fn progress(
         }
         (None, None) => shortened(&running.title, 28),
     };
-    ui.add(egui::Label::new(RichText::new(text).weak()).truncate());
+    status_label(ui, &text, font::body(), theme.weak_text);
 }

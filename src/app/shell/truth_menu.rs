@@ -3,7 +3,7 @@
 use egui::{ScrollArea, Ui, WidgetInfo};
 
 use crate::{
-    app::{inspection::library_cache::LibraryView, language::text},
+    app::{inspection::library_cache::LibraryView, language::text, ui::widgets::show_scroll_bar},
     library::Truth,
 };
 
@@ -40,6 +40,7 @@ pub(in crate::app) fn truth_entries(
         }
     };
     ui.set_min_width(220.0);
+    show_scroll_bar(ui);
     ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
         for truth in first {
             entry(ui, truth.clone());

@@ -267,14 +267,12 @@ pub(in crate::app) fn over_time(
     let last = at.len().saturating_sub(1).max(1);
     let room = (size.x / 110.0).max(1.0) as usize;
     let step = at.len().div_ceil(room).max(1);
-    let dates = at.iter().enumerate().step_by(step);
-    let dates = dates.map(|(place, at)| (place as f64, at.strftime("%m-%d %H:%M").to_string()));
     let known = curves.iter().flat_map(|(_, values, _)| *values);
     let range = range_of(known.filter(|value| value.is_finite()));
     let [low, high] = range_around(range, least_span, most);
     let axes = Axes {
         title: vec![(title.to_owned(), theme.text)],
-        across: Axis::new([0.0, last as f64], dates.collect()),
+        across: Axis::new([0.0, last as f64], dates(at, step)),
         up: Axis::new(
             [low, high],
             [low, high].map(|value| (value, written(value))).to_vec(),
@@ -282,7 +280,7 @@ pub(in crate::app) fn over_time(
         font: font::small(),
         read: Some(Box::new(|across| {
             let place = (across.round().max(0.0) as usize).min(at.len() - 1);
-            let at = at[place].strftime("%Y-%m-%d %H:%M");
+            let at = at[place].strftime("%Y-%m-%d %H:%M:%S");
             let values = curves.iter().map(|(name, values, _)| {
                 let value = f64::from(values[place]);
                 let value = if value.is_finite() {
@@ -314,6 +312,23 @@ pub(in crate::app) fn over_time(
             .map(|(name, _, colour)| (*name, *colour, LineStyle::Solid));
         legend(ui.painter(), &shown, names);
     }
+}
+
+/// Marks every `step`th moment by its date and time: with seconds if two marks in a row would read the same, and only once
+/// if they still do.
+fn dates(at: &[Zoned], step: usize) -> Vec<(f64, String)> {
+    let written = |format: &str| -> Vec<(f64, String)> {
+        let marked = at.iter().enumerate().step_by(step);
+        marked
+            .map(|(place, at)| (place as f64, at.strftime(format).to_string()))
+            .collect()
+    };
+    let mut dates = written("%m-%d %H:%M");
+    if dates.windows(2).any(|pair| pair[0].1 == pair[1].1) {
+        dates = written("%m-%d %H:%M:%S");
+        dates.dedup_by(|next, date| next.1 == date.1);
+    }
+    dates
 }
 
 /// Widens a range a little, or to `least_span`, but not beyond `most`.
@@ -368,7 +383,33 @@ fn line(points: &[Pos2], stroke: Stroke, style: LineStyle) -> Vec<Shape> {
 
 #[cfg(test)]
 mod tests {
+    use jiff::{Timestamp, tz::TimeZone};
+
     use super::*;
+
+    #[test]
+    fn moments_within_a_minute_are_marked_with_seconds_and_each_mark_reads_once() {
+        let marks = |seconds: &[i64], step| {
+            let at = seconds.iter().map(|seconds| {
+                let at = Timestamp::from_second(*seconds).expect("a moment");
+                at.to_zoned(TimeZone::UTC)
+            });
+            dates(&at.collect::<Vec<Zoned>>(), step)
+        };
+        let mark = |place: f64, text: &str| (place, text.to_owned());
+        assert_eq!(
+            marks(&[0, 30, 90, 7200], 2),
+            [mark(0.0, "01-01 00:00"), mark(2.0, "01-01 00:01")]
+        );
+        assert_eq!(
+            marks(&[0, 5, 5, 90], 1),
+            [
+                mark(0.0, "01-01 00:00:00"),
+                mark(1.0, "01-01 00:00:05"),
+                mark(3.0, "01-01 00:01:30")
+            ]
+        );
+    }
 
     #[test]
     fn an_axis_of_scores_ends_at_one() {

@@ -6,7 +6,10 @@ use egui::{
     Align, Align2, Area, Button, Color32, ColorImage, ComboBox, Context, Event, FontId, Frame,
     Galley, Id, Key, Label, Layout, Margin, Modal, ModalResponse, Painter, Pos2, Rect, Response,
     RichText, Sense, Stroke, StrokeKind, TextStyle, TextureHandle, TextureOptions, Ui, Vec2,
-    WidgetInfo, pos2, vec2,
+    WidgetInfo, pos2,
+    style::{ScrollStyle, StyleModifier},
+    text::LayoutJob,
+    vec2,
 };
 use image::RgbImage;
 
@@ -230,6 +233,18 @@ pub(in crate::app) fn wrapped(ui: &mut Ui, text: &str, font: &FontId, colour: Co
     label
 }
 
+/// Draws a status in one line or, if it is too wide for that, in two small ones.
+pub(in crate::app) fn status_label(ui: &mut Ui, text: &str, font: FontId, colour: Color32) {
+    let (room, painter) = (ui.available_width(), ui.painter());
+    let mut rows = painter.layout_no_wrap(text.to_owned(), font, colour);
+    if rows.size().x > room {
+        let mut job = LayoutJob::simple(text.to_owned(), font::small(), colour, room);
+        job.wrap.max_rows = 2;
+        rows = painter.layout_job(job);
+    }
+    ui.add(Label::new(rows));
+}
+
 /// Lays out the rows of such a text.
 pub(in crate::app) fn wrapped_rows(
     painter: &Painter,
@@ -300,6 +315,22 @@ pub(in crate::app) fn fitted_middle(
     texts.find(fits).unwrap_or_else(|| text.to_owned())
 }
 
+/// Style of a scroll bar that stays in sight, beside the entries of a menu.
+fn bar_of_menu() -> ScrollStyle {
+    ScrollStyle {
+        foreground_color: true,
+        floating_width: 4.0,
+        dormant_handle_opacity: 0.5,
+        active_handle_opacity: 0.6,
+        ..ScrollStyle::thin()
+    }
+}
+
+/// Shows the scroll bar of a menu without the pointer, too: otherwise nothing tells that there are more entries.
+pub(in crate::app) fn show_scroll_bar(ui: &mut Ui) {
+    ui.spacing_mut().scroll = bar_of_menu();
+}
+
 /// Draws a list that drops down below a button with the chosen entry. `label` is its accessible name.
 pub(in crate::app) fn drop_down(
     ui: &mut Ui,
@@ -311,6 +342,9 @@ pub(in crate::app) fn drop_down(
     let shown = ComboBox::from_id_salt("drop-down")
         .selected_text(chosen.to_owned())
         .width(width)
+        .popup_style(StyleModifier::new(|style| {
+            style.spacing.scroll = bar_of_menu();
+        }))
         .show_ui(ui, |ui| {
             // A click within one frame brings the dialog it is in to the front, over the list that it opens.
             ui.ctx().move_to_top(ui.layer_id());
@@ -434,9 +468,9 @@ pub fn grouped(number: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use egui::{Color32, Context, FontId, RawInput};
+    use egui::{Color32, Context, FontId, RawInput, ScrollArea, Shape};
 
-    use super::{fitted_path, grouped, sentence};
+    use super::{fitted_path, grouped, sentence, show_scroll_bar};
     use crate::app::ui::theme::Theme;
 
     #[test]
@@ -469,6 +503,38 @@ mod tests {
         );
         assert_eq!(sentence("door.pcd: a mesh"), "door.pcd: a mesh");
         assert_eq!(sentence(""), "");
+    }
+
+    #[test]
+    fn a_menu_shows_that_it_scrolls_only_where_it_does() {
+        let num_bars = |num_entries: usize| {
+            let ctx = Context::default();
+            Theme::install_fonts(&ctx);
+            let mut output = ctx.run_ui(RawInput::default(), |_| {});
+            // The size of the entries is known from the second frame on.
+            for _ in 0..2 {
+                output.drop_without_applying_deltas();
+                output = ctx.run_ui(RawInput::default(), |ui| {
+                    show_scroll_bar(ui);
+                    ScrollArea::vertical().max_height(100.0).show(ui, |ui| {
+                        for entry in 0..num_entries {
+                            ui.label(entry.to_string());
+                        }
+                    });
+                });
+            }
+            let is_bar = |shape: &Shape| match shape {
+                Shape::Rect(bar) => bar.fill.a() > 0 && bar.rect.width() < 5.0,
+                _ => false,
+            };
+            let bars = output.shapes.iter().filter(|shape| is_bar(&shape.shape));
+            let num = bars.count();
+            output.drop_without_applying_deltas();
+            num
+        };
+        assert_eq!(num_bars(3), 0);
+        // The handle, and what it moves along.
+        assert_eq!(num_bars(30), 2);
     }
 
     #[test]

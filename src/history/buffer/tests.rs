@@ -224,3 +224,42 @@ fn a_label_goes_to_the_row_that_stands_for_the_part_whether_it_waits_or_is_writt
     let unknown = keeper.label_part(&HungId::new(), &Truth::Nothing, "");
     assert_eq!(unknown.expect("asked"), None);
 }
+
+#[test]
+fn a_serial_number_that_comes_later_waits_with_its_part_until_it_can_be_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let keeper = HistoryBuffer::new(Some(folder.path().to_owned()));
+    let begun = Instant::now();
+    let entries = [1, 2].map(not_accepted);
+    let [written, waiting] = entries
+        .each_ref()
+        .map(|entry| entry.record.summary.hung.clone());
+    let [first, second] = entries;
+    keeper.add(1, first, begun);
+    // A lock by another program, for which writing does not wait.
+    let inner = keeper.lock();
+    let file = &inner.history.as_ref().expect("open").file;
+    file.busy_timeout(Duration::ZERO).expect("set");
+    drop(inner);
+    let other = rusqlite::Connection::open(folder.path().join(FILE)).expect("opened");
+    other.execute_batch("BEGIN IMMEDIATE").expect("locked");
+    let known = |serial: &str| Traceability {
+        serial: serial.into(),
+        ..Traceability::default()
+    };
+    keeper.trace_part(&written, &known("TL-1"), begun);
+    keeper.add(2, second, begun);
+    keeper.trace_part(&waiting, &known("TL-2"), begun);
+    assert_eq!(failures(&keeper.take_news()), 1);
+    let serial = |number| {
+        let record = keeper.row(number).expect("asked").expect("there");
+        record.summary.trace.serial
+    };
+    assert_eq!([1, -2].map(serial), ["", "TL-2"]);
+
+    other.execute_batch("ROLLBACK").expect("unlocked");
+    keeper.retry(begun + PAUSE);
+    assert_eq!([1, 2].map(serial), ["TL-1", "TL-2"]);
+    assert_eq!(numbers(&keeper), [2, 1]);
+    assert_eq!(keeper.next_try(), None);
+}

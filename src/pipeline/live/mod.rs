@@ -170,7 +170,11 @@ impl LiveVerdict {
         match self {
             Self::Counted(agreed) => {
                 inspection.verdict = agreed.verdict.clone();
-                if let (Some(Ok(pose)), Some(mean)) = (&mut inspection.pose, &agreed.pose) {
+                let best = inspection.ranking.entries.first();
+                if best.map(|best| best.part.as_str()) != agreed.verdict.guess() {
+                    // This frame's pose is that of another part.
+                    inspection.pose = None;
+                } else if let (Some(Ok(pose)), Some(mean)) = (&mut inspection.pose, &agreed.pose) {
                     pose.target_from_source = mean.camera_from_part.inverse();
                 }
             }

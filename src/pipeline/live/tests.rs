@@ -72,6 +72,35 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
 }
 
 #[test]
+fn a_frame_that_names_another_part_than_the_verdict_that_counts_gives_no_pose() {
+    let part = HangingPart::new(PartKind::Fender, 3);
+    let scene = scene(&part, 1, 0.0);
+    let seen = run(&scene, &shipped_library(), &Recipe::default(), &Unwatched);
+    let seen = seen.expect("not cancelled");
+    for (name, has_pose) in [("fender", true), ("grille", false)] {
+        let mut inspection = seen.clone();
+        let agreed = ConsensusVerdict {
+            verdict: Verdict::Part {
+                part: name.into(),
+                score: 0.1,
+                margin: 0.0,
+                rejected: Some(Rejection::Mirrored {
+                    part: name.into(),
+                    score: 0.97,
+                }),
+                is_approximate: false,
+            },
+            num_frames: 10,
+            num_agreeing: 9,
+            pose: None,
+        };
+        LiveVerdict::Counted(Box::new(agreed)).overwrite_verdict(&mut inspection);
+        assert!(inspection.verdict.is_mirrored());
+        assert_eq!(inspection.pose.is_some(), has_pose, "{name}");
+    }
+}
+
+#[test]
 fn the_field_of_view_that_earlier_frames_showed_is_known_of_a_part_alone() {
     let part = HangingPart::new(PartKind::FrontDoor, 4);
     let within = |margins: [usize; 2]| {

@@ -74,7 +74,7 @@ impl ConfirmedRanking {
 
     /// The score of one of its entries; `None` of one that was not examined where others were.
     pub fn score_of(&self, entry: &ConfirmedMatch) -> Option<f64> {
-        let is_any_examined = self.entries.first().is_some_and(|first| first.is_examined);
+        let is_any_examined = self.entries.iter().any(|entry| entry.is_examined);
         (entry.is_examined || !is_any_examined).then_some(entry.score)
     }
 

@@ -85,22 +85,34 @@ impl FollowedParts {
         }
     }
 
-    /// True if a serial number entered now is of the next part: none hangs there, or the one that does has its own.
-    pub(super) fn needs_no_serial(&self) -> bool {
+    /// The traceability of the part that hangs there, if its verdict has counted.
+    pub(super) fn trace_of_hanging(&self) -> Option<&Traceability> {
         let hanging = self.rows.id_of_frame(false);
-        let has_serial =
-            |(part, trace): &(HungId, Traceability)| *part == hanging && !trace.serial.is_empty();
-        hanging != *self.rows.id() || self.counted.as_ref().is_some_and(has_serial)
+        let (part, trace) = self.counted.as_ref()?;
+        (*part == hanging).then_some(trace)
     }
 
-    /// True if the part that hangs there has a verdict that counts, and a serial number was entered after it.
-    pub(super) fn has_late_serial(&self, current: &CurrentTrace) -> bool {
-        let counts = |(part, trace): &(HungId, Traceability)| {
-            part == self.rows.id() && trace.serial.is_empty()
-        };
-        !self.needs_no_serial()
-            && self.counted.as_ref().is_some_and(counts)
-            && current.has_complete_serial()
+    /// True if a serial number entered now is of the next part: none hangs there, or the one that does has its own.
+    pub(super) fn needs_no_serial(&self) -> bool {
+        let has_serial = |trace: &Traceability| !trace.serial.is_empty();
+        self.rows.id_of_frame(false) != *self.rows.id()
+            || self.trace_of_hanging().is_some_and(has_serial)
+    }
+
+    /// Takes a serial number that was entered after the verdict on the part that hangs there, unless that part has one.
+    /// Returns the part and its traceability.
+    pub(super) fn take_late_serial(
+        &mut self,
+        current: &CurrentTrace,
+    ) -> Option<(HungId, Traceability)> {
+        let trace = self.trace_of_hanging()?;
+        if !trace.serial.is_empty() {
+            return None;
+        }
+        let serial = current.take_late_serial();
+        let (part, trace) = self.counted.as_mut().filter(|_| !serial.is_empty())?;
+        trace.serial = serial;
+        Some((part.clone(), trace.clone()))
     }
 
     /// The part that a capture of this source shows, which is taken in place of Live, and the traceability of that

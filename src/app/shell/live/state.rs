@@ -327,7 +327,7 @@ pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
     events
 }
 
-/// Shows a verdict that counts; returns the event by which the inspection is recorded.
+/// Shows a verdict that counts; returns the event by which it is recorded.
 fn take_record(state: &mut State, record: LiveRecord) -> Event {
     match record {
         LiveRecord::Counts { inspected, session } => {
@@ -341,6 +341,7 @@ fn take_record(state: &mut State, record: LiveRecord) -> Event {
             Event::Inspected { inspected, purpose }
         }
         LiveRecord::Left(entry) => Event::Left(entry),
+        LiveRecord::TracedLate(hung, trace) => Event::TracedLate(hung, trace),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Status of following the source as text: on the verdict card, or in the bar while the card is not in front.
 
-use egui::{Button, Label, RichText, Ui, Vec2};
+use egui::{Button, RichText, Ui, Vec2};
 
 use super::{
     state::megabytes,
@@ -11,8 +11,8 @@ use crate::{
         language::text,
         shell::session::{Session, Source},
         ui::{
-            theme::{font, space},
-            widgets::{Mark, line_mark},
+            theme::{Theme, font, space},
+            widgets::{Mark, line_mark, status_label},
         },
     },
     capture::SourceSpec,
@@ -24,6 +24,7 @@ const HEIGHT: f32 = 64.0;
 
 /// Draws the head of the verdict card while the source is followed. True if recording shall start or stop.
 pub(in crate::app) fn card(ui: &mut Ui, session: &Session) -> bool {
+    let theme = Theme::of(ui);
     let (sign, words) = words(session);
     let small = |text: String| RichText::new(text).small().weak();
     let size = Vec2::new(ui.available_width(), HEIGHT);
@@ -32,8 +33,7 @@ pub(in crate::app) fn card(ui: &mut Ui, session: &Session) -> bool {
         ui.spacing_mut().item_spacing.y = 3.0;
         ui.horizontal(|ui| {
             line_mark(ui, 16.0, 7.5, sign);
-            let words = RichText::new(words).font(font::body_strong());
-            ui.add(Label::new(words).truncate());
+            status_label(ui, &words, font::body_strong(), theme.text);
         });
         let status = session.live.status.as_ref();
         ui.label(small(status.map_or_else(String::new, evidence_text)));
@@ -71,8 +71,9 @@ fn record(ui: &mut Ui, session: &Session) -> bool {
     response.clicked()
 }
 
-/// Draws the same in one line.
+/// Draws the status and the rates beside it, if there is room.
 pub(in crate::app) fn chip(ui: &mut Ui, session: &Session) {
+    let theme = Theme::of(ui);
     let (sign, words) = words(session);
     ui.add_space(space::SMALL);
     line_mark(ui, 16.0, 7.5, sign);
@@ -81,7 +82,7 @@ pub(in crate::app) fn chip(ui: &mut Ui, session: &Session) {
         Some(rates) if ui.available_width() > 320.0 => format!("{words} · {rates}"),
         _ => words,
     };
-    ui.add(Label::new(RichText::new(text).weak()).truncate());
+    status_label(ui, &text, font::body(), theme.weak_text);
 }
 
 /// Returns the most important status, with its mark.

@@ -22,7 +22,7 @@ use crate::{
     },
     capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
     error::{Fault, guarded, lock},
-    history::{NewEntry, StoredVerdict, Traceability},
+    history::{HungId, NewEntry, StoredVerdict, Traceability},
     pipeline::{
         self, NamedRecipe, ProgressObserver, Verdict,
         live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
@@ -60,7 +60,8 @@ impl LiveStart {
     }
 }
 
-/// An inspection to be recorded. It has a channel of its own, so that it is recorded even if its job was replaced meanwhile.
+/// An inspection to be recorded, or an addition to one. It has a channel of its own, so that it is recorded even if its job was
+/// replaced meanwhile.
 #[derive(Debug)]
 pub(super) enum LiveRecord {
     /// A verdict that counts and was not reported before.
@@ -72,6 +73,8 @@ pub(super) enum LiveRecord {
     },
     /// A part left before its verdict counted, or following stopped before.
     Left(Box<NewEntry>),
+    /// The serial number of this part came after its verdict.
+    TracedLate(HungId, Traceability),
 }
 
 /// Maximum number of unread records, whose points and pictures take up to 15 MB each; the job waits beyond that.
@@ -331,7 +334,6 @@ impl<'a> LiveSession<'a> {
         let middle = FinishedInspection::middle(&inspection, &fitted);
         let inputs = format!("{} {}", self.recipe_identity, loaded.shown.identity);
         let mut followed = None;
-        let mut is_traced_late = false;
         // If captures are independent, each is a hung part of its own.
         let mut role = FrameRole::First;
         if let Some(watch) = &mut self.watch {
@@ -353,8 +355,9 @@ impl<'a> LiveSession<'a> {
             if role == FrameRole::Nothing {
                 self.see(&frame, arrived);
                 // While it moves, it may be on its way out.
-                is_traced_late = self.standing.counted().is_some()
-                    && lock(&self.request.parts).has_late_serial(&self.request.trace);
+                if self.standing.counted().is_some() {
+                    self.trace_late();
+                }
             }
         }
         self.num_inspected += 1;
@@ -362,7 +365,7 @@ impl<'a> LiveSession<'a> {
         self.latencies.push_front(arrived.elapsed());
         self.latencies.truncate(NUM_LATENCIES);
 
-        if role == FrameRole::Nothing && !is_traced_late && !self.context.is_latest_read() {
+        if role == FrameRole::Nothing && !self.context.is_latest_read() {
             // The window has not even shown the previous one.
             return Ok(());
         }
@@ -389,9 +392,6 @@ impl<'a> LiveSession<'a> {
             };
             self.see(&frame, arrived);
         }
-        if is_traced_late {
-            role = FrameRole::Again;
-        }
         self.keep(inspected, role, arrived);
         Ok(())
     }
@@ -405,6 +405,17 @@ impl<'a> LiveSession<'a> {
         // Recording may wait for the window.
         drop(parts);
         self.request.record_left(left);
+    }
+
+    /// Records a serial number that came after the verdict on the part that hangs there.
+    fn trace_late(&self) {
+        let mut parts = lock(&self.request.parts);
+        let traced = parts.take_late_serial(&self.request.trace);
+        // Recording may wait for the window.
+        drop(parts);
+        if let Some((hung, trace)) = traced {
+            send(&self.request.recorder, LiveRecord::TracedLate(hung, trace));
+        }
     }
 
     /// Keeps the inspection of a frame to be shown, and records it if it is the first or another one of its part.
@@ -430,7 +441,12 @@ impl<'a> LiveSession<'a> {
                     summary.trace = trace.clone();
                 }
             }
-            FrameRole::Nothing | FrameRole::Best => {}
+            FrameRole::Nothing => {
+                if let Some(trace) = parts.trace_of_hanging() {
+                    summary.trace = trace.clone();
+                }
+            }
+            FrameRole::Best => {}
         }
         if self.watch.is_none() {
             parts.seen_alone(arrived, inspected.hung());

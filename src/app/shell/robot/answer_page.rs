@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     app::{
-        language::text,
+        language::{robot::convention_title, text},
         shell::session::Session,
         ui::{
             theme::space,
@@ -56,8 +56,8 @@ pub(super) fn ui(
     let typed = typed(session, dialog);
     match &typed {
         Ok(listener) => {
-            let poses = listener.convention().title();
-            row(ui, &text!("robot-poses-as"), poses);
+            let poses = convention_title(listener.convention());
+            row(ui, &text!("robot-poses-as"), &poses);
             if listener.doubt().is_some() {
                 let open = UserError {
                     what: text!("robot-open-to-network", at = listener.at.to_string()),

@@ -9,7 +9,10 @@ use super::{
 };
 use crate::{
     app::{
-        language::text,
+        language::{
+            robot::{convention_meaning, convention_title, written_pose_error},
+            text,
+        },
         ui::{
             theme::space,
             widgets::{Mark, drop_down},
@@ -27,7 +30,7 @@ pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAc
         convention(ui, &mut dialog.convention);
     });
     let small = |text: &str| RichText::new(text.to_owned()).small();
-    ui.label(small(dialog.convention.meaning()).weak());
+    ui.label(small(&convention_meaning(dialog.convention)).weak());
     ui.add_space(space::SMALL);
     let transform = dialog.mount.camera_transform();
     let label = ui.label(text!("robot-where-camera-stands", transform = transform));
@@ -54,7 +57,10 @@ pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAc
             }
         }
         Err(_) if dialog.numbers.trim().is_empty() => {}
-        Err(error) => told(ui, Mark::Bad, &UserError::of(error)),
+        Err(error) => {
+            let [what, advice] = written_pose_error(error);
+            told(ui, Mark::Bad, &UserError { what, advice });
+        }
     }
     ui.add_space(space::SMALL);
     name(ui, dialog);
@@ -66,10 +72,11 @@ pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, caused: &mut Vec<RobotAc
 
 fn convention(ui: &mut Ui, convention: &mut Convention) {
     let chosen = *convention;
-    let label = text!("robot-numbers-are-of", convention = chosen.title());
-    drop_down(ui, &label, chosen.title(), 240.0, |ui| {
+    let title = convention_title(chosen);
+    let label = text!("robot-numbers-are-of", convention = &title);
+    drop_down(ui, &label, &title, 240.0, |ui| {
         for other in Convention::ALL {
-            ui.selectable_value(convention, other, other.title());
+            ui.selectable_value(convention, other, convention_title(other));
         }
     });
 }

@@ -11,7 +11,7 @@ use super::{
 use crate::{
     app::{
         inspection::source::file_name,
-        language::text,
+        language::{robot::convention_title, text},
         ui::{
             theme::{Theme, space},
             widgets::{Mark, row, text_button},
@@ -169,8 +169,8 @@ fn figures(ui: &mut Ui, found: &SolvedPairs) {
     let [robot, camera] = found.conventions;
     let text = text!(
         "robot-conventions-are",
-        robot = robot.title(),
-        camera = camera.title()
+        robot = convention_title(robot),
+        camera = convention_title(camera)
     );
     row(ui, &text!("robot-read-as"), &text);
 }

@@ -8,7 +8,10 @@ use super::{
 };
 use crate::{
     app::{
-        language::text,
+        language::{
+            robot::{calibration_name, convention_meaning, convention_title, written_pose_error},
+            text,
+        },
         shell::session::Session,
         ui::{
             theme::{Theme, space},
@@ -79,7 +82,8 @@ pub(super) fn ui(
 
 fn figures(ui: &mut Ui, calibration: &CellCalibration) {
     let theme = Theme::of(ui);
-    row(ui, &text!("robot-cell"), &calibration.shown_with_identity());
+    let name = calibration_name(&calibration.shown_with_identity());
+    row(ui, &text!("robot-cell"), &name);
     row(
         ui,
         &text!("robot-camera"),
@@ -134,7 +138,7 @@ fn mount(mount: Mount) -> String {
 pub(super) fn pose(ui: &mut Ui, name: &str, transform: &RigidTransform, convention: Convention) {
     let theme = Theme::of(ui);
     let written: RobotPose = convention.write(transform);
-    heading(ui, &format!("{name} · {}", convention.title()));
+    heading(ui, &format!("{name} · {}", convention_title(convention)));
     if convention == Convention::Matrix {
         for numbers in written.values.chunks(4) {
             let cells: Vec<String> = numbers.iter().map(|v| format!("{:9.5}", v.value)).collect();
@@ -144,7 +148,7 @@ pub(super) fn pose(ui: &mut Ui, name: &str, transform: &RigidTransform, conventi
         ui.label(written.line());
     }
     let small = |text: &str| RichText::new(text.to_owned()).small();
-    ui.label(small(written.meaning).weak());
+    ui.label(small(&convention_meaning(convention)).weak());
     if let Some(note) = &written.gimbal_note {
         ui.label(small(note).color(theme.warning));
     }
@@ -177,9 +181,14 @@ fn arm(
                 .desired_width(340.0),
         )
         .labelled_by(label.id);
-        let is_pose = dialog.typed_arm().is_ok();
-        ui.add_enabled_ui(is_pose, |ui| {
-            if text_button(ui, &text!("robot-store")).clicked() {
+        let typed = dialog.typed_arm();
+        ui.add_enabled_ui(typed.is_ok(), |ui| {
+            let why_not = typed
+                .err()
+                .map(|error| written_pose_error(&error).join("\n"));
+            let store = text_button(ui, &text!("robot-store"));
+            let store = store.on_disabled_hover_text(why_not.unwrap_or_default());
+            if store.clicked() {
                 caused.push(RobotAction::StoreArm);
             }
         });

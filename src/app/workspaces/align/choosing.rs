@@ -1,7 +1,8 @@
 //! Above the views: what is aligned to what, the start, and Run.
 
 use egui::{
-    Align, Align2, Button, DragValue, Label, Layout, Response, RichText, TextEdit, Ui, Vec2, vec2,
+    Align, Align2, Button, DragValue, Label, Layout, Response, RichText, ScrollArea, TextEdit, Ui,
+    Vec2, vec2,
 };
 
 use super::{
@@ -17,7 +18,7 @@ use crate::app::{
     ui::{
         theme::{Theme, font, space},
         viewport::ViewDirection,
-        widgets::{labelled, shortened, text_button},
+        widgets::{labelled, shortened, show_scroll_bar, text_button},
     },
 };
 
@@ -140,16 +141,19 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
     let title = format!("{} · {} ▼", text!("align-part"), shortened(&title, 24));
     let menu = ui.menu_button(title, |ui| {
         ui.set_min_width(200.0);
-        for part in &library.parts {
-            let name = part.name.as_str();
-            if ui
-                .selectable_label(chosen == Some(name), part.shown_title())
-                .clicked()
-            {
-                actions.push(AlignAction::ChoosePart(name.to_owned()));
-                ui.close();
+        show_scroll_bar(ui);
+        ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
+            for part in &library.parts {
+                let name = part.name.as_str();
+                if ui
+                    .selectable_label(chosen == Some(name), part.shown_title())
+                    .clicked()
+                {
+                    actions.push(AlignAction::ChoosePart(name.to_owned()));
+                    ui.close();
+                }
             }
-        }
+        });
     });
     menu.response.on_hover_text(text!("align-part-hint"));
 }

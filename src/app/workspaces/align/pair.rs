@@ -13,7 +13,7 @@ use crate::{
         inspection::{
             inspected::Inspected,
             library_cache::{LibraryCache, LoadedLibrary},
-            source::file_name,
+            source::{Origin, file_name},
         },
         language::text,
         ui::viewport::{PointSet, Role},
@@ -58,11 +58,21 @@ pub enum PairSource {
     },
 }
 
+/// What the title of a pair names.
+#[derive(Debug)]
+enum PairNames {
+    /// The title of a part, and the start of its copy.
+    MovedCopy { part: String, start: Start },
+    /// A scene, and the title of a part.
+    Scene { scene: Origin, part: String },
+    /// Two files.
+    Files { source: String, target: String },
+}
+
 /// Two clouds, ready to be aligned and drawn. Methods begin with the source where it lies.
 #[derive(Debug)]
 pub struct Pair {
-    /// Title shown to a person.
-    pub title: String,
+    names: PairNames,
     /// The cloud that is moved onto the target.
     pub source: PointCloud,
     /// The cloud that the source is moved onto.
@@ -102,12 +112,14 @@ impl Pair {
                 let (reference, title) = find(&loaded, part)?;
                 let found = inspected.inspection.segmentation.part.as_ref();
                 let found = found.map_err(UserError::of)?;
-                let scene = inspected.origin.shown_title();
-                let title = text!("align-onto", source = scene, target = title);
+                let names = PairNames::Scene {
+                    scene: inspected.origin.clone(),
+                    part: title.to_owned(),
+                };
                 let target = PointCloud::from_points(reference.cloud.points.iter().copied());
                 let prepared = reference.whole().cloned();
                 Ok(Self::new(
-                    title,
+                    names,
                     found.cloud.clone(),
                     target,
                     prepared,
@@ -115,8 +127,10 @@ impl Pair {
                 ))
             }
             PairSource::Files { source, target } => {
-                let [from, to] = [source, target].map(|path| file_name(path));
-                let title = text!("align-onto", source = from, target = to);
+                let names = PairNames::Files {
+                    source: file_name(source),
+                    target: file_name(target),
+                };
                 let mut warnings = Vec::new();
                 let mut source = open(source, &mut warnings)?;
                 let mut target = open(target, &mut warnings)?;
@@ -130,7 +144,7 @@ impl Pair {
                 let prepared = PreparedTarget::new(&target);
                 Ok(Self {
                     warnings,
-                    ..Self::new(title, source, target, prepared, None)
+                    ..Self::new(names, source, target, prepared, None)
                 })
             }
         }
@@ -143,13 +157,31 @@ impl Pair {
         let source = points.iter().map(|p| (moved * p.cast::<f64>()).cast());
         let source = PointCloud::from_points(source);
         let target = PointCloud::from_points(points.iter().copied());
-        let title = text!("align-from", part = title, start = start.title());
+        let names = PairNames::MovedCopy {
+            part: title.to_owned(),
+            start,
+        };
         let prepared = reference.whole().cloned();
-        Self::new(title, source, target, prepared, Some(moved.inverse()))
+        Self::new(names, source, target, prepared, Some(moved.inverse()))
+    }
+
+    /// Title shown to a person.
+    pub fn title(&self) -> String {
+        match &self.names {
+            PairNames::MovedCopy { part, start } => {
+                text!("align-from", part = part, start = start.title())
+            }
+            PairNames::Scene { scene, part } => {
+                text!("align-onto", source = scene.shown_title(), target = part)
+            }
+            PairNames::Files { source, target } => {
+                text!("align-onto", source = source, target = target)
+            }
+        }
     }
 
     fn new(
-        title: String,
+        names: PairNames,
         source: PointCloud,
         target: PointCloud,
         prepared: Result<PreparedTarget, PoseError>,
@@ -164,7 +196,7 @@ impl Pair {
         let sample = finite.into_iter().step_by(step).collect();
         let of_target: Vec<Point3<f32>> = target.finite().map(|(_, p)| *p).collect();
         Self {
-            title,
+            names,
             sample,
             prepared,
             target_tree: KdTree::new(&of_target),

@@ -1,6 +1,6 @@
 //! Below the views: the plot, which is also the scrubber, and playback.
 
-use egui::{Align, Id, Layout, RichText, Sense, Ui, vec2};
+use egui::{Align, Color32, Id, Label, Layout, RichText, Sense, Ui, vec2};
 
 use super::{action::AlignAction, playback::MethodComparison, plot, state::AlignState};
 use crate::app::{
@@ -70,22 +70,34 @@ fn heading(
     align: &AlignState,
     actions: &mut Vec<AlignAction>,
 ) {
+    let name = "E(R, t), m²";
+    let title = shown.pair.title();
     ui.horizontal(|ui| {
-        ui.label(RichText::new("E(R, t), m²").font(font::body_strong()));
-        let title = RichText::new(&shown.pair.title).small();
-        ui.label(title.weak());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if align.playback.button(ui) {
                 actions.push(AlignAction::TogglePlay);
             }
             let (place, last) = (align.place.round() as usize, shown.last_place());
-            let text = if ui.available_width() > 340.0 {
-                text!("align-iteration-hint", place = place, last = last)
-            } else {
-                text!("align-iteration", place = place, last = last)
+            let mut text = text!("align-iteration-hint", place = place, last = last);
+            let width = |text: &str, font| {
+                let painter = ui.painter();
+                let galley = painter.layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+                galley.size().x + space::LARGE
             };
-            let text = RichText::new(text).small();
-            ui.label(text.weak());
+            let texts = [
+                (name, font::body_strong()),
+                (title.as_str(), font::small()),
+                (text.as_str(), font::small()),
+            ];
+            let needed: f32 = texts.map(|(text, font)| width(text, font)).iter().sum();
+            if needed > ui.available_width() {
+                text = text!("align-iteration", place = place, last = last);
+            }
+            ui.label(RichText::new(text).small().weak());
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                ui.label(RichText::new(name).font(font::body_strong()));
+                ui.add(Label::new(RichText::new(&title).small().weak()).truncate());
+            });
         });
     });
 }

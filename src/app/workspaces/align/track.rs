@@ -27,7 +27,7 @@ pub struct MethodRun {
     /// How long the estimation took.
     pub time: Duration,
     /// The track, or why there is none.
-    pub track: Result<Track, UserError>,
+    pub track: Result<Track, PoseError>,
 }
 
 /// The poses that a method went through.
@@ -50,7 +50,7 @@ pub struct Track {
     /// Error of the final pose, where the truth is known.
     pub true_error: Option<rigid::PoseDelta>,
     /// Why the final pose should not be relied upon.
-    pub doubts: Vec<UserError>,
+    pub doubts: Vec<PoseWarning>,
 }
 
 /// Smallest E plotted, square metres: (10 nm)², below the resolution of `f32` points.
@@ -76,14 +76,10 @@ impl MethodRun {
     /// Runs the method on the pair and records its track.
     pub fn of(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
         let (aligned, time) = estimated(method, pair, is_cancelled);
-        let track = match aligned {
-            Ok(estimate) => Ok(Track::of(&estimate, pair)),
-            Err(error) => Err(in_the_window(&error)),
-        };
         Self {
             method,
             time,
-            track,
+            track: aligned.map(|estimate| Track::of(&estimate, pair)),
         }
     }
 }
@@ -103,10 +99,7 @@ impl Track {
             fit: estimate.fit,
             uncertainty: estimate.uncertainty,
             true_error: pair.true_error(&end),
-            doubts: warnings(estimate)
-                .iter()
-                .map(|doubt| doubted(doubt, pair))
-                .collect(),
+            doubts: warnings(estimate),
             e_m2,
             poses,
         }
@@ -202,7 +195,8 @@ fn warnings(estimate: &PoseEstimate) -> Vec<PoseWarning> {
         .collect()
 }
 
-fn doubted(doubt: &PoseWarning, pair: &Pair) -> UserError {
+/// Words a doubt about the pose at the end of a track, with advice.
+pub(super) fn doubted(doubt: &PoseWarning, track: &Track) -> UserError {
     let advice = match doubt {
         PoseWarning::Ambiguous { .. } => text!("align-which-way-round"),
         PoseWarning::Loose { .. } => {
@@ -210,7 +204,7 @@ fn doubted(doubt: &PoseWarning, pair: &Pair) -> UserError {
         }
         PoseWarning::Unsettled { .. } => text!("align-other-method"),
         // Source and target do show the same part.
-        PoseWarning::LittleOverlap { .. } if pair.truth.is_some() => {
+        PoseWarning::LittleOverlap { .. } if track.true_error.is_some() => {
             text!("align-nearer-start")
         }
         PoseWarning::LittleOverlap { .. } => text!("results-little-overlap-advice"),

@@ -9,7 +9,7 @@ use super::{
     playback::MethodComparison,
     series,
     state::AlignState,
-    track::{MethodRun, Track},
+    track::{MethodRun, Track, doubted, in_the_window},
 };
 use crate::{
     app::{
@@ -181,7 +181,8 @@ impl View {
         });
         let body = Rect::from_min_max(pos2(all.left(), split), all.max);
         match run.map(|run| &run.track) {
-            Some(Err(trouble)) => {
+            Some(Err(error)) => {
+                let trouble = in_the_window(error);
                 words(
                     ui,
                     body,
@@ -282,8 +283,8 @@ fn heading(ui: &mut Ui, run: &MethodRun, session: &Session) {
 
 /// Returns the doubts about the final pose, with what to do.
 fn doubts(track: &Track) -> String {
-    let lines = track.doubts.iter();
-    let lines = lines.flat_map(|doubt| [doubt.what.as_str(), doubt.advice.as_str()]);
+    let lines = track.doubts.iter().map(|doubt| doubted(doubt, track));
+    let lines = lines.flat_map(|doubt| [doubt.what, doubt.advice]);
     lines.collect::<Vec<_>>().join("\n")
 }
 

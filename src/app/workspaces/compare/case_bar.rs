@@ -12,7 +12,7 @@ use crate::{
         },
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, labelled, line_mark, shortened, text_button},
+            widgets::{Mark, labelled, line_mark, shortened, show_scroll_bar, text_button},
         },
     },
     cases::{CaseAnswer, CaseOutcome, Truth},
@@ -48,6 +48,7 @@ pub(super) fn ui(
 fn menu(ui: &mut Ui, title: &str, hover: String, content: &mut dyn FnMut(&mut Ui)) {
     ui.menu_button(title, |ui| {
         ui.set_min_width(220.0);
+        show_scroll_bar(ui);
         ScrollArea::vertical().max_height(420.0).show(ui, content);
     })
     .response

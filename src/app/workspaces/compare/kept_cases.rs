@@ -14,6 +14,7 @@ use super::{
 };
 use crate::{
     app::{
+        inspection::library_cache::LibraryView,
         language::text,
         shell::session::Session,
         ui::{
@@ -68,25 +69,32 @@ pub(super) fn ui(
         .auto_shrink(false)
         .show(ui, |ui| match cell.and_then(|cell| run.matrix.cell(cell)) {
             Some(cell) => of_cell(ui, session, run, cell, acts),
-            None => matrix_and_calibration(ui, run, acts),
+            None => matrix_and_calibration(ui, session, run, acts),
         });
 }
 
 /// Draws matrix and score plots side by side, or one below the other in a narrow window.
-fn matrix_and_calibration(ui: &mut Ui, run: &CaseRun, acts: &mut Vec<CompareAction>) {
+fn matrix_and_calibration(
+    ui: &mut Ui,
+    session: &Session,
+    run: &CaseRun,
+    acts: &mut Vec<CompareAction>,
+) {
+    let unloaded = LibraryView::default();
+    let shown = session.library.as_deref().unwrap_or(&unloaded);
     let num_columns = run.matrix.columns.len() as f32;
     let beside = ui.available_width() - score_plots::WIDTH - space::LARGE;
     if beside >= NAMES + 16.0 + NARROWEST * num_columns {
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
                 ui.set_max_width(beside);
-                matrix(ui, &run.matrix, acts);
+                matrix(ui, &run.matrix, shown, acts);
             });
             ui.add_space(space::MEDIUM);
             ui.vertical(|ui| plots(ui, run));
         });
     } else {
-        matrix(ui, &run.matrix, acts);
+        matrix(ui, &run.matrix, shown, acts);
         ui.add_space(space::MEDIUM);
         ui.horizontal_wrapped(|ui| plots(ui, run));
     }
@@ -278,8 +286,12 @@ pub(super) fn case_row(ui: &mut Ui, name: &str, what: &str, acts: &mut Vec<Compa
 }
 
 /// Draws the matrix: truths from top to bottom, answers from left to right.
-fn matrix(ui: &mut Ui, matrix: &Matrix, acts: &mut Vec<CompareAction>) {
+fn matrix(ui: &mut Ui, matrix: &Matrix, shown: &LibraryView, acts: &mut Vec<CompareAction>) {
     let theme = Theme::of(ui);
+    let columns = matrix.columns.iter();
+    let columns: Vec<String> = columns.map(|answer| column_title(answer, shown)).collect();
+    let rows = matrix.rows.iter();
+    let rows: Vec<String> = rows.map(|truth| row_title(truth, shown)).collect();
     let num_columns = matrix.columns.len().max(1);
     let room = ui.available_width() - NAMES - 16.0;
     let width = (room / num_columns as f32).clamp(NARROWEST, 140.0);
@@ -292,7 +304,7 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, acts: &mut Vec<CompareAction>) {
     let (all, _) = ui.allocate_exact_size(size, Sense::hover());
     let painter = ui.painter().clone();
     let origin = all.min + vec2(NAMES, head);
-    for (column, name) in matrix.columns.iter().enumerate() {
+    for (column, name) in columns.iter().enumerate() {
         let middle = origin.x + width * (column as f32 + 0.5);
         let colour = theme.weak_text;
         if width > WIDE {
@@ -306,7 +318,7 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, acts: &mut Vec<CompareAction>) {
             painter.add(Shape::Text(upright));
         }
     }
-    for (row, name) in matrix.rows.iter().enumerate() {
+    for (row, name) in rows.iter().enumerate() {
         let at = pos2(origin.x - 8.0, origin.y + height * (row as f32 + 0.5));
         painter.text(
             at,
@@ -326,7 +338,7 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, acts: &mut Vec<CompareAction>) {
         let response = ui.interact(rect, id, Sense::click());
         let [row, column] = cell.place;
         let name = |names: &[String], place: usize| names.get(place).cloned().unwrap_or_default();
-        let (truth, answer) = (name(&matrix.rows, row), name(&matrix.columns, column));
+        let (truth, answer) = (name(&rows, row), name(&columns, column));
         let num = cell.results.len();
         let (colour, word) = match cell.judgement {
             CaseOutcome::Right => (theme.accepted, text!("compare-cell-right")),

@@ -1,4 +1,4 @@
-//! The confusion matrix as it is drawn: names for people, counts and judgements, prepared once.
+//! The confusion matrix as it is drawn: counts and judgements, prepared once, and names for people.
 
 use crate::{
     app::{inspection::library_cache::LibraryView, language::text, shell::truth_menu},
@@ -8,10 +8,10 @@ use crate::{
 /// The matrix, row by row.
 #[derive(Debug, Default)]
 pub struct Matrix {
-    /// Names of the rows: the truths.
-    pub rows: Vec<String>,
-    /// Names of the columns: the answers.
-    pub columns: Vec<String>,
+    /// The truths.
+    pub rows: Vec<Truth>,
+    /// The answers.
+    pub columns: Vec<CaseAnswer>,
     /// Cells that are not empty.
     pub cells: Vec<MatrixCell>,
     /// Counts over all cells.
@@ -32,8 +32,8 @@ pub struct MatrixCell {
 }
 
 impl Matrix {
-    /// Names rows and columns by the titles of this library.
-    pub fn of(confusion: Confusion, shown: &LibraryView) -> Self {
+    /// Judges the cells.
+    pub fn of(confusion: Confusion) -> Self {
         let Confusion {
             rows,
             columns,
@@ -52,11 +52,8 @@ impl Matrix {
         });
         Self {
             cells: cells.collect(),
-            rows: rows.iter().map(|row| row_title(row, shown)).collect(),
-            columns: columns
-                .iter()
-                .map(|column| column_title(column, shown))
-                .collect(),
+            rows,
+            columns,
             tally,
         }
     }

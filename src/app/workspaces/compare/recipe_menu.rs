@@ -13,7 +13,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, space},
-            widgets::{button_width, labelled, shortened, text_button},
+            widgets::{button_width, labelled, shortened, show_scroll_bar, text_button},
         },
     },
     error::Advice as _,
@@ -26,6 +26,9 @@ use crate::{
 
 /// A longer name is shortened to this many letters.
 const MAX_LETTERS: usize = 20;
+
+/// Height of the list of recipes in the menu, logical pixels: the entries below it stay in sight.
+const LIST: f32 = 230.0;
 
 /// Least width of the field for a name, logical pixels.
 const NARROWEST_NAME: f32 = 90.0;
@@ -60,62 +63,47 @@ fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<C
     let list = &compare.recipes.list;
     let response = ui
         .menu_button(text, |ui| {
-            let built_in = text!("compare-built-in-hint");
-            let names = std::iter::once((BUILT_IN, built_in.as_str()));
-            let kept = list.recipes.iter();
-            for (name, notes) in
-                names.chain(kept.map(|file| (file.name.as_str(), file.notes.as_str())))
-            {
-                let default = if list.default == name {
-                    format!(" · {}", text!("compare-is-default"))
-                } else {
-                    String::new()
-                };
-                let text = format!("{}{default}", shortened(name, 32));
-                let entry = ui.selectable_label(label.name == name, text);
-                let entry = if notes.is_empty() {
-                    entry
-                } else {
-                    entry.on_hover_text(notes)
-                };
-                if entry.clicked() {
-                    acts.push(CompareAction::Recipe(RecipeAction::Open(name.into())));
-                    ui.close();
-                }
-            }
+            show_scroll_bar(ui);
+            ScrollArea::vertical()
+                .max_height(LIST)
+                .show(ui, |ui| entries(ui, compare, label, acts));
             ui.separator();
             let is_own = label.name == BUILT_IN;
             let is_kept = compare.recipes.has(&label.name);
             let is_default = list.default == label.name;
-            for (text, can, action) in [
+            // Why an entry is disabled, if it is.
+            let built_in = is_own.then(|| text!("compare-built-in-stays"));
+            let not_kept = (!is_kept).then(|| text!("compare-not-kept"));
+            let unchanged = (!label.is_changed).then(|| text!("compare-nothing-to-save"));
+            let is_set = is_default.then(|| text!("compare-default-already"));
+            let fixed = built_in.clone().or_else(|| not_kept.clone());
+            for (text, why_not, action) in [
                 (
                     text!("compare-save"),
-                    label.is_changed && !is_own,
+                    built_in.or(unchanged),
                     RecipeAction::Save,
                 ),
                 (
                     text!("compare-save-as"),
-                    true,
+                    None,
                     RecipeAction::Name(NamingPurpose::SaveAs),
                 ),
-                (text!("compare-duplicate"), true, RecipeAction::Duplicate),
+                (text!("compare-duplicate"), None, RecipeAction::Duplicate),
                 (
                     text!("compare-rename"),
-                    is_kept && !is_own,
+                    fixed.clone(),
                     RecipeAction::Name(NamingPurpose::Rename),
                 ),
-                (
-                    text!("compare-delete"),
-                    is_kept && !is_own,
-                    RecipeAction::Delete,
-                ),
+                (text!("compare-delete"), fixed, RecipeAction::Delete),
                 (
                     text!("compare-set-default"),
-                    is_kept && !is_default,
+                    not_kept.or(is_set),
                     RecipeAction::MakeDefault,
                 ),
             ] {
-                if ui.add_enabled(can, Button::new(text)).clicked() {
+                let entry = ui.add_enabled(why_not.is_none(), Button::new(text));
+                let entry = entry.on_disabled_hover_text(why_not.unwrap_or_default());
+                if entry.clicked() {
                     acts.push(CompareAction::Recipe(action));
                     ui.close();
                 }
@@ -134,6 +122,37 @@ fn menu(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec<C
         .response;
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &full));
     response.on_hover_text(full);
+}
+
+/// Draws the built-in recipe and the saved ones.
+fn entries(
+    ui: &mut Ui,
+    compare: &CompareState,
+    label: &RecipeLabel,
+    acts: &mut Vec<CompareAction>,
+) {
+    let list = &compare.recipes.list;
+    let built_in = text!("compare-built-in-hint");
+    let names = std::iter::once((BUILT_IN, built_in.as_str()));
+    let kept = list.recipes.iter();
+    for (name, notes) in names.chain(kept.map(|file| (file.name.as_str(), file.notes.as_str()))) {
+        let default = if list.default == name {
+            format!(" · {}", text!("compare-is-default"))
+        } else {
+            String::new()
+        };
+        let text = format!("{}{default}", shortened(name, 32));
+        let entry = ui.selectable_label(label.name == name, text);
+        let entry = if notes.is_empty() {
+            entry
+        } else {
+            entry.on_hover_text(notes)
+        };
+        if entry.clicked() {
+            acts.push(CompareAction::Recipe(RecipeAction::Open(name.into())));
+            ui.close();
+        }
+    }
 }
 
 /// The name of a recipe, marked if its parameters differ from its file.

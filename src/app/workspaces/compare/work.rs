@@ -218,7 +218,7 @@ fn run_cases(
         let confusion = Confusion::of(results, &order);
         Arc::new(CaseRun {
             recipe: Arc::clone(recipe),
-            matrix: Matrix::of(confusion, &loaded.shown),
+            matrix: Matrix::of(confusion),
             calibration: Calibration::of(results),
             trade_off: TradeOff::of(results),
             results: results.to_vec(),

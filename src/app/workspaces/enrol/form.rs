@@ -21,7 +21,7 @@ use crate::{
         shots::summary,
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::{Mark, fitted, grouped, shortened, text_button},
+            widgets::{Mark, fitted, grouped, shortened, show_scroll_bar, text_button},
         },
     },
     library::PartName,
@@ -208,6 +208,7 @@ fn reference_menu(ui: &mut Ui, draft: &Draft, session: &Session, actions: &mut V
             .iter()
             .filter(|part| part.reference_of().is_none() && part.name.as_str() != draft.form.name);
         let choices = std::iter::once(None).chain(own.map(|part| Some(&part.name)));
+        show_scroll_bar(ui);
         ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
             for of in choices {
                 let title = title(of);

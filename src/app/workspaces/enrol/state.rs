@@ -316,7 +316,11 @@ impl EnrolState {
                 }
             }
             Event::Escape => self.shape = None,
-            Event::Inspected { .. } | Event::Left(_) | Event::PosesWanted(_) | Event::Export => {}
+            Event::Inspected { .. }
+            | Event::Left(_)
+            | Event::TracedLate(..)
+            | Event::PosesWanted(_)
+            | Event::Export => {}
         }
     }
 

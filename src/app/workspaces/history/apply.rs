@@ -25,7 +25,7 @@ use crate::{
         task::TaskEvent,
         user_error::UserError,
     },
-    history::{HistoryEvent, NewEntry, PruneResult, Retention, SetAside},
+    history::{HistoryEvent, HungId, NewEntry, PruneResult, Retention, SetAside, Traceability},
     library::Truth,
 };
 
@@ -111,6 +111,8 @@ pub enum Direction {
 pub enum HistoryJob {
     /// Write an inspection; the ticket is returned with its number.
     Add(u64, Box<NewEntry>),
+    /// Add to the rows of a part what became known after its verdict.
+    Trace(HungId, Traceability),
     /// Write a remark.
     Remark(i64, String),
     /// Write a true label.
@@ -217,6 +219,10 @@ impl HistoryState {
                 ReinspectionPurpose::Past => self.remade(inspected, cx),
             },
             Event::Left(entry) => self.keep((**entry).clone(), None),
+            Event::TracedLate(hung, trace) => {
+                let job = HistoryJob::Trace(hung.clone(), trace.clone());
+                self.jobs.push(job);
+            }
             Event::EngineerIn => {
                 if let Some(action) = self.held.take() {
                     self.apply(action, cx);

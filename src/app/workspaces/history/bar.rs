@@ -11,7 +11,7 @@ use crate::app::{
     shell::session::Session,
     ui::{
         theme::{Theme, space},
-        widgets::{labelled, shortened, text_button},
+        widgets::{labelled, shortened, show_scroll_bar, text_button},
     },
 };
 
@@ -110,6 +110,7 @@ fn menu<T: PartialEq + Clone>(
     let title = format!("{label} · {} ▼", shortened(now, 20));
     ui.menu_button(&title, |ui| {
         ui.set_min_width(160.0);
+        show_scroll_bar(ui);
         ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
             for (choice, title) in choices {
                 let response = ui.selectable_label(*chosen == choice, &title);

@@ -21,7 +21,8 @@ use crate::{
         ui::{
             theme::{Theme, font, space},
             widgets::{
-                Mark, fitted, heading, labelled, line_mark, path_row, row, shortened, texture,
+                Mark, fitted, heading, labelled, line_mark, path_row, row, sentence, shortened,
+                texture,
             },
         },
     },
@@ -33,6 +34,8 @@ use crate::{
 pub(super) struct Details {
     picture: Option<(i64, PictureOrigin, TextureHandle)>,
     pub(super) remark: label::Remark,
+    /// Number of the part's inspection that was drawn last.
+    drawn: Option<i64>,
 }
 
 /// Source of the picture.
@@ -57,12 +60,18 @@ impl Details {
         };
         self.make(ui, history, past);
         let record = &past.record;
+        // Remark and label belong to the inspection that stands for the part.
+        let of_part = past.part.first().unwrap_or(record);
+        let number = of_part.summary.number;
+        let mut area = ScrollArea::vertical().auto_shrink(false);
+        // Another part starts at the top; other inspections of the same part keep the place.
+        if self.drawn.replace(number) != Some(number) {
+            area = area.vertical_scroll_offset(0.0);
+        }
         // The bar is beside the figures, not over them.
         ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        area.show(ui, |ui| {
             verdict(ui, record, session);
-            // Remark and label belong to the inspection that stands for the part.
-            let of_part = past.part.first().unwrap_or(record);
             self.remark.ui(ui, &of_part.summary, session, actions);
             self.picture(ui, record);
             ui.add_space(space::MEDIUM);
@@ -147,7 +156,7 @@ fn verdict(ui: &mut Ui, record: &Record, session: &Session) {
         None => name.to_owned(),
     };
     if let Some([reason, advice]) = stored_refusal(record, title_of) {
-        ui.label(reason);
+        ui.label(sentence(&reason));
         let advice = RichText::new(advice).font(font::body_strong());
         ui.label(advice.color(theme.warning));
     }
@@ -327,7 +336,6 @@ fn buttons(ui: &mut Ui, history: &HistoryState, record: &Record, actions: &mut V
                 .inner;
             // `labelled` describes every button as enabled.
             pressed.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, label));
-            let pressed = pressed.on_disabled_hover_text(no_frame.as_deref().unwrap_or_default());
             pressed.on_hover_text(says).clicked()
         };
         if press(open, &label, text!("history-open-hint")) {
@@ -340,4 +348,8 @@ fn buttons(ui: &mut Ui, history: &HistoryState, record: &Record, actions: &mut V
             actions.push(HistoryAction::InspectAgain(number));
         }
     });
+    // In sight: nothing hovers over a touch screen.
+    if let Some(why) = no_frame {
+        ui.label(RichText::new(why).small().weak());
+    }
 }

@@ -163,6 +163,10 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let Verdict::Part { score, margin, .. } = inspected.inspection.verdict else {
         return;
     };
+    // A mirror image is called the image of a part that need not score more than the next one.
+    let is_mirrored = inspected.inspection.verdict.is_mirrored();
+    let next = inspected.figures.candidates.get(1);
+    let next = next.filter(|_| !is_mirrored);
     ui.add_space(space::MEDIUM);
     row(ui, &text!("inspect-score"), &format!("{score:.2}"));
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
@@ -196,7 +200,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
                 score = format!("{:.2}", inspected.recipe.accept.min_score)
             )));
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                if let Some(next) = inspected.figures.candidates.get(1) {
+                if let Some(next) = next {
                     let next = caption(text!(
                         "inspect-next",
                         part = &next.title,
@@ -207,7 +211,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
             });
         });
     });
-    if inspected.figures.candidates.len() > 1 {
+    if next.is_some() {
         let lead = ui.label(caption(text!(
             "inspect-margin",
             margin = format!("{margin:.2}")

@@ -44,7 +44,9 @@ pub(super) fn ui(
             let is_chosen = view.style.colouring == colouring;
             let is_there = colouring != Colouring::Deviation || figure.has_deviations;
             let choice = Button::selectable(is_chosen, colouring.title());
-            if ui.add_enabled(is_there, choice).clicked() {
+            let choice = ui.add_enabled(is_there, choice);
+            let choice = choice.on_disabled_hover_text(text!("inspect-needs-pose"));
+            if choice.clicked() {
                 actions.push(InspectAction::Colour(colouring));
                 ui.close();
             }
@@ -54,10 +56,8 @@ pub(super) fn ui(
         for part in ViewPart::ALL {
             let mut is_shown = state.parts.contains(&part);
             let choice = egui::Checkbox::new(&mut is_shown, part.title());
-            if ui
-                .add_enabled(is_there(session, inspected, part), choice)
-                .clicked()
-            {
+            let choice = ui.add_enabled(is_there(session, inspected, part), choice);
+            if choice.on_disabled_hover_text(needed(part)).clicked() {
                 actions.push(InspectAction::Toggle(part));
             }
         }
@@ -126,6 +126,18 @@ fn is_there(session: &Session, inspected: &Inspected, part: ViewPart) -> bool {
         ViewPart::SprayPath => figure.spray.is_some(),
         ViewPart::RobotBase => session.robot_of(inspected).is_some(),
         ViewPart::ShotCameras | ViewPart::Unseen => inspected.scan.is_some(),
+    }
+}
+
+/// Describes what has this to show.
+fn needed(part: ViewPart) -> String {
+    match part {
+        ViewPart::Axes | ViewPart::Outline => text!("inspect-needs-pose"),
+        ViewPart::Camera => text!("inspect-needs-camera"),
+        ViewPart::NozzleMiddle | ViewPart::NozzleWorst => text!("inspect-needs-no-path"),
+        ViewPart::SprayPath => text!("inspect-needs-path"),
+        ViewPart::RobotBase => text!("inspect-needs-calibration"),
+        ViewPart::ShotCameras | ViewPart::Unseen => text!("inspect-needs-scan"),
     }
 }
 

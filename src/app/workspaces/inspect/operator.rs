@@ -30,7 +30,7 @@ const BANNER: [f32; 2] = [190.0, 156.0];
 const COLUMN: [f32; 2] = [400.0, 320.0];
 /// Height of a line of the list of parts, logical pixels.
 const LINE: f32 = 40.0;
-/// Heights of the name and of a serial number below it, logical pixels.
+/// Heights of the name and of a line below it, logical pixels.
 const TWO_LINES: [f32; 2] = [28.0, 26.0];
 /// Longest reason or advice that fits in the large type, characters.
 const LONG: usize = 60;
@@ -448,10 +448,15 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
             };
             let at = row.at.to_zoned(jiff::tz::TimeZone::system());
             let at = at.strftime("%H:%M").to_string();
-            let serial = &row.trace.serial;
-            let [name_line, serial_line] = TWO_LINES;
+            // Beside the name there is no room for what a mirror image is of, nor for the 17 letters of a vehicle's number.
+            let mirrored = row.mirror_of();
+            let mirrored = mirrored.map(|part| text!("results-title-mirrored", part = part));
+            let serial = Some(row.trace.serial.clone()).filter(|serial| !serial.is_empty());
+            let below = [(mirrored, font::body()), (serial, font::far_list())];
+            let [name_line, line_below] = TWO_LINES;
             let line = ui.horizontal(|ui| {
-                ui.set_min_height(if serial.is_empty() { LINE } else { name_line });
+                let is_alone = below.iter().all(|(text, _)| text.is_none());
+                ui.set_min_height(if is_alone { LINE } else { name_line });
                 line_mark(ui, 20.0, 9.0, sign);
                 ui.add_space(space::SMALL);
                 let from = ui.cursor().left();
@@ -466,20 +471,21 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
                 from
             });
             let mut rect = line.response.rect;
-            if !serial.is_empty() {
-                // Beside the name there is no room for the 17 letters of a vehicle's number.
-                let below = ui.horizontal(|ui| {
-                    ui.set_min_height(serial_line);
+            for (text, font) in below {
+                let Some(text) = text else {
+                    continue;
+                };
+                let drawn = ui.horizontal(|ui| {
+                    ui.set_min_height(line_below);
                     ui.add_space(line.inner - ui.cursor().left());
-                    let font = font::far_list();
-                    let text = fitted_middle(ui.painter(), serial, &font, ui.available_width());
-                    let is_cut = text != *serial;
-                    let label = ui.label(RichText::new(text).font(font));
+                    let fitted = fitted_middle(ui.painter(), &text, &font, ui.available_width());
+                    let is_cut = fitted != text;
+                    let label = ui.label(RichText::new(fitted).font(font));
                     if is_cut {
-                        label.on_hover_text(serial.as_str());
+                        label.on_hover_text(text);
                     }
                 });
-                rect = rect.union(below.response.rect);
+                rect = rect.union(drawn.response.rect);
             }
             ui.painter()
                 .hline(rect.x_range(), rect.bottom(), theme.edge_stroke());

@@ -6,7 +6,10 @@ use super::action::InspectAction;
 use crate::{
     app::{
         inspection::inspected::Inspected,
-        language::text,
+        language::{
+            robot::{calibration_name, convention_meaning, convention_title},
+            text,
+        },
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
@@ -34,7 +37,7 @@ pub(super) fn numbered(session: &Session, inspected: &Inspected) -> Option<Numbe
     let (name, frame, transform) = match session.robot_of(inspected) {
         Some(robot) => (
             "robot_from_part",
-            text!("inspect-robot-frame", name = &robot.name),
+            text!("inspect-robot-frame", name = calibration_name(&robot.name)),
             robot.robot_from_part(&camera_from_part),
         ),
         None => (
@@ -62,7 +65,8 @@ fn accepted_pose(inspected: &Inspected) -> Option<RigidTransform> {
 /// Formats the pose for the clipboard: a title, a line with names and units, then the bare numbers.
 pub(super) fn clipboard_text(numbered: &NumberedPose) -> String {
     let NumberedPose { name, frame, pose } = numbered;
-    let title = pose.convention.title();
+    let title = convention_title(pose.convention);
+    let meaning = convention_meaning(pose.convention);
     let rounded: Vec<String> = pose.values.iter().map(RobotValue::rounded).collect();
     let numbers = match pose.convention {
         Convention::Matrix => {
@@ -71,7 +75,7 @@ pub(super) fn clipboard_text(numbered: &NumberedPose) -> String {
         }
         _ => format!("{}\n{}", pose.line(), rounded.join(" ")),
     };
-    format!("{name} · {title} · {frame} · {}\n{numbers}", pose.meaning)
+    format!("{name} · {title} · {frame} · {meaning}\n{numbers}")
 }
 
 /// Draws the section; nothing unless the part is accepted.
@@ -122,7 +126,7 @@ pub(super) fn ui(
             row(ui, value.name, text.trim_end());
         }
     }
-    ui.label(small(pose.meaning));
+    ui.label(small(&convention_meaning(pose.convention)));
     if let Some(note) = &pose.gimbal_note {
         ui.label(RichText::new(note).color(theme.warning));
     }
@@ -130,11 +134,12 @@ pub(super) fn ui(
 
 fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<InspectAction>) {
     let mut convention = chosen;
-    let label = text!("inspect-convention-of", name = chosen.title());
+    let title = convention_title(chosen);
+    let label = text!("inspect-convention-of", name = &title);
     let width = ui.available_width();
-    drop_down(ui, &label, chosen.title(), width, |ui| {
+    drop_down(ui, &label, &title, width, |ui| {
         for other in Convention::ALL {
-            ui.selectable_value(&mut convention, other, other.title());
+            ui.selectable_value(&mut convention, other, convention_title(other));
         }
     })
     .on_hover_text(text!("inspect-convention-says"));

@@ -15,7 +15,7 @@ use crate::{
             report_files,
             scan_choice::{ScanOrder, ShotChoice},
         },
-        language::text,
+        language::{robot::convention_title, text},
         shell::{
             context::ShellContext,
             file_dialog::FileDialog,
@@ -244,7 +244,7 @@ impl InspectState {
             }
             Event::Export => self.apply(InspectAction::Ask(InspectFile::Report), cx),
             Event::Escape => self.enlarged = None,
-            Event::Left(_) | Event::EngineerIn | Event::Undo => {}
+            Event::Left(_) | Event::TracedLate(..) | Event::EngineerIn | Event::Undo => {}
         }
     }
 
@@ -378,7 +378,7 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
             text!("inspect-no-pose-advice"),
         ));
     };
-    let title = numbered.pose.convention.title();
+    let title = convention_title(numbered.pose.convention);
     let what = text!(
         "inspect-pose-copied",
         name = numbered.name,

@@ -4,7 +4,9 @@ use super::*;
 use crate::{
     app::{
         inspection::{camera::Camera, library_cache::LibraryCache},
+        language::Language,
         shell::context::TestShell,
+        workspaces::align::track::in_the_window,
     },
     geometry::{cloud::PointCloud, rigid::RigidTransform},
     stages::pose::PoseMethod,
@@ -294,7 +296,7 @@ fn two_files_far_from_the_origin_are_laid_over_each_other() {
     }
     bench.run(AlignAction::Run);
     let shown = bench.align.shown.as_ref().expect("a result");
-    assert_eq!(shown.pair.title, "source.ply onto target.ply");
+    assert_eq!(shown.pair.title(), "source.ply onto target.ply");
     let track = |method| {
         let mut tracks = shown.tracks();
         tracks
@@ -309,6 +311,19 @@ fn two_files_far_from_the_origin_are_laid_over_each_other() {
     assert!(first > 1e-2, "ICP begins as the files lie: {first}");
     let track = track(PoseMethod::Global);
     assert_eq!(track.true_error, None);
+}
+
+#[test]
+fn what_was_aligned_is_named_in_the_language_of_the_window() {
+    let bench = Bench::with_library();
+    let loaded = bench.shell.services.library_cache.get();
+    let reference = &loaded.library.references[0];
+    let pair = Pair::moved_copy(reference, "Fender, left", Start::Random(7));
+    assert_eq!(pair.title(), "Fender, left from random start 7");
+    Language::German.make_current();
+    let title = pair.title();
+    Language::English.make_current();
+    assert_eq!(title, "Fender, left · zufälliger Start 7");
 }
 
 #[test]
@@ -327,7 +342,7 @@ fn poor_pairs_are_refused_in_words_in_each_methods_place() {
     let shown = bench.align.shown.as_ref().expect("a result");
     assert_eq!(shown.runs.len(), PoseMethod::ALL.len());
     for run in &shown.runs {
-        let trouble = run.track.as_ref().expect_err("too few points");
+        let trouble = in_the_window(run.track.as_ref().expect_err("too few points"));
         assert!(trouble.what.contains("4 points") && !trouble.advice.is_empty());
         assert!(!trouble.advice.contains("--"), "{}", trouble.advice);
     }
