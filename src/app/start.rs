@@ -58,7 +58,11 @@ impl Advice for WindowError {
                 "Start Partsight again; no enrolled part and no written file is lost".into()
             }
             Self::NoAdapter { .. } => {
-                "Install a Vulkan driver: on Debian and Ubuntu the package mesa-vulkan-drivers".into()
+                if cfg!(windows) {
+                    "Install the driver of the graphics card from its maker. If it has one, set the environment variable WGPU_BACKEND to vulkan or gl and start Partsight again".into()
+                } else {
+                    "Install a Vulkan driver: on Debian and Ubuntu the package mesa-vulkan-drivers".into()
+                }
             }
         }
     }

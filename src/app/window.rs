@@ -20,7 +20,7 @@ use super::{
         notices, operator_bars, path_entry, rail,
         robot::RobotCell,
         roles::{self, RoleAction},
-        scanner,
+        scanner::{self, KeyTarget},
         session::{Source, ThemeChoice, UserRole, WorkspaceKind},
         settings,
         settings_file::Memory,
@@ -418,16 +418,17 @@ impl Window {
         self.state.session.language.make_current();
         let ctx = ui.ctx().clone();
         let mut actions = Vec::new();
-        if self.state.session.role == UserRole::Operator
-            && !self.is_behind_dialog(&ctx)
-            && let Some(code) = scanner::listen(&ctx)
-        {
-            self.state.session.trace.set_serial(&code);
-            // Other pages do not show the field.
-            if !self.state.session.is_operator_view() {
-                let entered = text!("operator-serial-entered", serial = code);
-                actions.push(Action::Notify(Notice::done(entered)));
-            }
+        let key_target = if self.is_behind_dialog(&ctx) {
+            KeyTarget::Dialog
+        } else {
+            KeyTarget::Page
+        };
+        // A PIN is typed as quickly as a code.
+        let may_be_scan =
+            self.state.session.role == UserRole::Operator && self.state.roles.asked.is_none();
+        if may_be_scan && let Some(code) = scanner::listen(&ctx, key_target) {
+            let notice = self.state.session.enter_scanned(&code);
+            actions.extend(notice.map(Action::Notify));
         }
         let work = self.work();
         if self.state.session.is_operator_view() {

@@ -18,7 +18,7 @@ use crate::{
         RobotFrame, WrittenPose,
         arm::{Arm, ArmError, Obstacles, PathCheck, PlacedArm, Rail},
         program::{Program, ProgramFormat, ProgramSettings, check_reach, program_points},
-        spray::CarriedPath,
+        spray::{BandStatus, CarriedPath, MOST_TILT},
     },
     units::{Metres, Radians},
 };
@@ -77,7 +77,7 @@ pub(super) struct CellChoice {
     /// Minimum distance of gun and arm from part, boxes and floor, 0 to 1000 mm
     #[arg(long, value_name = "MM", default_value_t = 20.0, value_parser = |text: &str| within(text, &(0.0..=1000.0)), allow_negative_numbers = true, requires = "arm")]
     clearance: f64,
-    /// Radius of the gun around the line from the flange to the nozzle's mouth, 1 to 1000 mm
+    /// Radius of the gun around the line from the flange to the nozzle's mouth, from 1 mm to half the gun's length
     #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = |text: &str| within(text, &(1.0..=1000.0)), allow_negative_numbers = true, requires = "arm")]
     gun_radius: f64,
     /// Greatest tilt of the nozzle about the point that it aims at, where the arm cannot follow the path as it is, 0 to 30
@@ -261,6 +261,11 @@ impl ProgramFile {
                 "  it calls {num_parts} programs that lie beside it; the controller needs all of them"
             ));
         }
+        let base = reach.as_ref().map(|(arm, _)| arm.robot_from_base);
+        if base.is_some_and(|base| base != RigidTransform::identity()) {
+            console.note(&"warning: the arm was checked with its base elsewhere than the frame of the calibration, in which all poses of the program are");
+            console.note(&"  to do: If the controller's frame moves with the base, calibrate the cell again and leave --base out");
+        }
         for doubt in &doubts {
             console.note(&format_args!("warning: written by --force: {doubt}"));
         }
@@ -277,6 +282,13 @@ pub(super) fn against_seen(carried: &CarriedPath) -> String {
         "of {num_seen} that aim at what was seen of the part, {} are within the band",
         carried.num_inside()
     );
+    let num_flat = carried.count(BandStatus::TooFlat);
+    if num_flat > 0 {
+        words = format!(
+            "{words}, {num_flat} meet it at more than {:.0}°, as strokes do that lean towards flanks",
+            MOST_TILT.degrees()
+        );
+    }
     if 4 * num_seen < num {
         let rest = num - num_seen;
         words = format!("{words}. Not checked against what was seen: the other {rest}");

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use nalgebra::Point3;
 
-use super::entry::{Record, StoredVerdict};
+use super::entry::{Record, StoredRefusal, StoredVerdict};
 use crate::{
     geometry::rigid::{PoseDelta, RigidTransform, pose_error},
-    pipeline::{Inspection, Recipe, Verdict, parameters::PARAMETERS},
-    stages::pose::PoseEstimate,
+    pipeline::{Inspection, Recipe, RefusalKind, Verdict, parameters::PARAMETERS},
+    stages::pose::{PoseEstimate, Uncertainty},
 };
 
 /// The results of an inspection that are compared.
@@ -20,8 +20,12 @@ pub struct InspectionSummary {
     pub nearest: Option<String>,
     /// Score and margin of the best guess.
     pub score: Option<[f64; 2]>,
+    /// Why it was not accepted, if that is known.
+    pub reason: Option<RefusalKind>,
     /// The pose, if there is one.
     pub camera_from_part: Option<RigidTransform>,
+    /// How far off the pose may be; `None` if that is not known, or the pose is unconstrained.
+    pub bounds: Option<PoseDelta>,
     /// Identity of the recipe.
     pub recipe: String,
     /// All parameters, if this program can read them.
@@ -49,6 +53,8 @@ impl InspectionSummary {
             verdict: StoredVerdict::from(&inspection.verdict),
             nearest,
             score,
+            reason: inspection.verdict.refusal().map(|why| why.kind()),
+            bounds: pose.and_then(bounds_of),
             camera_from_part: pose.map(PoseEstimate::camera_from_part),
             recipe: recipe.identity(),
             parameters: Some(Arc::clone(recipe)),
@@ -58,12 +64,23 @@ impl InspectionSummary {
     }
 }
 
+/// Bounds of a pose, unless it is unconstrained.
+fn bounds_of(pose: &PoseEstimate) -> Option<PoseDelta> {
+    let bounds = pose.uncertainty.filter(Uncertainty::is_held)?;
+    Some(PoseDelta {
+        rotation: bounds.turn,
+        shift: bounds.shift,
+    })
+}
+
 impl From<&Record> for InspectionSummary {
     fn from(Record { summary, detail }: &Record) -> Self {
         Self {
             verdict: summary.verdict,
             nearest: detail.nearest.clone(),
             score: summary.score,
+            reason: detail.refusal.as_ref().and_then(StoredRefusal::kind),
+            bounds: detail.pose_bounds(),
             camera_from_part: detail.camera_from_part,
             recipe: detail.recipe_identity.clone(),
             parameters: detail.recipe.clone(),
@@ -137,6 +154,29 @@ impl Differences {
         before.verdict == now.verdict && before.nearest == now.nearest
     }
 
+    /// Returns whether verdict, best guess and reason are the same, and the poses as far as their bounds tell. The pose of a
+    /// part seen in Live is a mean over frames, so that of one of its frames differs from it by noise.
+    pub fn has_same_outcome(&self) -> bool {
+        let reasons = self.before.reason.zip(self.now.reason);
+        let has_reason = reasons.is_none_or(|(before, now)| before == now);
+        self.has_same_result() && has_reason && self.has_same_pose()
+    }
+
+    /// Returns whether neither or both have a pose, and the poses do not differ by more than the bounds of both together.
+    pub fn has_same_pose(&self) -> bool {
+        let Self { before, now, pose } = self;
+        let Some(off) = pose else {
+            return before.camera_from_part.is_some() == now.camera_from_part.is_some();
+        };
+        // An earlier version stored no bounds: those of the other pose count for both.
+        let (shift, rotation) = match (before.bounds, now.bounds) {
+            (Some(a), Some(b)) => (a.shift.0 + b.shift.0, a.rotation.0 + b.rotation.0),
+            (Some(one), None) | (None, Some(one)) => (2.0 * one.shift.0, 2.0 * one.rotation.0),
+            (None, None) => (SAME_POSE, SAME_POSE),
+        };
+        off.shift.0 <= shift && off.rotation.0 <= rotation
+    }
+
     /// Returns the parameters whose values differ.
     pub fn changed_parameters(&self) -> Vec<ParameterChange> {
         let (Some(before), Some(now)) = (&self.before.parameters, &self.now.parameters) else {
@@ -169,13 +209,18 @@ impl Differences {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::rigid::from_euler_zyx;
+    use crate::{
+        geometry::rigid::from_euler_zyx,
+        units::{Metres, Radians},
+    };
 
     fn finding(shift: f64) -> InspectionSummary {
         InspectionSummary {
             verdict: StoredVerdict::Accepted,
             nearest: Some("fender".into()),
             score: Some([0.97, 0.4]),
+            reason: None,
+            bounds: None,
             camera_from_part: Some(from_euler_zyx([0.0, 0.0, 0.0, shift, 0.0, 1.4])),
             recipe: "a".into(),
             parameters: Some(Arc::default()),
@@ -192,6 +237,33 @@ mod tests {
         assert!(!moved.is_same() && moved.has_same_result());
         let off = moved.pose.expect("both have one");
         assert!((off.shift.0 - 0.003).abs() < 1e-12 && off.rotation.0 < 1e-9);
+    }
+
+    #[test]
+    fn a_pose_within_its_bounds_is_the_same_outcome_and_another_reason_is_not() {
+        let bounded = |shift| InspectionSummary {
+            bounds: Some(PoseDelta {
+                rotation: Radians(0.002),
+                shift: Metres(0.0004),
+            }),
+            ..finding(shift)
+        };
+        let near = Differences::between(bounded(0.0), bounded(0.0005), None);
+        assert!(near.has_same_outcome() && !near.is_same());
+        let far = Differences::between(bounded(0.0), bounded(0.001), None);
+        assert!(!far.has_same_outcome() && far.has_same_result());
+        let unbounded = Differences::between(finding(0.0), bounded(0.0005), None);
+        assert!(unbounded.has_same_outcome());
+        let refused = |reason| InspectionSummary {
+            verdict: StoredVerdict::Rejected,
+            reason,
+            ..bounded(0.0)
+        };
+        let [low, piece] = [RefusalKind::LowScore, RefusalKind::Piece].map(Some);
+        for (now, is_same) in [(low, true), (piece, false), (None, true)] {
+            let found = Differences::between(refused(low), refused(now), None);
+            assert_eq!(found.has_same_outcome(), is_same, "{now:?}");
+        }
     }
 
     #[test]

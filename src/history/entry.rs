@@ -11,11 +11,12 @@ use jiff::Timestamp;
 use super::{frames::FrameRecord, hung::HungId, traceability::Traceability};
 use crate::{
     error::Advice as _,
-    geometry::rigid::{RigidTransform, row_major},
+    geometry::rigid::{PoseDelta, RigidTransform, row_major},
     library::Truth,
     pipeline::{Inspection, NamedRecipe, Recipe, RecipeLabel, Refusal, RefusalKind, Verdict},
     scan::Shot,
     stages::{pose::PoseEstimate, scene::SceneCloud},
+    units::{Metres, Radians},
 };
 
 /// Verdict of an inspection.
@@ -376,6 +377,25 @@ impl InspectionDetail {
                 is_changed: false,
             }),
             parameters,
+        })
+    }
+
+    /// Returns how far off the pose may be; `None` if the line has no bounds or the pose is unconstrained.
+    pub(super) fn pose_bounds(&self) -> Option<PoseDelta> {
+        #[derive(serde::Deserialize)]
+        struct Posed {
+            pose: Option<Bounded>,
+        }
+        #[derive(serde::Deserialize)]
+        struct Bounded {
+            shift_bound_m: Option<f64>,
+            turn_bound_rad: Option<f64>,
+        }
+        let line = serde_json::from_str::<Posed>(&self.line).ok()?;
+        let pose = line.pose?;
+        Some(PoseDelta {
+            rotation: Radians(pose.turn_bound_rad?),
+            shift: Metres(pose.shift_bound_m?),
         })
     }
 

@@ -293,9 +293,18 @@ fn gun_and_arm_are_kept_clear_of_part_boxes_and_floor() {
     let words = hit["points"][0]["problem"].as_str().expect("a reason");
     assert!(words.ends_with("is too near to the box hall"), "{words}");
     // The door itself, with a gun that must keep farther from it than the nozzle is.
-    let hit = with(1, &["--gun-radius", "1000", "--clearance", "200"]).json();
+    let hit = with(1, &["--gun-radius", "125", "--clearance", "200"]).json();
     let words = hit["points"][0]["problem"].as_str().expect("a reason");
     assert!(words.ends_with("is too near to the part"), "{words}");
+    // The gun is 250 mm long, and no wider.
+    let ran = with(2, &["--gun-radius", "126"]);
+    assert!(ran.err.contains("expected 1 to 125 mm"), "{}", ran.err);
+    // The foot of the arm is not in the floor; a rail that stands still includes the place of the calibration.
+    shop.write("floor.toml", "floor_mm = 300\n");
+    let ran = with(2, &["--obstacles", "floor.toml"]);
+    assert!(ran.err.contains("above the foot of the arm"), "{}", ran.err);
+    let ran = with(2, &["--rail", "y,1000,2000"]);
+    assert!(ran.err.contains("but not at 0"), "{}", ran.err);
     // Invalid obstacles are refused.
     for (text, wanted) in [
         ("# nothing\n", "neither a box nor a floor"),

@@ -92,7 +92,7 @@ fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
     harness.get_by_label("Simulated frame 2");
     harness.get_by_label("History").click();
     settle(&mut harness);
-    harness.get_by_label("2 of 2 parts");
+    harness.get_by_label("2 of 2 entries");
     press(&mut harness, "Inspection 1: Front door, left, Accepted");
     harness.get_by_label("Segmentation of inspection 1");
     press(&mut harness, "Open");
@@ -117,7 +117,7 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     harness.run_steps(2);
     harness.get_by_label("Find").type_text("frame 1");
     settle(&mut harness);
-    harness.get_by_label("1 of 2 parts");
+    harness.get_by_label("1 of 2 entries");
     assert_eq!(
         harness.state().state().session.workspace,
         WorkspaceKind::History
@@ -125,7 +125,7 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     // Nor does the Enter that ends the typing, although the field has lost the focus by then.
     harness.key_press(Key::Enter);
     settle(&mut harness);
-    harness.get_by_label("1 of 2 parts");
+    harness.get_by_label("1 of 2 entries");
     assert_eq!(
         harness.state().state().session.workspace,
         WorkspaceKind::History
@@ -134,7 +134,7 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     press(&mut harness, "Verdict: No part");
     harness.get_by_label_contains("No matching inspections");
     press(&mut harness, "Show all");
-    harness.get_by_label("2 of 2 parts");
+    harness.get_by_label("2 of 2 entries");
     press(&mut harness, "Days · All days ▼");
     press(&mut harness, "Days: From … to");
     harness.get_by_label("First day").click();
@@ -142,12 +142,12 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     harness.get_by_label("First day").type_text("2020-01");
     settle(&mut harness);
     harness.get_by_label_contains("Write a day as year-month-day");
-    harness.get_by_label("2 of 2 parts");
+    harness.get_by_label("2 of 2 entries");
     harness.get_by_label("Last day").click();
     harness.run_steps(2);
     harness.get_by_label("Last day").type_text("2020-01-31");
     settle(&mut harness);
-    harness.get_by_label("0 of 2 parts");
+    harness.get_by_label("0 of 2 entries");
 }
 
 #[test]
@@ -180,11 +180,11 @@ fn an_inspection_that_the_filter_hides_does_not_stay_beside_the_list() {
     harness.run_steps(2);
     harness.get_by_label("Find").type_text("frame 2");
     settle(&mut harness);
-    harness.get_by_label("1 of 2 parts");
+    harness.get_by_label("1 of 2 entries");
     harness.get_by_label("Segmentation of inspection 2");
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: No part");
-    harness.get_by_label("0 of 2 parts");
+    harness.get_by_label("0 of 2 entries");
     harness.get_by_label("Choose an inspection to see more of it");
     press(&mut harness, "Show all");
     harness.get_by_label("Segmentation of inspection 2");
@@ -199,7 +199,7 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
         Action::UseCell(CellChoice::Foreign(ObjectKind::Wheel)),
     );
     go_to_history(&mut harness);
-    harness.get_by_label("2 of 2 parts");
+    harness.get_by_label("2 of 2 entries");
     press(&mut harness, "Actual part · Not set ▼");
     press(&mut harness, "Actual part: Not enrolled");
     harness.get_by_label("Actual part · Not enrolled ▼");
@@ -223,12 +223,12 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
 
     let mut harness = open_with(USUAL, keeping(folder.path()));
     go_to_history(&mut harness);
-    harness.get_by_label("3 of 3 parts");
+    harness.get_by_label("3 of 3 entries");
     harness.get_by_label("Find").click();
     harness.run_steps(2);
     harness.get_by_label("Find").type_text("WHEEL");
     settle(&mut harness);
-    harness.get_by_label("1 of 3 parts");
+    harness.get_by_label("1 of 3 entries");
     let row = history_of(&harness).row(0).expect("listed");
     assert_eq!((row.number, row.remark.as_str()), (2, "a wheel"));
     assert_eq!(row.label, Some(Truth::NotEnrolled));
@@ -251,6 +251,40 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     let state = harness.state().state();
     assert!(state.notices.is_empty(), "{:?}", state.notices);
     assert_eq!(history_of(&harness).num_rows(), 3);
+}
+
+#[test]
+fn a_label_and_a_remark_belong_to_the_part_on_which_they_were_begun() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    // Nobody selected the only row. The next part comes while the menu is open.
+    press(&mut harness, "Actual part · Not set ▼");
+    act(&mut harness, Action::Capture);
+    harness.get_by_label("2 of 2 entries");
+    press(&mut harness, "Actual part: Not enrolled");
+    harness.get_by_label("Your remark").click();
+    harness.run_steps(2);
+    harness.get_by_label("Your remark").type_text("den");
+    harness.run_steps(2);
+    act(&mut harness, Action::Capture);
+    harness.get_by_label("Your remark").type_text("ted");
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    settle(&mut harness);
+    let state = history_of(&harness);
+    let rows = (0..state.num_rows()).filter_map(|place| state.row(place));
+    let rows: Vec<_> = rows
+        .map(|row| (row.number, row.remark.as_str(), row.label.clone()))
+        .collect();
+    assert_eq!(
+        rows,
+        [
+            (3, "", None),
+            (2, "", None),
+            (1, "dented", Some(Truth::NotEnrolled))
+        ]
+    );
 }
 
 #[test]
@@ -289,7 +323,7 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
     });
     harness.get_by_label("Not accepted");
     go_to_history(&mut harness);
-    harness.get_by_label("1 of 1 parts");
+    harness.get_by_label("1 of 1 entries");
     // The acceptance still counts: a robot may have acted on it.
     harness.get_by_label("Inspection 1: Front door, left, Accepted, inspected again once");
     harness.get_by_label("Of this part: inspection 1, Accepted · counts");
@@ -315,7 +349,7 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
         });
     });
     go_to_history(&mut harness);
-    harness.get_by_label("1 of 1 parts");
+    harness.get_by_label("1 of 1 entries");
     assert_eq!(
         history_of(&harness).row(0).map(|row| row.num_below),
         Some(1)
@@ -340,12 +374,12 @@ fn a_scan_is_listed_and_opened_again_with_its_shots_though_its_folder_is_gone() 
     let mut harness = open_with(USUAL, options);
     harness.get_by_label("Fender, left");
     go_to_history(&mut harness);
-    harness.get_by_label("1 of 1 parts");
+    harness.get_by_label("1 of 1 entries");
     drop((harness, scan));
 
     let mut harness = open_with(USUAL, keeping(folder.path()));
     go_to_history(&mut harness);
-    harness.get_by_label("2 of 2 parts");
+    harness.get_by_label("2 of 2 entries");
     act_in_history(&mut harness, HistoryAction::Open(1));
     harness.get_by_label("Fender, left");
     harness.get_by_label_contains("3 shots · they agree to");
@@ -408,7 +442,7 @@ fn a_history_that_cannot_be_written_is_said_and_inspections_go_on() {
     assert_eq!(harness.state().state().notices.len(), 1);
     harness.get_by_label_contains("the history cannot be kept there");
     go_to_history(&mut harness);
-    harness.get_by_label("3 of 3 parts");
+    harness.get_by_label("3 of 3 entries");
     harness.get_by_label_contains("Kept in memory only");
     press(&mut harness, "Inspection 1: Front door, left, Accepted");
     press(&mut harness, "Open");
@@ -461,7 +495,7 @@ fn what_a_command_inspects_shows_in_an_open_history() {
         harness.step();
     }
     settle(&mut harness);
-    harness.get_by_label("2 of 2 parts");
+    harness.get_by_label("2 of 2 entries");
 }
 
 #[test]
@@ -488,7 +522,7 @@ fn of_a_hundred_thousand_inspections_only_those_in_sight_are_fetched() {
 
     let mut harness = open_with(USUAL, keeping(&path));
     go_to_history(&mut harness);
-    harness.get_by_label("100002 of 100002 parts");
+    harness.get_by_label("100002 of 100002 entries");
     let num_fetched = history_of(&harness).page.rows.len();
     assert!(num_fetched < 400, "{num_fetched}");
     assert_eq!(
@@ -502,7 +536,7 @@ fn of_a_hundred_thousand_inspections_only_those_in_sight_are_fetched() {
         ..ListFilter::default()
     };
     act_in_history(&mut harness, HistoryAction::Filter(filter));
-    harness.get_by_label("1 of 100002 parts");
+    harness.get_by_label("1 of 100002 entries");
     // Once in the list, once in the details: the selected row is not listed any more.
     let rows = harness.get_all_by_label_contains("Inspection 54323");
     assert_eq!(rows.count(), 2);
@@ -736,7 +770,7 @@ fn the_filter_offers_parts_of_the_history_that_are_not_in_the_library() {
     go_to_history(&mut harness);
     press(&mut harness, "Part · All ▼");
     press(&mut harness, "Part: real door");
-    harness.get_by_label("2 of 4 parts");
+    harness.get_by_label("2 of 4 entries");
 }
 
 #[test]

@@ -185,6 +185,8 @@ fn a_part_that_is_not_accepted_has_no_numbers_for_a_robot() {
     let mut harness = open();
     drop_file(&mut harness, &path);
     harness.get_by_label("Not accepted");
+    // The figures below are those of the part that it is the mirror image of.
+    harness.get_by_label("As Fender, left (not accepted)");
     assert!(harness.query_by_label("Copy pose").is_none());
     assert!(harness.query_by_label_contains("Convention").is_none());
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::C);

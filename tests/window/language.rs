@@ -167,7 +167,7 @@ fn where_a_scene_came_from_is_read_and_found_in_the_language_of_the_window() {
         act_in(&mut harness, |history: &mut HistoryWorkspace, cx| {
             history.apply(HistoryAction::Filter(filter), cx);
         });
-        harness.get_by_label(&format!("{count} von 1 Teilen"));
+        harness.get_by_label(&format!("{count} von 1 Einträgen"));
     }
 }
 
@@ -453,6 +453,10 @@ fn in_every_language_the_bar_shows_the_whole_status_of_live() {
         });
         harness.run_steps(2);
         check(&harness, lost);
+        // The menu of the library stays, too: its name begins with the number of parts.
+        let menus = harness.query_all_by_label_contains("▼");
+        let mut names = menus.filter_map(|node| node.accesskit_node().label());
+        assert!(names.any(|name| name.starts_with(|letter: char| letter.is_ascii_digit())));
     }
 }
 

@@ -177,7 +177,7 @@ fn the_parts_of_this_shift_are_counted_and_what_is_only_tried_is_not() {
     });
     counts(&harness, ["2 parts", "1 OK", "1 NOK"]);
     press(&mut harness, "History");
-    harness.get_by_label("7 of 7 parts");
+    harness.get_by_label("7 of 7 entries");
     harness.get_by_label("Inspect").click();
     harness.run_steps(4);
     harness.get_by_label("OK");
@@ -409,6 +409,10 @@ fn a_serial_number_scanned_after_the_verdict_is_of_the_part_that_hangs_there_and
     let num_below = |harness: &WindowHarness| history_of(harness).row(0).map(|row| row.num_below);
     assert_eq!(num_below(&harness), Some(0));
     assert!(shows(&harness, "· LATE77"), "in the banner");
+    // Scanned again, it stays with that part.
+    scan(&mut harness, "LATE77");
+    assert!(shows(&harness, "LATE77 is already the number of this part"));
+    assert_eq!(harness.state().state().session.trace.get().serial, "");
     // That part has one now.
     scan(&mut harness, "NEXT8");
     sees(&mut harness, &wire, [0.0; 2]);
@@ -416,6 +420,9 @@ fn a_serial_number_scanned_after_the_verdict_is_of_the_part_that_hangs_there_and
     assert_eq!(harness.state().state().session.trace.get().serial, "NEXT8");
     assert_eq!(serial(harness.state()).as_deref(), Some("LATE77"));
     assert_eq!(num_below(&harness), Some(0));
+    scan(&mut harness, "NEXT9");
+    assert!(shows(&harness, "NEXT9 replaces NEXT8"));
+    assert_eq!(harness.state().state().session.trace.get().serial, "NEXT9");
 }
 
 #[test]
@@ -429,6 +436,17 @@ fn a_scanner_is_heard_on_every_page_of_the_operator() {
     assert_eq!(session.workspace, WorkspaceKind::History);
     assert!(session.theme == before && !session.is_live());
     harness.get_by_label("Serial number TL471 entered");
+}
+
+#[test]
+fn the_part_opened_as_wrong_stays_open_when_the_next_one_is_inspected() {
+    let mut harness = open_operators(plain_options());
+    press(&mut harness, "Wrong part?");
+    let opened = history_of(&harness).listed();
+    assert!(opened.is_some());
+    act(&mut harness, Action::Capture);
+    harness.get_by_label("2 of 2 entries");
+    assert_eq!(history_of(&harness).listed(), opened);
 }
 
 /// Opens a window in the operator's view that follows its camera to answer robots, calibrated by this file, if any.
@@ -529,7 +547,7 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
     harness.run_steps(2);
     harness.get_by_label("Find").type_text("tl471");
     settle(&mut harness);
-    harness.get_by_label("1 of 3 parts");
+    harness.get_by_label("1 of 3 entries");
     // The fields of the session are kept, the part's serial number is not.
     let remembered = settings::Settings::of(harness.state().state(), None);
     assert_eq!(&*remembered.traceability.order, "A 17");

@@ -18,7 +18,7 @@ history-row =
 
 ## The bar above the list
 history-show-all = Alle zeigen
-history-counted = { $matching } von { $count } Teilen
+history-counted = { $matching } von { $count } Einträgen
 history-export-csv = CSV exportieren…
 history-export-csv-hint = Die angezeigten Prüfungen in eine Tabelle schreiben
 history-export-cases = Fälle exportieren…
@@ -138,6 +138,11 @@ history-simulated-left-out =
     { $count ->
         [one] 1 simuliertes Teil ist nicht mitgezählt
        *[other] { $count } simulierte Teile sind nicht mitgezählt
+    }
+history-no-part-left-out =
+    { $count ->
+        [one] 1 Eintrag ohne Teil ist nicht mitgezählt
+       *[other] { $count } Einträge ohne Teil sind nicht mitgezählt
     }
 history-drift = Verlauf der Messwerte: { $part }
 history-drift-score = Score

@@ -146,6 +146,7 @@ paint-rail-too-fast = Schiene zu schnell
 paint-joint-acceleration = Achse { $joint } beschleunigt zu langsam
 paint-rail-acceleration = Schiene beschleunigt zu langsam
 paint-acceleration-advice = Langsamer fahren, wo zu langsam beschleunigt wird, oder Ecken mit größerem Radius fahren
+paint-joints-advice = Einen anderen Winkel der Düse versuchen, mehr Neigung der Pistole, einen anderen Ort des Sockels oder weniger Geschwindigkeit
 paint-unchecked-accelerations =
     { $what ->
         [joints] Beschleunigungen der Achsen sind ungeprüft: keine Grenzen bekannt

@@ -18,7 +18,7 @@ history-row =
 
 ## The bar above the list
 history-show-all = Show all
-history-counted = { $matching } of { $count } parts
+history-counted = { $matching } of { $count } entries
 history-export-csv = Export CSV…
 history-export-csv-hint = Write the listed inspections to a table
 history-export-cases = Export cases…
@@ -138,6 +138,11 @@ history-simulated-left-out =
     { $count ->
         [one] 1 simulated part is not counted
        *[other] { $count } simulated parts are not counted
+    }
+history-no-part-left-out =
+    { $count ->
+        [one] 1 entry without a part is not counted
+       *[other] { $count } entries without a part are not counted
     }
 history-drift = Drift: { $part }
 history-drift-score = Score

@@ -146,6 +146,7 @@ paint-rail-too-fast = rail too fast
 paint-joint-acceleration = joint { $joint } accelerates too slowly
 paint-rail-acceleration = rail accelerates too slowly
 paint-acceleration-advice = Run slower where it accelerates too slowly, or round the corners in a larger radius
+paint-joints-advice = Try another angle of the nozzle, more tilt of the gun, another place of the base, or a lower speed
 paint-unchecked-accelerations =
     { $what ->
         [joints] Accelerations of the joints are not checked: no limits are known

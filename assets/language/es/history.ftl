@@ -18,7 +18,7 @@ history-row =
 
 ## The bar above the list
 history-show-all = Mostrar todo
-history-counted = { $matching } de { $count } piezas
+history-counted = { $matching } de { $count } entradas
 history-export-csv = Exportar CSV…
 history-export-csv-hint = Escribir en una tabla las inspecciones mostradas
 history-export-cases = Exportar casos…
@@ -138,6 +138,11 @@ history-simulated-left-out =
     { $count ->
         [one] 1 pieza simulada no cuenta
        *[other] { $count } piezas simuladas no cuentan
+    }
+history-no-part-left-out =
+    { $count ->
+        [one] 1 entrada sin pieza no cuenta
+       *[other] { $count } entradas sin pieza no cuentan
     }
 history-drift = Deriva: { $part }
 history-drift-score = Puntuación

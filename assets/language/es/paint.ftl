@@ -146,6 +146,7 @@ paint-rail-too-fast = carril demasiado rápido
 paint-joint-acceleration = eje { $joint } acelera demasiado despacio
 paint-rail-acceleration = el carril acelera demasiado despacio
 paint-acceleration-advice = Reduzca la velocidad donde acelera demasiado despacio, o redondee las esquinas con un radio mayor
+paint-joints-advice = Pruebe otro ángulo de la boquilla, más inclinación de la pistola, otro lugar de la base o menos velocidad
 paint-unchecked-accelerations =
     { $what ->
         [joints] No se comprueban las aceleraciones de los ejes: no se conocen sus límites

@@ -17,7 +17,7 @@ history-row =
 
 ## The bar above the list
 history-show-all = 显示全部
-history-counted = { $matching } / { $count } 个零件
+history-counted = { $matching } / { $count } 条记录
 history-export-csv = 导出 CSV…
 history-export-csv-hint = 将列出的检测写入表格
 history-export-cases = 导出样本…
@@ -130,6 +130,7 @@ history-by-shift = 各班次零件数
 history-not-ok-on-top = NG（上方）
 history-total = { $count } 个零件，{ $share } OK
 history-simulated-left-out = 未计入 { $count } 个仿真零件
+history-no-part-left-out = 未计入 { $count } 条无零件的记录
 history-drift = 漂移：{ $part }
 history-drift-score = 得分
 history-drift-fit = 与参考的偏差（rms）

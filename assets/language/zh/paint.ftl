@@ -146,6 +146,7 @@ paint-rail-too-fast = 导轨太快
 paint-joint-acceleration = 关节 { $joint } 加速太慢
 paint-rail-acceleration = 导轨加速太慢
 paint-acceleration-advice = 在加速太慢处降低速度，或加大拐角半径
+paint-joints-advice = 尝试喷嘴的其他角度、更大的喷枪倾斜、底座的其他位置或更低的速度
 paint-unchecked-accelerations =
     { $what ->
         [joints] 未检查关节加速度：限值未知

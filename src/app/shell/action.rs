@@ -44,6 +44,8 @@ pub enum Action {
     CancelInspection,
     /// Bring a workspace to the front.
     GoTo(WorkspaceKind),
+    /// Show the newest inspection in History, so that the user can set its actual part.
+    WrongPart,
     /// Ask where to save the report of the inspection in front.
     Export,
     /// Close what is on top: the shortcuts, then an enlarged stage.
@@ -163,6 +165,10 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             if workspace == WorkspaceKind::Inspect {
                 live::show_unseen(state);
             }
+        }
+        Action::WrongPart => {
+            state.session.workspace = WorkspaceKind::History;
+            return Some(Effect::Tell(Event::WrongPart));
         }
         Action::Export => return Some(Effect::Tell(Event::Export)),
         Action::CloseTop => {

@@ -192,7 +192,7 @@ fn lower(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         .on_hover_text(text!("operator-wrong-part-says"))
         .clicked()
     {
-        actions.push(Action::GoTo(WorkspaceKind::History));
+        actions.push(Action::WrongPart);
     }
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         source(ui, &state.session);

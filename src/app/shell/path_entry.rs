@@ -164,10 +164,13 @@ pub(in crate::app) fn ui(ctx: &Context, lock: &DialogLock) {
 
 #[cfg(test)]
 mod tests {
+    use std::{cell::RefCell, rc::Rc};
+
     use egui::Role;
     use egui_kittest::{Harness, kittest::Queryable as _};
 
     use super::*;
+    use crate::app::shell::scanner::{self, KeyTarget};
 
     fn entry(choice: FileChoice, folder: &Path) -> PathEntry {
         let request = FileRequest {
@@ -246,6 +249,39 @@ mod tests {
         harness.run_steps(4);
         let outcome = lock.typed().as_ref().map(|entry| entry.outcome.clone());
         assert_eq!(outcome, Some(Poll::Ready(Some(path))));
+    }
+
+    #[test]
+    fn a_scan_neither_changes_nor_confirms_the_path() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let lock = DialogLock::default();
+        let choice = FileChoice::NewFile("inspections.csv".into());
+        *lock.typed() = Some(entry(choice, folder.path()));
+        let (shared, codes) = (lock.clone(), Rc::new(RefCell::new(Vec::new())));
+        let heard = Rc::clone(&codes);
+        let mut has_fonts = false;
+        let mut harness = Harness::builder().build_ui(move |ui| {
+            if !std::mem::replace(&mut has_fonts, true) {
+                Theme::install_fonts(ui.ctx());
+                return;
+            }
+            let code = scanner::listen(ui.ctx(), KeyTarget::Dialog);
+            heard.borrow_mut().extend(code);
+            super::ui(ui.ctx(), &shared);
+        });
+        harness.run_steps(4);
+        for letter in "15151".chars() {
+            let text = egui::Event::Text(letter.into());
+            harness.input_mut().events.push(text);
+        }
+        harness.key_press(Key::Enter);
+        harness.run_steps(4);
+        assert_eq!(*codes.borrow(), ["15151"]);
+        let typed = lock.typed();
+        let entry = typed.as_ref().expect("still open");
+        assert!(entry.outcome.is_pending() && entry.trouble.is_none());
+        let path = folder.path().join("inspections.csv");
+        assert_eq!(entry.text, path.display().to_string());
     }
 
     #[test]

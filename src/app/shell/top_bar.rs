@@ -24,6 +24,33 @@ use crate::app::{
 pub(in crate::app) const NARROW: f32 = 1100.0;
 /// Width of the bar that is left to the status of Live, logical pixels.
 const LIVE: f32 = 180.0;
+/// Width below which the running work is not named beside its spinner, logical pixels: most words would be cut.
+const WORDS: f32 = 64.0;
+
+/// How much of the library its menu shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum LibraryForm {
+    /// Number of parts and, if there is room, the name.
+    Full,
+    /// The number alone.
+    Short,
+    /// Nothing.
+    Hidden,
+}
+
+impl LibraryForm {
+    /// The form for this room, logical pixels. Running work with its cancel button, and the status of Live, take precedence;
+    /// work ends soon, but while Live runs the menu stays.
+    fn of(room: f32, is_at_work: bool, has_live_chip: bool) -> Self {
+        match (is_at_work, has_live_chip) {
+            (true, _) if room > 480.0 => Self::Full,
+            (true, _) if room > 250.0 => Self::Short,
+            (true, _) => Self::Hidden,
+            (false, true) if room <= 300.0 => Self::Short,
+            (false, _) => Self::Full,
+        }
+    }
+}
 
 /// The running work shown in the bar.
 pub(in crate::app) struct Progress {
@@ -51,14 +78,12 @@ pub(in crate::app) fn ui(
         .frame(frame)
         .show(ui, |ui| {
             ui.horizontal_centered(|ui| {
-                let name = RichText::new("Partsight").font(font::body_strong());
-                ui.label(name);
-                let is_narrow = ui.ctx().content_rect().width() < NARROW;
-                ui.add_space(if is_narrow {
-                    space::SMALL
-                } else {
-                    space::LARGE
-                });
+                // In a narrow window, the controls and the status of Live need the room of the name.
+                if ui.ctx().content_rect().width() >= NARROW {
+                    let name = RichText::new("Partsight").font(font::body_strong());
+                    ui.label(name);
+                    ui.add_space(space::LARGE);
+                }
                 source_menu::ui(ui, state, actions);
                 robot_button(ui, state, robot, actions);
                 let name = text!("shell-capture");
@@ -181,15 +206,11 @@ fn settings(ui: &mut Ui, state: &State, is_at_work: bool, actions: &mut Vec<Acti
         actions.push(Action::SwitchUnits);
     }
     language_menu(ui, state, actions);
-    // Running work with its cancel button, and the status of Live, take precedence.
     let room = ui.available_width();
-    let has_room = match (is_at_work, has_live_chip(&state.session)) {
-        (true, _) => room > 480.0,
-        (false, true) => room > 300.0,
-        (false, false) => true,
-    };
-    if let Some(library) = state.session.library.as_ref().filter(|_| has_room) {
-        library_menu(ui, state, library, actions);
+    let form = LibraryForm::of(room, is_at_work, has_live_chip(&state.session));
+    let library = state.session.library.as_ref();
+    if let Some(library) = library.filter(|_| form != LibraryForm::Hidden) {
+        library_menu(ui, state, library, form, actions);
     }
 }
 
@@ -212,7 +233,13 @@ pub(super) fn language_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action
 }
 
 /// Draws the menu of the library in use and others.
-fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut Vec<Action>) {
+fn library_menu(
+    ui: &mut Ui,
+    state: &State,
+    library: &LibraryView,
+    form: LibraryForm,
+    actions: &mut Vec<Action>,
+) {
     let num = library.parts.len();
     let opened = |text: String| format!("{text} ▼");
     let shared = if has_live_chip(&state.session) {
@@ -228,7 +255,12 @@ fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut
     } else {
         opened(text!("shell-num-parts", num = num))
     };
-    ui.menu_button(text, |ui| {
+    let shown = match (form, library.unloaded.is_some()) {
+        (LibraryForm::Short, true) => opened("!".to_owned()),
+        (LibraryForm::Short, false) => opened(num.to_string()),
+        (LibraryForm::Full | LibraryForm::Hidden, _) => text.clone(),
+    };
+    let menu = ui.menu_button(shown, |ui| {
         ui.set_min_width(260.0);
         ui.label(RichText::new(text!("shell-library-in-use")).font(font::heading()));
         ui.label(library.path.display().to_string());
@@ -250,6 +282,12 @@ fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut
             ui.close();
         }
     });
+    let button = menu.response;
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &text));
+    if form == LibraryForm::Short {
+        let full = text.trim_end_matches(" ▼");
+        button.on_hover_text(full);
+    }
 }
 
 /// Draws the running work and its cancel button.
@@ -272,7 +310,7 @@ pub(super) fn progress(
     {
         actions.push(cancel);
     }
-    ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
+    let spinner = ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
     let text = match (running.progress, running.stage.map(StagePanel::of)) {
         (Some((done, total)), _) => {
             text!(
@@ -297,5 +335,25 @@ pub(super) fn progress(
         }
         (None, None) => shortened(&running.title, 28),
     };
-    status_label(ui, &text, font::body(), theme.weak_text);
+    if ui.available_width() < WORDS {
+        spinner.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &text));
+        spinner.on_hover_text(text);
+    } else {
+        status_label(ui, &text, font::body(), theme.weak_text);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_library_stays_reachable_beside_the_status_of_live() {
+        for room in [60.0, 184.0, 300.0] {
+            assert_eq!(LibraryForm::of(room, false, true), LibraryForm::Short);
+        }
+        assert_eq!(LibraryForm::of(301.0, false, true), LibraryForm::Full);
+        assert_eq!(LibraryForm::of(184.0, false, false), LibraryForm::Full);
+        assert_eq!(LibraryForm::of(184.0, true, false), LibraryForm::Hidden);
+    }
 }

@@ -75,8 +75,20 @@ pub(in crate::app) fn line_mark(ui: &mut Ui, side: f32, radius: f32, sign: Mark)
     response
 }
 
-/// Draws a name on the left and its value on the right.
+/// Draws a name on the left and its value on the right, or below it if there is no room for both.
 pub(in crate::app) fn row(ui: &mut Ui, name: &str, value: &str) {
+    let font = TextStyle::Body.resolve(ui.style());
+    let width = |text: &str| {
+        let painter = ui.painter();
+        let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER);
+        galley.size().x
+    };
+    let needed = width(name) + ui.spacing().item_spacing.x + width(value);
+    if needed > ui.available_width() {
+        ui.weak(name);
+        ui.with_layout(Layout::top_down(Align::Max), |ui| ui.label(value));
+        return;
+    }
     ui.horizontal(|ui| {
         // Nothing here can be pressed, so rows need no minimum height.
         ui.spacing_mut().interact_size.y = 0.0;
@@ -470,7 +482,7 @@ pub fn grouped(number: usize) -> String {
 mod tests {
     use egui::{Color32, Context, FontId, RawInput, ScrollArea, Shape};
 
-    use super::{fitted_path, grouped, sentence, show_scroll_bar};
+    use super::{fitted_path, grouped, row, sentence, show_scroll_bar};
     use crate::app::ui::theme::Theme;
 
     #[test]
@@ -492,6 +504,29 @@ mod tests {
             assert_eq!(fitted("Kinect frame 12", 1.0), "Kinect frame 12");
         });
         output.drop_without_applying_deltas();
+    }
+
+    #[test]
+    fn a_value_without_room_beside_its_name_is_below_it() {
+        let tops = |room: f32| {
+            let ctx = Context::default();
+            Theme::install_fonts(&ctx);
+            let output = ctx.run_ui(RawInput::default(), |ui| {
+                ui.set_max_width(room);
+                row(ui, "17 iteraciones", "límite de iteraciones · ICP");
+            });
+            let texts = output.shapes.iter().filter_map(|shape| match &shape.shape {
+                Shape::Text(text) => Some(text.visual_bounding_rect()),
+                _ => None,
+            });
+            let texts: Vec<_> = texts.collect();
+            output.drop_without_applying_deltas();
+            assert_eq!(texts.len(), 2);
+            assert!(!texts[0].intersects(texts[1]), "{texts:?}");
+            texts[1].top() > texts[0].bottom()
+        };
+        assert!(!tops(400.0));
+        assert!(tops(200.0));
     }
 
     #[test]

@@ -186,11 +186,18 @@ fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
     for line in problem_lines(&found.points) {
         console.line(&format_args!("  {line}"));
     }
-    let mut problems = found
-        .points
-        .iter()
-        .filter_map(|point| point.problem.as_ref());
-    if problems.any(PointProblem::is_acceleration) {
+    let problems = || {
+        found
+            .points
+            .iter()
+            .filter_map(|point| point.problem.as_ref())
+    };
+    if problems().any(PointProblem::is_of_joints) {
+        console.line(
+            &"  to do: try another angle of --nozzle, a --max-tilt up to 30, another --base, or a lower speed of the coat",
+        );
+    }
+    if problems().any(PointProblem::is_acceleration) {
         console.line(
             &"  to do: lower the speed where it accelerates too slowly, or round the corners in a larger radius",
         );

@@ -15,6 +15,9 @@ use crate::geometry::rigid::RigidTransform;
 /// Costs in seconds of joint motion: of a singularity nearby, and of turning the nozzle by one step.
 const SINGULAR_COST: f64 = 2.0;
 const TURN_COST: f64 = 0.02;
+/// Cost of every radian by which a joint is beyond half a turn: some controllers cannot name such turns, and cables
+/// suffer.
+const WOUND_COST: f64 = 0.001;
 /// Cost of a tilt at its limit, so that the nozzle is only tilted where that avoids a problem or a singularity.
 const TILT_COST: f64 = 1.0;
 /// Cost of a joint move between two strokes, which takes a stop at both ends.
@@ -136,19 +139,18 @@ pub(super) fn candidates_of(
                 let cost = 0.1 * TURN_COST * away
                     + TILT_COST * share
                     + if is_singular { SINGULAR_COST } else { 0.0 };
-                all.extend(
-                    solver
-                        .within_limits(&solution)
-                        .into_iter()
-                        .map(|joints| Candidate {
-                            joints,
-                            turn,
-                            tilt: *tilt,
-                            configuration,
-                            cost,
-                            is_collision: None,
-                        }),
-                );
+                let within = solver.within_limits(&solution).into_iter();
+                all.extend(within.map(|joints| {
+                    let wound = joints.iter().map(|angle| (angle.abs() - PI).max(0.0));
+                    Candidate {
+                        joints,
+                        turn,
+                        tilt: *tilt,
+                        configuration,
+                        cost: cost + WOUND_COST * wound.sum::<f64>(),
+                        is_collision: None,
+                    }
+                }));
             }
         }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_6;
 use nalgebra::Translation3;
 
 use super::{
-    ArmError, PlacedArm,
+    ArmError, GUN_RADIUS, PlacedArm,
     acceleration::check_accelerations,
     chain::{Candidate, angle_of, candidates_of, free_chain, held, tilts_up_to, turned, turns_of},
     kinematics::{Joints, Solver},
@@ -51,6 +51,8 @@ pub struct CheckParams {
 
 /// Least radius of the gun, metres: a gun without one is a line, and its body is not checked.
 const LEAST_GUN_RADIUS: f64 = 0.001;
+/// The foot of an arm may be this far below the floor, metres.
+pub(super) const PIT: f64 = 0.1;
 /// Most turns: steps of 5°.
 const MAX_TURNS: usize = 72;
 /// Greatest limit of the tilt, radians: beyond it a coat is uneven.
@@ -224,6 +226,30 @@ fn check_points(
     points: &[ArmPoint],
     params: &CheckParams,
 ) -> Result<Vec<PointCheck>, ArmError> {
+    let rails = rail_positions(placed, points, params, is_cancelled)?;
+    let moving = placed.arm.moving_rail();
+    let is_moving = rails.windows(2).any(|pair| pair[0] != pair[1]);
+    let checked = check_on(is_cancelled, placed, points, params, rails)?;
+    let Some((rail, _)) = moving.filter(|_| num_bad(&checked) > 0) else {
+        return Ok(checked);
+    };
+    // The run of the rail is chosen without looking at speeds.
+    let at = params.rail.clamp(rail.range[0], rail.range[1]);
+    if !is_moving && checked.first().is_some_and(|first| first.rail == at) {
+        return Ok(checked);
+    }
+    let still = check_on(is_cancelled, placed, points, params, vec![at; points.len()])?;
+    Ok(fewer_bad(still, checked))
+}
+
+/// Checks the points with the rail at these positions.
+fn check_on(
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+    placed: &PlacedArm,
+    points: &[ArmPoint],
+    params: &CheckParams,
+    rails: Vec<f64>,
+) -> Result<Vec<PointCheck>, ArmError> {
     let go_on = || {
         if is_cancelled() {
             Err(ArmError::Cancelled)
@@ -231,7 +257,6 @@ fn check_points(
             Ok(())
         }
     };
-    let rails = rail_positions(placed, points, params, is_cancelled)?;
     let solvers: Vec<Solver<'_>> = rails
         .iter()
         .map(|rail| Solver::new(placed, *rail))
@@ -281,12 +306,23 @@ fn check_points(
         }
     }
     let tilted = check(&mut candidates)?;
-    let num_bad = |checked: &[PointCheck]| checked.iter().filter(|p| p.problem.is_some()).count();
-    Ok(if num_bad(&tilted) < num_bad(&checked) {
-        tilted
+    Ok(fewer_bad(tilted, checked))
+}
+
+fn num_bad(checked: &[PointCheck]) -> usize {
+    checked
+        .iter()
+        .filter(|point| point.problem.is_some())
+        .count()
+}
+
+/// The one with fewer points that are not reached; if equal, the second.
+fn fewer_bad(one: Vec<PointCheck>, other: Vec<PointCheck>) -> Vec<PointCheck> {
+    if num_bad(&one) < num_bad(&other) {
+        one
     } else {
-        checked
-    })
+        other
+    }
 }
 
 /// The result for these joints at every point; `None` where there are none.
@@ -423,6 +459,21 @@ pub(super) fn refuse_bad(
                 high: Metres(high),
             });
         }
+    }
+    let most = placed.most_gun_radius();
+    if most > 0.0 && placed.gun_radius > most.max(GUN_RADIUS) {
+        return Err(ArmError::Length {
+            what: "the radius of the gun",
+            value: Metres(placed.gun_radius),
+            low: Metres(LEAST_GUN_RADIUS),
+            high: Metres(most),
+        });
+    }
+    let below = Solver::new(placed, params.rail).foot_below_floor();
+    if let Some(above) = below.filter(|below| *below > PIT) {
+        return Err(ArmError::Floor {
+            above: Metres(above),
+        });
     }
     for (i, point) in points.iter().enumerate() {
         let is_speed = point.speed > 0.0 && point.speed < 100.0;

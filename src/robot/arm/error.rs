@@ -59,6 +59,22 @@ pub enum ArmError {
         /// Last position, millimetres.
         high: f64,
     },
+    /// A rail that stands still does not include the place where the cell was calibrated.
+    #[error(
+        "the rail runs from {low:.0} to {high:.0} mm and stands still, but not at 0, where the cell was calibrated"
+    )]
+    Standing {
+        /// First position, millimetres.
+        low: f64,
+        /// Last position, millimetres.
+        high: f64,
+    },
+    /// The floor is above the arm's foot.
+    #[error("the floor is {above} above the foot of the arm")]
+    Floor {
+        /// By how much.
+        above: Metres,
+    },
     /// The text does not describe a rail.
     #[error("{text:?} is not a rail")]
     NoRail {
@@ -119,6 +135,12 @@ impl Advice for ArmError {
             Self::Limits { .. } => "Give the lower limit first, then the upper one, in degrees".into(),
             Self::Rail { .. } => {
                 "Give a start below the end, both within 100 m (100000 mm) of where the cell was calibrated".into()
+            }
+            Self::Standing { .. } => {
+                "Measure its positions from where the cell was calibrated, or give its top speed if it moves along the path".into()
+            }
+            Self::Floor { .. } => {
+                "Give floor_mm in the frame of the calibration, and the place of the arm's base there".into()
             }
             Self::NoRail { .. } => {
                 "Give x, y or z, where it begins and ends in mm and, if it moves along the path, its top speed in mm/s and its acceleration in mm/s²: y,-2000,2000,1000,2000".into()

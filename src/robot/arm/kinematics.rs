@@ -12,7 +12,7 @@ use rs_opw_kinematics::{
 
 use super::{
     Arm, PlacedArm, PointProblem,
-    obstacles::{Body, Capsule, Nearness, Obstacles, worst},
+    obstacles::{Body, Capsule, Nearness, Obstacle, Obstacles, worst},
 };
 use crate::geometry::{rigid::RigidTransform, segment::Segment};
 
@@ -81,8 +81,7 @@ impl<'a> Solver<'a> {
         let robot_from_foot =
             Translation3::from(arm.rail_shift(rail)) * placed.robot_from_base * foot;
         let mouth = placed.flange_from_nozzle.translation.vector;
-        // A gun wider than it is long becomes a ball.
-        let gun_radius = placed.gun_radius.min(mouth.norm() / 2.0);
+        let gun_radius = placed.checked_gun_radius();
         let way = mouth.try_normalize(0.0).unwrap_or_else(Vector3::zeros);
         Self {
             arm,
@@ -136,6 +135,26 @@ impl<'a> Solver<'a> {
             to: robot_from_foot * Point3::new(0.0, 0.0, c1),
         };
         (axis, upper_arm.max(a1.abs()))
+    }
+
+    /// The part and boxes in which the base column would stand. The floor is not among them.
+    pub(super) fn in_column(&self) -> Vec<Obstacle> {
+        let (axis, radius) = self.column();
+        let column = [Capsule {
+            body: Body::UpperArm,
+            axis,
+            radius,
+        }];
+        let hit = self.obstacles.pairs(&column);
+        let hit = hit.map(|(_, _, obstacle)| obstacle);
+        hit.filter(|obstacle| *obstacle != Obstacle::Floor)
+            .collect()
+    }
+
+    /// How far the arm's foot would be below the floor of the cell, metres; `None` without a floor.
+    pub(super) fn foot_below_floor(&self) -> Option<f64> {
+        let (axis, _) = self.column();
+        Some(self.obstacles.floor()? - axis.from.z)
     }
 
     /// All pairs of these bodies and obstacles that are too near.

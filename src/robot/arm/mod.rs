@@ -93,6 +93,19 @@ pub struct PlacedArm {
     pub obstacles: Obstacles,
 }
 
+impl PlacedArm {
+    /// Radius with which the gun is checked, metres: that of a ball if the gun is wider than it is long, 0 for a nozzle at
+    /// the flange, which leaves no gun.
+    pub fn checked_gun_radius(&self) -> f64 {
+        self.gun_radius.min(self.most_gun_radius())
+    }
+
+    /// Half the length of the gun.
+    fn most_gun_radius(&self) -> f64 {
+        self.flange_from_nozzle.translation.vector.norm() / 2.0
+    }
+}
+
 /// Default radius of a gun with its hoses, metres.
 pub const GUN_RADIUS: f64 = 0.05;
 

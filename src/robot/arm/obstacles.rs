@@ -199,6 +199,11 @@ impl Obstacles {
         })
     }
 
+    /// Height of the floor, metres.
+    pub(super) fn floor(&self) -> Option<f64> {
+        self.floor
+    }
+
     /// Name of the file that its boxes and its floor were read from; `None` without one.
     pub fn file(&self) -> Option<&str> {
         self.file.as_deref()

@@ -5,7 +5,7 @@ use nalgebra::Translation3;
 
 use super::{
     ArmError, ArmPoint, CheckParams, PlacedArm,
-    check::{check_unless, ends_of, is_reached, refuse_bad},
+    check::{PIT, check_unless, ends_of, is_reached, refuse_bad},
     kinematics::Solver,
 };
 
@@ -104,6 +104,18 @@ impl Search<'_> {
         shifts: Vec<[f64; 3]>,
         at: impl Fn([f64; 3]) -> (PlacedArm, f64),
     ) -> Result<Option<PlaceSuggestion>, ArmError> {
+        // The arm may stand on a box already, or in front of the part's cloud.
+        let (here, rail) = at([0.0; 3]);
+        let known = Solver::new(&here, rail).in_column();
+        let shifts: Vec<[f64; 3]> = shifts
+            .into_iter()
+            .filter(|shift| {
+                let (placed, rail) = at(*shift);
+                let solver = Solver::new(&placed, rail);
+                let is_above_floor = solver.foot_below_floor().is_none_or(|below| below <= PIT);
+                is_above_floor && solver.in_column().iter().all(|hit| known.contains(hit))
+            })
+            .collect();
         let total = shifts.len() + NUM_CHECKED;
         let sample = self.sample();
         let mut ranked = Vec::with_capacity(shifts.len());

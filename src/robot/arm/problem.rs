@@ -147,6 +147,17 @@ impl PointProblem {
         )
     }
 
+    /// Returns true for joints that cannot follow, which another orientation of the nozzle may avoid.
+    pub fn is_of_joints(&self) -> bool {
+        matches!(
+            self,
+            Self::JointLimit { .. }
+                | Self::NearSingularity(_)
+                | Self::TooFast { .. }
+                | Self::ConfigurationChange
+        )
+    }
+
     /// A name of the problem for programs.
     pub fn kind(&self) -> &'static str {
         match self {

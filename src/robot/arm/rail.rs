@@ -28,6 +28,12 @@ impl Rail {
                 high: high * 1000.0,
             });
         }
+        if self.speed.is_none() && !(low..=high).contains(&0.0) {
+            return Err(ArmError::Standing {
+                low: low * 1000.0,
+                high: high * 1000.0,
+            });
+        }
         if let Some(speed) = self.speed
             && !(0.001..=10.0).contains(&speed)
         {

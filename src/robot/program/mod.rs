@@ -51,7 +51,7 @@ use jiff::Timestamp;
 use self::{configuration::configuration, steps::Step, text::Lines};
 use crate::{
     geometry::rigid::{RigidTransform, is_finite},
-    robot::arm::{Joints, PathCheck, PlacedArm, Way},
+    robot::arm::{Joints, PathCheck, PlacedArm, PointCheck, Way},
     units::{Metres, Radians},
 };
 
@@ -203,16 +203,18 @@ impl Program<'_> {
             return Err(ProgramError::NotFinite { point: 0 });
         }
         if let Some((arm, check)) = self.reach {
-            for (i, point) in check.points.iter().enumerate() {
-                let joints = point.joints.filter(|_| point.way == Way::Joints);
-                let is_named = |joints: &Joints| configuration(format, &arm.arm, joints).is_some();
-                if joints.is_some_and(|joints| !is_named(&joints)) {
-                    return Err(ProgramError::Configuration {
-                        format,
-                        point: i + 1,
-                        arm: arm.arm.name.clone(),
-                    });
-                }
+            let all = check.points.iter().chain(check.ends.iter().flatten());
+            let mut joints = all.filter_map(|point| point.joints);
+            let is_named = |joints: Joints| configuration(format, &arm.arm, &joints).is_some();
+            let by_joints = |point: &PointCheck| point.way == Way::Joints;
+            if let Some(place) = check.points.iter().position(by_joints)
+                && !joints.all(is_named)
+            {
+                return Err(ProgramError::Configuration {
+                    format,
+                    point: place + 1,
+                    arm: arm.arm.name.clone(),
+                });
             }
         }
         if self.moves_on_rail() && format.rail_axis().is_none() {
@@ -276,7 +278,7 @@ impl Program<'_> {
         lines.push(
             match base.filter(|base| *base != RigidTransform::identity()) {
                 Some(base) => format!(
-                    "frame: that of the calibration, in which the arm's base is at {}",
+                    "frame: that of the calibration, with the base of the arm at {}; calibrate again if the frame of the controller is another",
                     convention.write(&base).line()
                 ),
                 None => "frame: robot base".into(),
@@ -284,7 +286,7 @@ impl Program<'_> {
         );
         if let Some(axis) = format.rail_axis().filter(|_| self.moves_on_rail()) {
             lines.push(format!(
-                "rail: {axis}, mm, 0 where the cell was calibrated, coupled to the arm; the frame does not move along"
+                "rail: {axis}, mm, 0 where the cell was calibrated, coupled to the arm, the frame does not move along"
             ));
         }
         if let Some((arm, check)) = self.reach {
@@ -317,7 +319,7 @@ impl Program<'_> {
             lines.push(format!(
                 "checked: reach, and collisions with {boxes}, clearance {}, gun radius {}",
                 Metres(obstacles.clearance),
-                Metres(arm.gun_radius)
+                Metres(arm.checked_gun_radius())
             ));
         } else {
             lines.push("reach and collisions: not checked".into());

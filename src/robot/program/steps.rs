@@ -151,6 +151,12 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
             gun: None,
         }),
     });
+    // If some are unknown, none is named: between those that are, the controller would turn a joint around.
+    if steps.iter().any(|step| step.configuration.is_none()) {
+        for step in &mut steps {
+            step.configuration = None;
+        }
+    }
     steps
 }
 

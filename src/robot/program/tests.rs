@@ -490,7 +490,7 @@ fn reached(arm: Arm, joints: &[Joints]) -> (PlacedArm, PathCheck) {
     let placed = PlacedArm {
         arm,
         robot_from_base: RigidTransform::identity(),
-        flange_from_nozzle: RigidTransform::identity(),
+        flange_from_nozzle: RigidTransform::translation(0.0, 0.0, 0.25),
         gun_radius: GUN_RADIUS,
         obstacles: Obstacles::default(),
     };

@@ -92,6 +92,12 @@ impl FollowedParts {
         (*part == hanging).then_some(trace)
     }
 
+    /// The serial number of the part that hangs before this source, if its verdict has counted with one.
+    pub(super) fn serial_of_hanging(&self, source: &str) -> Option<&str> {
+        let trace = self.trace_of_hanging().filter(|_| self.source == source)?;
+        Some(trace.serial.as_str()).filter(|serial| !serial.is_empty())
+    }
+
     /// True if a serial number entered now is of the next part: none hangs there, or the one that does has its own.
     pub(super) fn needs_no_serial(&self) -> bool {
         let has_serial = |trace: &Traceability| !trace.serial.is_empty();

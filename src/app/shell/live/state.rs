@@ -133,6 +133,41 @@ impl Session {
     pub(in crate::app) fn serial_is_for_next(&self) -> bool {
         !self.is_live() || lock(&self.live.parts).needs_no_serial()
     }
+
+    /// Enters a scanned serial number, unless the part that hangs there has it already. Returns what to tell the user.
+    pub(in crate::app) fn enter_scanned(&self, code: &str) -> Option<Notice> {
+        let serial = Traceability::cleaned(code);
+        let source = self.source.followed().map(|source| source.to_string());
+        // Meanwhile Live takes no serial number.
+        let parts = lock(&self.live.parts);
+        let of_hanging = source.and_then(|source| parts.serial_of_hanging(&source));
+        if of_hanging == Some(serial.as_str()) {
+            return Some(Notice::done(text!(
+                "operator-serial-known",
+                serial = serial
+            )));
+        }
+        let former = Traceability::cleaned(&self.trace.get().serial);
+        self.trace.set_serial(&serial);
+        drop(parts);
+        let mut rows = self.shift.last.iter();
+        if rows.any(|row| row.trace.serial == serial) {
+            let what = text!("operator-serial-in-shift", serial = serial);
+            return Some(Notice::look(what, text!("operator-serial-in-shift-next")));
+        }
+        if !former.is_empty() && former != serial {
+            let what = text!(
+                "operator-serial-replaced",
+                serial = serial,
+                former = former.clone()
+            );
+            let next = text!("operator-serial-replaced-next", former = former);
+            return Some(Notice::look(what, next));
+        }
+        // Other pages do not show the field.
+        let is_seen = self.is_operator_view();
+        (!is_seen).then(|| Notice::done(text!("operator-serial-entered", serial = serial)))
+    }
 }
 
 impl Source {
@@ -350,6 +385,11 @@ fn receive(state: &mut State, answer: LiveAnswer) {
     match answer {
         LiveAnswer::Stands(told) if state.session.is_live() => {
             watch_source(state, &told.status.source);
+            // The window may have missed the loss itself.
+            let is_lost = matches!(told.status.source, SourceState::Lost(_));
+            if is_lost || (told.inspected.is_none() && told.status.num_inspected > 0) {
+                outdate_frame(state);
+            }
             state.session.live.status = Some(told.status);
             if let Some(inspected) = told.inspected {
                 show(state, inspected);
@@ -423,6 +463,16 @@ fn show_latest(state: &mut State, inspected: Arc<Inspected>) {
     });
 }
 
+/// The shown frame is from before the source was lost: another part may hang there now.
+fn outdate_frame(state: &mut State) {
+    state.follower.unseen = None;
+    let session = Some(state.follower.session);
+    let shown = state.session.shown.as_mut();
+    if let Some(shown) = shown.filter(|shown| shown.session == session) {
+        shown.session = None;
+    }
+}
+
 /// Shows a notice while the source is lost.
 fn watch_source(state: &mut State, source: &SourceState) {
     match source {
@@ -465,6 +515,7 @@ mod tests {
             shell::{
                 action::{Action, apply as apply_any},
                 inspector,
+                live::LiveStatusUpdate,
             },
         },
         capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
@@ -678,6 +729,29 @@ mod tests {
             (state.follower.session, state.session.live.params.average),
             (before, MAX_AVERAGED)
         );
+    }
+
+    #[test]
+    fn what_was_inspected_before_the_source_was_lost_is_not_current_when_it_is_back() {
+        let mut state = watching();
+        toggle(&mut state);
+        assert!(state.follower.task.run_waiting());
+        update(&mut state);
+        toggle(&mut state);
+        let current = Some(state.follower.session);
+        state.session.shown.as_mut().expect("inspected").session = current;
+        let lost = SourceState::Lost(UserError {
+            what: "the folder does not exist".into(),
+            advice: "Check it".into(),
+        });
+        for source in [lost, SourceState::Running] {
+            let status = LiveStatus { source, ..told() };
+            let inspected = None;
+            let told = LiveStatusUpdate { status, inspected };
+            receive(&mut state, LiveAnswer::Stands(Box::new(told)));
+            let shown = state.session.shown.as_ref().expect("kept");
+            assert_eq!(shown.session, None);
+        }
     }
 
     fn told() -> LiveStatus {

@@ -79,7 +79,9 @@ pub(in crate::app) fn chip(ui: &mut Ui, session: &Session) {
     line_mark(ui, 16.0, 7.5, sign);
     let rates = session.live.status.as_ref().map(figures);
     let text = match rates {
-        Some(rates) if ui.available_width() > 320.0 => format!("{words} · {rates}"),
+        Some(rates) if !rates.is_empty() && ui.available_width() > 320.0 => {
+            format!("{words} · {rates}")
+        }
         _ => words,
     };
     status_label(ui, &text, font::body(), theme.weak_text);
@@ -142,7 +144,7 @@ fn evidence_text(status: &LiveStatus) -> String {
     }
 }
 
-/// Formats rates, latency and dropped frames.
+/// Formats rates, latency and dropped frames. Captures of a watched folder come one by one, without a rate.
 fn figures(status: &LiveStatus) -> String {
     let [captured, inspected] = status
         .rates
@@ -151,10 +153,34 @@ fn figures(status: &LiveStatus) -> String {
         .latency
         .map(|latency| format!("{:.0} ms", latency.as_secs_f64() * 1000.0));
     let dropped = (status.num_dropped > 0).then(|| text!("live-dropped", num = status.num_dropped));
-    let rates = text!("live-rates", captured = captured, inspected = inspected);
-    let all: Vec<String> = [Some(rates), latency, dropped]
-        .into_iter()
-        .flatten()
-        .collect();
+    let has_rates = status.stillness.is_some();
+    let rates = || text!("live-rates", captured = captured, inspected = inspected);
+    let rates = has_rates.then(rates);
+    let all: Vec<String> = [rates, latency, dropped].into_iter().flatten().collect();
     all.join(" · ")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn a_watched_folder_has_no_rates() {
+        let mut status = LiveStatus {
+            source: SourceState::Running,
+            stillness: None,
+            standing: LiveVerdict::Open,
+            rates: [Some(0.0); 2],
+            latency: Some(Duration::from_millis(88)),
+            num_inspected: 8,
+            num_dropped: 0,
+            num_averaged: 1,
+            recorded: None,
+        };
+        assert_eq!(figures(&status), "88 ms");
+        status.stillness = Some(MotionState::Watching);
+        assert_eq!(figures(&status), "0 fps, 0 inspected · 88 ms");
+    }
 }

@@ -117,7 +117,7 @@ pub enum LiveAnswer {
 pub struct LiveStatusUpdate {
     /// Status in figures.
     pub status: LiveStatus,
-    /// The last frame whose inspection was prepared for the panels.
+    /// The last frame whose inspection was prepared for the panels; `None` if there is none since the source was lost.
     pub inspected: Option<Arc<Inspected>>,
 }
 
@@ -472,8 +472,9 @@ impl<'a> LiveSession<'a> {
             _ => SourceState::Running,
         };
         if matches!(source, SourceState::Lost(_)) {
-            // After the source returns, a part must be seen hanging still again.
+            // After the source returns, a part must be seen hanging still again, and a folder needs a new capture.
             self.standing = LiveVerdict::Open;
+            self.inspected = None;
         }
         let mut latencies: Vec<Duration> = self.latencies.iter().copied().collect();
         latencies.sort_unstable();

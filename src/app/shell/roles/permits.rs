@@ -63,7 +63,8 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
         | Action::Quit
         | Action::CloseAnyway
         | Action::StayOpen
-        | Action::Undo => false,
+        | Action::Undo
+        | Action::WrongPart => false,
     }
 }
 

@@ -1,8 +1,8 @@
 //! Above the views: what is aligned to what, the start, and Run.
 
 use egui::{
-    Align, Align2, Button, DragValue, Label, Layout, Response, RichText, ScrollArea, TextEdit, Ui,
-    Vec2, vec2,
+    Align, Align2, Button, DragValue, Label, Layout, Response, RichText, Role, ScrollArea,
+    TextEdit, TextStyle, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::{
@@ -18,7 +18,7 @@ use crate::app::{
     ui::{
         theme::{Theme, font, space},
         viewport::ViewDirection,
-        widgets::{labelled, shortened, show_scroll_bar, text_button},
+        widgets::{button_width, fitted_middle, labelled, shortened, show_scroll_bar, text_button},
     },
 };
 
@@ -138,8 +138,12 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
         || text!("align-no-part"),
         |place| library.title(place).to_owned(),
     );
-    let title = format!("{} · {} ▼", text!("align-part"), shortened(&title, 24));
-    let menu = ui.menu_button(title, |ui| {
+    let named = |title: &str| format!("{} · {title} ▼", text!("align-part"));
+    // The menu takes the room that Run leaves.
+    let room = ui.available_width() - button_width(ui, &named(""));
+    let font = TextStyle::Button.resolve(ui.style());
+    let shown = fitted_middle(ui.painter(), &shortened(&title, 24), &font, room);
+    let menu = ui.menu_button(named(&shown), |ui| {
         ui.set_min_width(200.0);
         show_scroll_bar(ui);
         ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
@@ -155,7 +159,11 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
             }
         });
     });
-    menu.response.on_hover_text(text!("align-part-hint"));
+    let label = named(&title);
+    menu.response
+        .widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+    let hint = text!("align-part-hint");
+    menu.response.on_hover_text(format!("{title}\n{hint}"));
 }
 
 /// Draws the starts of a moved copy.

@@ -115,6 +115,9 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session) {
     // A refusal never gets the mark of an accepted part, even if it is right.
     let sign = if found.accepted && judgement != Some(CaseOutcome::WrongAccepted) {
         Mark::Good
+    } else if found.part.is_none() && judgement != Some(CaseOutcome::Refused) {
+        // An empty cell is not a bad part.
+        Mark::Open
     } else {
         Mark::Bad
     };
@@ -130,7 +133,7 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session) {
     };
     let word = ui.label(weak(&asked));
     if let Some(refusal) = study.refusal(session.units) {
-        word.on_hover_text(format!("{refusal}\n{}", study.advice));
+        word.on_hover_text(format!("{refusal}\n{}", study.advice()));
     }
 }
 

@@ -112,10 +112,10 @@ fn empty(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState) {
     let theme = Theme::of(ui);
     let text = match (&compare.study, compare.running()) {
         (Some(study), _) => {
-            let reason = study.found.reason.clone();
+            let reason = study.reason();
             let reason = reason.unwrap_or_else(|| text!("compare-no-outline-reason"));
             let what = text!("compare-no-outline", reason = reason);
-            format!("{what}\n{}", study.advice)
+            format!("{what}\n{}", study.advice())
         }
         (None, Some(running)) => format!("{}…", running.title),
         (None, None) => {

@@ -158,7 +158,12 @@ fn outcome(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Ve
             };
             let judgement = judged(compare);
             let (sign, colour) = match (judgement, found.accepted) {
-                (Some(CaseOutcome::WrongAccepted), _) | (_, false) => (Mark::Bad, theme.rejected),
+                (Some(CaseOutcome::WrongAccepted | CaseOutcome::Refused), _) => {
+                    (Mark::Bad, theme.rejected)
+                }
+                // An empty cell is not a bad part.
+                _ if found.part.is_none() => (Mark::Open, theme.weak_text),
+                (_, false) => (Mark::Bad, theme.rejected),
                 (_, true) => (Mark::Good, theme.accepted),
             };
             ui.horizontal_top(|ui| {
@@ -186,7 +191,7 @@ fn outcome(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Ve
             ui.label(RichText::new(word).color(colour));
             if let Some(refusal) = study.refusal(session.units) {
                 let text = RichText::new(refusal).small();
-                ui.label(text).on_hover_text(&study.advice);
+                ui.label(text).on_hover_text(study.advice());
             }
         }
     });

@@ -12,7 +12,7 @@ use crate::{
     },
     cases::{CaseFolder, FoundVerdict, KeptCase, Truth},
     library::Library,
-    pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Rejection, Verdict},
+    pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Refusal, Rejection},
     stages::{
         rank::{MatchRanking, Matcher, Query, RankParams, rank},
         signature::LiteralSignature,
@@ -59,10 +59,8 @@ pub struct CaseStudy {
     pub found: FoundVerdict,
     /// Title of the found part.
     pub found_title: String,
-    /// Why it was refused, with figures.
-    pub refused: Option<String>,
-    /// What to do about a refusal; empty if it was accepted.
-    pub advice: String,
+    /// Why it was refused, with the titles of the parts; named when drawn, because the language may change.
+    pub refused: Option<Refusal>,
     /// Time of the inspection, milliseconds.
     pub time_ms: f64,
     /// The distance of every part, nearest by the matcher in use first.
@@ -91,9 +89,23 @@ pub struct PartDistance {
 }
 
 impl CaseStudy {
+    /// The reason of a refusal with the figure that decided.
+    pub fn reason(&self) -> Option<String> {
+        self.refused.as_ref().map(refused)
+    }
+
+    /// What to do about a refusal; empty if it was accepted.
+    pub fn advice(&self) -> String {
+        match &self.refused {
+            Some(Refusal::Rejected(why)) => results::rejection_advice(why),
+            Some(Refusal::Unrecognisable(why)) => results::unrecognisable_advice(why),
+            None => String::new(),
+        }
+    }
+
     /// Why it was refused, in one sentence.
     pub fn refusal(&self, units: UnitSystem) -> Option<String> {
-        let refused = self.refused.as_ref()?;
+        let refused = self.reason()?;
         let nearest = self.distances.iter();
         let mut nearest = nearest.filter(|d| self.found.part.as_ref() == Some(&d.part));
         let apart = nearest.find_map(|d| d.outline);
@@ -146,8 +158,10 @@ pub fn study(
         truth,
         recipe: Arc::clone(&request.recipe),
         found_title: found.part.as_deref().map(title_of).unwrap_or_default(),
-        refused: refused(&inspection.verdict, &title_of),
-        advice: advice(&inspection.verdict),
+        refused: inspection
+            .verdict
+            .refusal()
+            .map(|why| why.renamed(title_of)),
         time_ms: inspection.timings.total.as_secs_f64() * 1000.0,
         distances: Vec::new(),
         comparison: None,
@@ -202,9 +216,9 @@ fn fixed(value: f64) -> String {
 }
 
 /// The reason of a refusal with the figure that decided.
-fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<String> {
-    Some(match verdict {
-        Verdict::Part { rejected, .. } => match rejected.as_ref()? {
+fn refused(why: &Refusal) -> String {
+    match why {
+        Refusal::Rejected(why) => match why {
             Rejection::LowScore {
                 score, threshold, ..
             } => text!(
@@ -219,7 +233,7 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
                 ..
             } => text!(
                 "compare-small-margin",
-                part = title_of(other),
+                part = other,
                 margin = fixed(*margin),
                 threshold = fixed(*threshold),
             ),
@@ -256,12 +270,8 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
                 text!("compare-hardly-seen", score = fixed(*score))
             }
             Rejection::Unknown { score, .. } => text!("compare-unknown", score = fixed(*score)),
-            Rejection::Mirrored { part, .. } => {
-                text!("compare-mirrored", part = title_of(part))
-            }
-            Rejection::MirroredImage { part, .. } => {
-                text!("compare-mirrored-image", part = title_of(part))
-            }
+            Rejection::Mirrored { part, .. } => text!("compare-mirrored", part = part),
+            Rejection::MirroredImage { part, .. } => text!("compare-mirrored-image", part = part),
             Rejection::Unconstrained { freedom, .. } => {
                 text!(
                     "compare-unconstrained",
@@ -284,16 +294,8 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
             | Rejection::Undecided { .. }
             | Rejection::PosesApart { .. }) => results::rejection(other),
         },
-        Verdict::NoPart(reason) => results::unrecognisable(reason),
-    })
-}
-
-fn advice(verdict: &Verdict) -> String {
-    match verdict {
-        Verdict::Part { rejected, .. } => rejected.as_ref().map(results::rejection_advice),
-        Verdict::NoPart(reason) => Some(results::unrecognisable_advice(reason)),
+        Refusal::Unrecognisable(why) => results::unrecognisable(why),
     }
-    .unwrap_or_default()
 }
 
 fn query_of(inspection: &Inspection) -> Option<Query<'_>> {
@@ -356,7 +358,10 @@ mod tests {
 
     use super::*;
     use crate::{
-        app::inspection::{inspected::inspected_cell, source::CellChoice},
+        app::{
+            inspection::{inspected::inspected_cell, source::CellChoice},
+            language::Language,
+        },
         kit::shipped_library,
         pipeline::{Recipe, Unwatched},
         simulate::{PartKind, Side},
@@ -421,9 +426,17 @@ mod tests {
     fn an_empty_cell_has_a_reason_and_no_figures() {
         let empty = studied(&request(CellChoice::Empty));
         assert!(empty.found.part.is_none() && empty.comparison.is_none());
-        assert!(empty.found.reason.is_some() && !empty.advice.is_empty());
-        let refusal = empty.refusal(UnitSystem::MillimetresDegrees);
+        assert!(empty.found.reason.is_some() && !empty.advice().is_empty());
+        let units = UnitSystem::MillimetresDegrees;
+        let refusal = empty.refusal(units);
         assert!(refusal.expect("refused").starts_with("Refused: "));
+        // A language chosen since then counts for the reason, too.
+        let (reason, advice) = (empty.reason(), empty.advice());
+        Language::German.make_current();
+        let refusal = empty.refusal(units).expect("refused");
+        assert!(refusal.starts_with("Abgewiesen: "), "{refusal}");
+        assert!(empty.reason() != reason && empty.advice() != advice);
+        Language::English.make_current();
     }
 
     #[test]

@@ -320,6 +320,7 @@ impl EnrolState {
             | Event::Left(_)
             | Event::TracedLate(..)
             | Event::PosesWanted(_)
+            | Event::WrongPart
             | Event::Export => {}
         }
     }

@@ -196,9 +196,11 @@ impl HistoryState {
         self.jobs.push(HistoryJob::Remark(number, remark));
     }
 
-    fn select(&mut self, number: i64, cx: &ShellContext<'_>) {
-        if self.selected != Some(number) {
-            self.selects(number);
+    /// Selects this inspection, as the user's choice.
+    pub(super) fn select(&mut self, number: i64, cx: &ShellContext<'_>) {
+        let is_other = self.selected != Some(number);
+        self.selects(number);
+        if is_other {
             self.look(cx);
         }
     }
@@ -227,6 +229,10 @@ impl HistoryState {
                 if let Some(action) = self.held.take() {
                     self.apply(action, cx);
                 }
+            }
+            Event::WrongPart => {
+                self.choose_newest();
+                self.look(cx);
             }
             Event::PosesWanted(_) | Event::Export | Event::Escape | Event::Undo => {}
         }

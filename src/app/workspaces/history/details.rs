@@ -72,7 +72,11 @@ impl Details {
         ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
         area.show(ui, |ui| {
             verdict(ui, record, session);
-            self.remark.ui(ui, &of_part.summary, session, actions);
+            let is_edited = self.remark.ui(ui, &of_part.summary, session, actions);
+            // The next inspection must not take the place of one that is being edited.
+            if is_edited && !history.is_chosen() {
+                actions.push(HistoryAction::Select(record.summary.number));
+            }
             self.picture(ui, record);
             ui.add_space(space::MEDIUM);
             buttons(ui, history, record, actions);
@@ -141,12 +145,15 @@ fn verdict(ui: &mut Ui, record: &Record, session: &Session) {
             (Mark::Bad, theme.rejected)
         }
     };
-    ui.horizontal(|ui| {
-        line_mark(ui, 20.0, 9.0, sign);
-        let word = accepted_or_not(summary.verdict == StoredVerdict::Accepted);
-        let word = RichText::new(word).font(font::verdict());
-        ui.label(word.color(colour));
-    });
+    // An empty cell is not a bad part: its title says all.
+    if summary.verdict != StoredVerdict::NoPart {
+        ui.horizontal(|ui| {
+            line_mark(ui, 20.0, 9.0, sign);
+            let word = accepted_or_not(summary.verdict == StoredVerdict::Accepted);
+            let word = RichText::new(word).font(font::verdict());
+            ui.label(word.color(colour));
+        });
+    }
     if summary.is_simulated {
         let text = text!("history-simulated");
         ui.label(RichText::new(text).color(theme.warning));

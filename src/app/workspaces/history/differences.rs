@@ -22,7 +22,7 @@ type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
 pub(super) fn today(ui: &mut Ui, found: &Differences, units: UnitSystem) {
     let theme = Theme::of(ui);
     heading(ui, &text!("history-differences"));
-    let is_same = found.is_same();
+    let is_same = found.has_same_outcome();
     let sentence = if is_same {
         text!("history-same-today")
     } else {
@@ -43,7 +43,9 @@ pub(super) fn table(
     theme: &Theme,
 ) {
     let strong = RichText::new(sentence).font(font::body_strong());
-    ui.label(strong.color(if is_same { theme.text } else { theme.warning }));
+    // Only another result is a warning: scores differ by noise, too.
+    let colour = if is_same { theme.text } else { theme.warning };
+    ui.label(strong.color(colour));
     let Differences { before, now, pose } = found;
     let none = || "-".to_owned();
     let rows: [(String, FindingText<'_>); 5] = [
@@ -87,7 +89,7 @@ pub(super) fn table(
                 ui.label(if is_same {
                     text
                 } else {
-                    text.font(font::body_strong()).color(theme.warning)
+                    text.font(font::body_strong()).color(colour)
                 });
                 ui.end_row();
             }
@@ -98,6 +100,8 @@ pub(super) fn table(
             shift = units.length(off.shift.0),
             rotation = units.angle(off.rotation.0),
         );
-        ui.label(text);
+        let text = RichText::new(text);
+        let is_plain = is_same || found.has_same_pose();
+        ui.label(if is_plain { text } else { text.color(colour) });
     }
 }

@@ -20,23 +20,26 @@ use crate::{
     library::Truth,
 };
 
-/// The remark being edited.
+/// The remark and the true label being edited.
 #[derive(Default)]
 pub(super) struct Remark {
     /// The inspection, its stored remark, and the text being edited.
     draft: Option<(i64, String, String)>,
+    /// The inspection for which the menu of true labels was opened, while it is open.
+    labelled: Option<i64>,
 }
 
 impl Remark {
+    /// Draws both; returns true while the remark or the label is being edited.
     pub(super) fn ui(
         &mut self,
         ui: &mut Ui,
         row: &Summary,
         session: &Session,
         actions: &mut Vec<HistoryAction>,
-    ) {
+    ) -> bool {
         heading(ui, &text!("history-actual-part"));
-        truth_menu(ui, row, session, actions);
+        let is_labelled = truth_menu(ui, row, &mut self.labelled, session, actions);
         heading(ui, &text!("history-remark"));
         // Start anew for another inspection, or if the stored remark was changed elsewhere.
         let is_of_it = self
@@ -48,7 +51,7 @@ impl Remark {
             self.draft = Some((row.number, row.remark.clone(), row.remark.clone()));
         }
         let Some((_, known, text)) = &mut self.draft else {
-            return;
+            return is_labelled;
         };
         let field = TextEdit::singleline(text)
             .hint_text(text!("history-remark-hint"))
@@ -64,6 +67,7 @@ impl Remark {
             let remark = text.trim().to_owned();
             actions.push(HistoryAction::Remark(row.number, remark));
         }
+        is_labelled || response.has_focus()
     }
 
     /// Saves a remark that was edited before another inspection came to the front or the window closes.
@@ -78,16 +82,28 @@ impl Remark {
     }
 }
 
-fn truth_menu(ui: &mut Ui, row: &Summary, session: &Session, actions: &mut Vec<HistoryAction>) {
+/// Draws the menu of true labels; returns true while it is open. What is chosen in it is the label of the inspection for
+/// which it was opened.
+fn truth_menu(
+    ui: &mut Ui,
+    row: &Summary,
+    labelled: &mut Option<i64>,
+    session: &Session,
+    actions: &mut Vec<HistoryAction>,
+) -> bool {
+    let number = labelled.unwrap_or(row.number);
     let unloaded = LibraryView::default();
     let library = session.library.as_deref().unwrap_or(&unloaded);
     let chosen = row.label.as_ref();
     let title = shortened(&truth_title(chosen, library), 24);
     let title = format!("{} · {title} ▼", text!("history-actual-part"));
-    ui.menu_button(&title, |ui| {
+    let menu = ui.menu_button(&title, |ui| {
         let first = [None, Some(Truth::NotEnrolled), Some(Truth::Nothing)];
         truth_entries(ui, chosen, &first, library, |truth| {
-            actions.push(HistoryAction::Label(row.number, truth));
+            actions.push(HistoryAction::Label(number, truth));
         });
     });
+    let is_open = menu.inner.is_some();
+    *labelled = is_open.then_some(number);
+    is_open || menu.response.clicked()
 }

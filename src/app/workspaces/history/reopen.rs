@@ -35,6 +35,8 @@ impl HistoryState {
 
     /// Inspects its scene again with the recipe and library in use.
     pub(super) fn inspect_again(&mut self, number: i64, cx: &mut ShellContext<'_>) {
+        // It stays in front, where the differences are shown.
+        self.select(number, cx);
         self.reinspect(number, RemakeFor::Compare, cx);
     }
 
@@ -50,7 +52,7 @@ impl HistoryState {
     fn reinspect(&mut self, number: i64, purpose: RemakeFor, cx: &mut ShellContext<'_>) {
         let Some(past) = self.looked_at_as(number).cloned() else {
             // Not fetched yet: fetch it first.
-            self.selected = Some(number);
+            self.selects(number);
             self.then = Some((number, purpose));
             return self.look(cx);
         };
@@ -138,7 +140,7 @@ impl HistoryState {
                 let number = past.record.summary.number;
                 self.differences = Some((number, differences));
             }
-            RemakeFor::Open if differences.is_same() => {}
+            RemakeFor::Open if differences.has_same_outcome() => {}
             RemakeFor::Open => cx.notify(other_result(&past.record, &differences)),
         }
     }

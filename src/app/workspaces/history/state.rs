@@ -50,6 +50,8 @@ pub struct HistoryState {
     visible: Range<usize>,
     /// Number of the selected inspection.
     pub selected: Option<i64>,
+    /// Whether the selection follows the newest inspection.
+    selection: Selection,
     /// The selected inspection in full, once fetched.
     pub record: Option<Arc<OpenedInspection>>,
     /// The retention rule, and the space that kept frames take.
@@ -91,6 +93,17 @@ pub struct HistoryState {
     pub(super) dialog: FileDialog<HistoryFile>,
 }
 
+/// Whether the selection follows the newest inspection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Selection {
+    /// Nobody chose the selected inspection: the next one takes its place.
+    Newest,
+    /// The user asked for the newest inspection, whose ticket this is: it is chosen once it is written.
+    Opening(u64),
+    /// The user chose the selected inspection: it stays selected.
+    Chosen,
+}
+
 /// An inspection queued for writing.
 #[derive(Debug)]
 struct Unwritten {
@@ -128,6 +141,7 @@ impl HistoryState {
             statistics: StatisticsView::Closed,
             visible: 0..0,
             selected: None,
+            selection: Selection::Newest,
             record: None,
             kept: Default::default(),
             frames: None,
@@ -224,11 +238,13 @@ impl HistoryState {
             self.whole.push_front((number, whole));
             self.whole.truncate(MAX_WHOLE);
         }
-        // If the newest was selected, select the new one, or its part if this is a re-inspection.
-        let newest = self.row(0).map(|row| row.number);
-        if self.selected.is_none() || self.selected == newest {
+        // If nobody chose a row, select the new one, or its part if this is a re-inspection.
+        if !self.is_chosen() {
             self.selected = Some(number);
             self.wants_part = true;
+        }
+        if self.selection == Selection::Opening(ticket) {
+            self.selection = Selection::Chosen;
         }
         self.is_stale = true;
     }
@@ -322,21 +338,43 @@ impl HistoryState {
                 known.entry(part.clone()).or_insert_with(|| part.clone());
             }
         }
+        if is_hidden {
+            self.selection = Selection::Newest;
+        }
         if self.selected.is_none() || is_hidden {
             self.selected = self.page.rows.first().map(|row| row.number);
         }
+        if let Selection::Opening(ticket) = self.selection
+            && self.selected.is_some()
+            && self.unwritten.keys().all(|waiting| *waiting > ticket)
+        {
+            self.selection = Selection::Chosen;
+        }
     }
 
-    /// Selects this inspection.
+    /// True if the user chose the selected inspection, which therefore stays selected.
+    pub(super) fn is_chosen(&self) -> bool {
+        self.selection == Selection::Chosen
+    }
+
+    /// Selects this inspection, as the user's choice.
     pub(super) fn selects(&mut self, number: i64) {
         self.selected = Some(number);
+        self.selection = Selection::Chosen;
         self.wants_part = false;
     }
 
     /// Selects the newest inspection and has its row fetched, wherever the list is scrolled to.
     pub(super) fn select_newest(&mut self) {
         self.selected = None;
+        self.selection = Selection::Newest;
         self.visible = 0..self.visible.len();
+    }
+
+    /// Selects the newest inspection, as the user's choice.
+    pub(super) fn choose_newest(&mut self) {
+        self.select_newest();
+        self.selection = Selection::Opening(self.num_tickets);
     }
 
     /// Moves the selection to the inspection that stands for the part, where that is wanted.

@@ -98,6 +98,8 @@ pub struct Statistics {
     pub reasons: Vec<(ReasonGroup, usize)>,
     /// Number of simulated parts that are not counted.
     pub num_left_out: usize,
+    /// Number of rows without a part, which are not counted.
+    pub num_no_part: usize,
     /// Drift of the part that the filter names, or of the one accepted most often.
     pub drift: Option<Drift>,
 }
@@ -134,6 +136,7 @@ pub(super) fn count(
     let mut end: Option<Zoned> = None;
     for outcome in outcomes {
         if outcome.verdict == StoredVerdict::NoPart {
+            found.num_no_part += 1;
             continue;
         }
         let is_in_last = end.as_ref().is_some_and(|end| outcome.at < end.timestamp());
@@ -222,6 +225,10 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
         if found.num_left_out > 0 {
             let count = found.num_left_out;
             ui.weak(text!("history-simulated-left-out", count = count));
+        }
+        if found.num_no_part > 0 {
+            let count = found.num_no_part;
+            ui.weak(text!("history-no-part-left-out", count = count));
         }
         heading(ui, &text!("history-by-part"));
         Grid::new("by part")
@@ -383,6 +390,7 @@ mod tests {
             outcome("08:00:00", StoredVerdict::NoPart, "", None),
             outcome("15:00:00", ok, "door", None),
         ]);
+        assert_eq!(found.num_no_part, 1);
         let shifts: Vec<_> = found
             .shifts
             .iter()

@@ -80,6 +80,7 @@ pub(super) fn ui(
             let text = text!("inspect-touches-edge");
             ui.label(RichText::new(text).color(theme.warning));
         }
+        as_part(ui, inspected, &headline);
         score(ui, inspected, &headline);
         if let Some(pose) = pose {
             offset(ui, inspected, pose, session.units);
@@ -157,6 +158,17 @@ fn action_buttons(ui: &mut Ui, pose: Option<&PoseEstimate>, actions: &mut Vec<In
     });
 }
 
+/// Heads the figures with the part that they belong to, if the headline does not name it.
+fn as_part(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
+    let Some(guess) = inspected.inspection.verdict.guess() else {
+        return;
+    };
+    let part = inspected.library.title_of(guess);
+    if !headline.is_accepted && !headline.is_open && !headline.title.contains(part) {
+        heading(ui, &text!("inspect-as-part", part = part));
+    }
+}
+
 /// Draws the score as a bar against the threshold, and the margin.
 fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let theme = Theme::of(ui);
@@ -168,7 +180,12 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let next = inspected.figures.candidates.get(1);
     let next = next.filter(|_| !is_mirrored);
     ui.add_space(space::MEDIUM);
-    row(ui, &text!("inspect-score"), &format!("{score:.2}"));
+    let name = if is_mirrored {
+        text!("inspect-score-itself")
+    } else {
+        text!("inspect-score")
+    };
+    row(ui, &name, &format!("{score:.2}"));
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
     let painter = ui.painter();
     let bar = Rect::from_min_max(rect.min + vec2(0.0, 2.0), rect.max - vec2(0.0, 2.0));

@@ -29,6 +29,8 @@ pub(super) struct Headline {
     pub(super) is_accepted: bool,
     /// True if it is too early for a verdict.
     pub(super) is_open: bool,
+    /// True if nothing hangs there: an empty cell is not a bad part.
+    is_no_part: bool,
     /// Why it is not accepted, and what to do.
     pub(super) complaint: Option<(String, String)>,
 }
@@ -58,6 +60,7 @@ impl Headline {
                         nearest: None,
                         is_accepted: true,
                         is_open: false,
+                        is_no_part: false,
                         complaint: None,
                     },
                     // The type is certain; model or make differs.
@@ -73,6 +76,7 @@ impl Headline {
                         nearest: None,
                         is_accepted: false,
                         is_open: false,
+                        is_no_part: false,
                         complaint: Some((rejection(reason), rejection_advice(reason))),
                     },
                     Some(reason) if is_recognised([*score, *margin], &inspected.recipe.accept) => {
@@ -81,6 +85,7 @@ impl Headline {
                             nearest: None,
                             is_accepted: false,
                             is_open: false,
+                            is_no_part: false,
                             complaint: Some((rejection(reason), rejection_advice(reason))),
                         }
                     }
@@ -97,6 +102,7 @@ impl Headline {
                         .then_some(nearest),
                         is_accepted: false,
                         is_open: false,
+                        is_no_part: false,
                         complaint: Some((rejection(reason), rejection_advice(reason))),
                     },
                 }
@@ -106,6 +112,7 @@ impl Headline {
                 nearest: None,
                 is_accepted: false,
                 is_open: false,
+                is_no_part: true,
                 complaint: Some((unrecognisable(reason), unrecognisable_advice(reason))),
             },
         }
@@ -151,6 +158,7 @@ impl Headline {
             nearest: nearest.filter(|_| is_part).map(|best| best.title.clone()),
             is_accepted: false,
             is_open: true,
+            is_no_part: false,
             complaint: Some(complaint),
         }
     }
@@ -172,10 +180,12 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
     } else {
         (Mark::Bad, accepted_or_not(false), theme.rejected)
     };
-    ui.horizontal(|ui| {
-        line_mark(ui, 32.0, 14.0, sign);
-        ui.label(RichText::new(word).font(font::far_verdict()).color(colour));
-    });
+    if !headline.is_no_part {
+        ui.horizontal(|ui| {
+            line_mark(ui, 32.0, 14.0, sign);
+            ui.label(RichText::new(word).font(font::far_verdict()).color(colour));
+        });
+    }
     if let Some(nearest) = &headline.nearest {
         ui.weak(text!("inspect-nearest", part = nearest));
     }
@@ -207,6 +217,15 @@ pub(super) fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usi
 mod tests {
     use super::*;
     use crate::app::inspection::{inspected::inspected_cell, source::CellChoice};
+
+    #[test]
+    fn an_empty_cell_is_not_called_not_accepted() {
+        let session = Session::default();
+        for (choice, is_no_part) in [(CellChoice::Empty, true), (CellChoice::InTurn, false)] {
+            let found = inspected_cell(choice, 1);
+            assert_eq!(Headline::of(&found, &session).is_no_part, is_no_part);
+        }
+    }
 
     #[test]
     fn a_part_that_is_only_in_doubt_where_it_is_is_called_by_its_name() {

@@ -258,6 +258,7 @@ impl Workspace for InspectWorkspace {
         if session.is_operator_view() {
             if let Some(shown) = &session.shown {
                 self.make(ui.ctx(), shown);
+                self.view.frame_part(&shown.inspected);
             }
             operator::ui(ui, session, |ui| {
                 if let Some(shown) = &session.shown {

@@ -19,6 +19,7 @@ use crate::{
             widgets::{Mark, fitted_middle, line_mark, mark, sentence, wrapped},
         },
     },
+    geometry::cloud::Grid,
     history::StoredVerdict,
     pipeline::{Unrecognisable, Verdict},
     stages::pose::PoseEstimate,
@@ -261,9 +262,30 @@ fn caution(inspected: &Inspected, tone: Tone) -> String {
     let is_cut = inspected.inspection.touches_edge() && inspected.scan.is_none();
     match tone {
         Tone::NotOk if is_cut => text!("operator-reaches-edge"),
-        Tone::Ok if is_cut => text!("operator-reaches-edge-ok"),
+        Tone::Ok if is_cut && reaches_border(inspected) => text!("operator-reaches-edge-ok"),
         Tone::Ok | Tone::NotOk | Tone::Open | Tone::Trouble => String::new(),
     }
+}
+
+/// True if points of the part lie at the border of the picture itself. The view may end earlier, for example at the shadow of
+/// a part that lies well inside.
+fn reaches_border(inspected: &Inspected) -> bool {
+    // As for the edge of the view: a few stray pixels do not count.
+    const LEAST: usize = 10;
+    const MARGIN: usize = 2;
+    let part = inspected.inspection.segmentation.part.as_ref().ok();
+    let Some((part, Grid { width, height })) = part.zip(inspected.scene.cloud.grid) else {
+        return false;
+    };
+    let is_at_border = |i: &&u32| {
+        let (u, v) = (**i as usize % width, **i as usize / width);
+        u.min(v) <= MARGIN || u + MARGIN + 1 >= width || v + MARGIN + 1 >= height
+    };
+    part.indices
+        .iter()
+        .filter(is_at_border)
+        .nth(LEAST - 1)
+        .is_some()
 }
 
 /// Draws the operator's view; `picture` draws the part once there is an inspection.
@@ -524,9 +546,15 @@ mod tests {
                 ..Session::default()
             })
         };
+        let beside_shadow: fn(&mut Inspected) = |inspected| {
+            if let Ok(part) = &mut inspected.inspection.segmentation.part {
+                part.touches_edge = true;
+            }
+        };
         let cut: fn(&mut Inspected) = |inspected| {
             if let Ok(part) = &mut inspected.inspection.segmentation.part {
                 part.touches_edge = true;
+                part.indices = (0..20).collect();
             }
         };
         let refused: fn(&mut Inspected) = |inspected| {
@@ -538,6 +566,8 @@ mod tests {
             }
         };
         assert_eq!(banner(|_| (), false).caution, "");
+        let inside = banner(beside_shadow, false);
+        assert_eq!((inside.tone, &*inside.caution), (Tone::Ok, ""));
         let good = banner(cut, false);
         assert_eq!(good.tone, Tone::Ok);
         assert!(good.caution.contains("the next one"), "{}", good.caution);

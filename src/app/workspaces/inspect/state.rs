@@ -244,7 +244,11 @@ impl InspectState {
             }
             Event::Export => self.apply(InspectAction::Ask(InspectFile::Report), cx),
             Event::Escape => self.enlarged = None,
-            Event::Left(_) | Event::TracedLate(..) | Event::EngineerIn | Event::Undo => {}
+            Event::Left(_)
+            | Event::TracedLate(..)
+            | Event::EngineerIn
+            | Event::WrongPart
+            | Event::Undo => {}
         }
     }
 

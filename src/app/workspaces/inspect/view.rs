@@ -26,6 +26,7 @@ use crate::{
         user_error::UserError,
     },
     geometry::rigid::RigidTransform,
+    history::HungId,
     units::Metres,
 };
 
@@ -75,6 +76,8 @@ pub(super) struct SceneView {
     origin: Option<String>,
     /// The followed source whose frame is shown.
     session: Option<u64>,
+    /// The part that was framed last for the operator, and whether its verdict counted by then.
+    framed: Option<(HungId, bool)>,
     /// For a scan: the camera pose that defines the frame shown.
     space: Option<RigidTransform>,
     /// Size of the view in the last frame, logical pixels.
@@ -101,6 +104,7 @@ impl SceneView {
             caption: String::new(),
             origin: None,
             session: None,
+            framed: None,
             space: None,
             size: Vec2::splat(1.0),
             controls_width: 0.0,
@@ -179,6 +183,25 @@ impl SceneView {
             let corner = pos2(rect.left() + space::MEDIUM, top - 4.0);
             overlay.legend(&painter, corner, &self.style.colours, theme);
         }
+    }
+
+    /// Frames another part for the operator, when it comes and when its verdict counts, but not on every frame of it.
+    pub(super) fn frame_part(&mut self, inspected: &Inspected) {
+        if self.is_to_be_framed(inspected) {
+            self.camera.request_fit(FitRequest::Focus);
+        }
+    }
+
+    fn is_to_be_framed(&mut self, inspected: &Inspected) -> bool {
+        let followed = inspected.followed.as_ref();
+        let counts = followed.is_some_and(|followed| followed.standing.counted().is_some());
+        let part = inspected.hung();
+        let framed = self.framed.as_ref();
+        if framed.is_some_and(|(framed, counted)| framed == part && (*counted || !counts)) {
+            return false;
+        }
+        self.framed = Some((part.clone(), counts));
+        true
     }
 
     /// Draws the part alone for the operator; with its outline if accepted.
@@ -396,4 +419,21 @@ fn plate(
     painter.rect_filled(rect, ROUNDING, theme.canvas.gamma_multiply(0.82));
     painter.galley(rect.min + margin, galley, theme.text);
     rect
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::inspection::{inspected::inspected_cell, source::CellChoice};
+
+    #[test]
+    fn each_part_is_framed_once_for_the_operator() {
+        let reason = String::new();
+        let mut view = SceneView::new(Err(ViewError::NoDevice { reason }));
+        let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+        assert!(view.is_to_be_framed(&inspected));
+        assert!(!view.is_to_be_framed(&inspected));
+        inspected.entry.record.summary.hung = HungId::new();
+        assert!(view.is_to_be_framed(&inspected));
+    }
 }

@@ -1,7 +1,7 @@
 //! The section on the robot: arm, nozzle and gun of its programs, what they stay clear of, and which points of the path the
 //! arm reaches.
 
-use egui::{Button, DragValue, Label, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Button, DragValue, Key, Label, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::{
     action::{PaintAction, PaintFile},
@@ -37,8 +37,13 @@ pub(super) fn ui(
     let mut setup = session.program.clone();
     arm_ui(ui, &mut setup, actions);
     let label = text!("paint-nozzle");
-    field(ui, &label, &mut setup.nozzle, "kuka 0 0 250 0 45 0")
+    let nozzle = field(ui, &label, &mut setup.nozzle, "kuka 0 0 250 0 45 0")
         .on_hover_text(text!("paint-nozzle-hint"));
+    // What is typed to correct it must not act as shortcuts.
+    let is_entered = nozzle.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    if is_entered && setup.nozzle_error().is_some() {
+        nozzle.request_focus();
+    }
     if session.program.arm.is_some() {
         // The scope is there without an error too, so that the fields below keep their ids, and with them the focus.
         ui.scope(|ui| {
@@ -256,8 +261,11 @@ fn reasons(ui: &mut Ui, reach: &Reach, setup: &ProgramSetup, actions: &mut Vec<P
         note(ui, &format!("{} · {reason}", grouped(count)), theme.text);
     }
     let points = reach.check.points.iter();
-    let mut problems = points.filter_map(|point| point.problem.as_ref());
-    if problems.any(PointProblem::is_acceleration) {
+    let problems = || points.clone().filter_map(|point| point.problem.as_ref());
+    if problems().any(PointProblem::is_of_joints) {
+        note(ui, &text!("paint-joints-advice"), theme.text);
+    }
+    if problems().any(PointProblem::is_acceleration) {
         note(ui, &text!("paint-acceleration-advice"), theme.text);
     }
     if text_button(ui, &text!("paint-show-unreached")).clicked() {

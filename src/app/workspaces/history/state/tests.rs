@@ -121,6 +121,35 @@ fn who_looks_at_the_newest_goes_on_looking_at_the_newest() {
 }
 
 #[test]
+fn a_row_that_was_chosen_stays_selected_though_it_was_the_newest() {
+    let found = inspected(1);
+    let add = |bench: &mut Bench, number| {
+        let ticket = bench.history.ticket(&HungId::new(), Some(&found));
+        bench.take_news(HistoryEvent::Added { ticket, number });
+    };
+    let mut bench = Bench::listing(&found, &[3, 2, 1]);
+    bench.act(HistoryAction::Select(3));
+    add(&mut bench, 4);
+    add(&mut bench, 5);
+    assert_eq!(bench.history.selected, Some(3));
+}
+
+#[test]
+fn the_newest_part_is_opened_as_the_wrong_one_and_stays_also_if_it_was_not_written_yet() {
+    let found = inspected(1);
+    let mut bench = Bench::listing(&found, &[3, 2, 1]);
+    let opened = bench.history.ticket(&HungId::new(), Some(&found));
+    bench
+        .history
+        .on_event(&Event::WrongPart, &mut bench.shell.context());
+    let next = bench.history.ticket(&HungId::new(), Some(&found));
+    for (ticket, number) in [(opened, 4), (next, 5)] {
+        bench.take_news(HistoryEvent::Added { ticket, number });
+    }
+    assert_eq!(bench.history.selected, Some(4));
+}
+
+#[test]
 fn the_arrows_stop_at_the_ends() {
     let mut bench = Bench::listing(&inspected(1), &[3, 2, 1]);
     for (direction, expected) in [
