@@ -227,18 +227,15 @@ fn check_points(
     params: &CheckParams,
 ) -> Result<Vec<PointCheck>, ArmError> {
     let rails = rail_positions(placed, points, params, is_cancelled)?;
+    let checked = check_on(is_cancelled, placed, points, params, &rails)?;
     let moving = placed.arm.moving_rail();
-    let is_moving = rails.windows(2).any(|pair| pair[0] != pair[1]);
-    let checked = check_on(is_cancelled, placed, points, params, rails)?;
     let Some((rail, _)) = moving.filter(|_| num_bad(&checked) > 0) else {
         return Ok(checked);
     };
     // The run of the rail is chosen without looking at speeds.
     let at = params.rail.clamp(rail.range[0], rail.range[1]);
-    if !is_moving && checked.first().is_some_and(|first| first.rail == at) {
-        return Ok(checked);
-    }
-    let still = check_on(is_cancelled, placed, points, params, vec![at; points.len()])?;
+    let rails = vec![at; points.len()];
+    let still = check_on(is_cancelled, placed, points, params, &rails)?;
     Ok(fewer_bad(still, checked))
 }
 
@@ -248,7 +245,7 @@ fn check_on(
     placed: &PlacedArm,
     points: &[ArmPoint],
     params: &CheckParams,
-    rails: Vec<f64>,
+    rails: &[f64],
 ) -> Result<Vec<PointCheck>, ArmError> {
     let go_on = || {
         if is_cancelled() {
@@ -280,7 +277,7 @@ fn check_on(
         check_chosen(
             placed,
             &solvers,
-            &rails,
+            rails,
             points,
             params,
             chosen.collect(),
