@@ -37,7 +37,7 @@ fn standard() -> Library {
 }
 
 fn inspected(scene: &SceneCloud, library: &Library, recipe: &Recipe) -> Inspection {
-    run(scene, library, recipe, &Unwatched).expect("nobody cancels")
+    run(scene, library, recipe, &Unwatched).expect("not cancelled")
 }
 
 /// A front door far enough away to fit the picture at any rotation about the optical axis.

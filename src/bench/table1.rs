@@ -213,7 +213,7 @@ mod tests {
             &mut |_| shown += 1,
             &|| false,
         )
-        .expect("nobody cancels");
+        .expect("not cancelled");
         assert_eq!((rows.len(), shown), (5, 5));
         for row in &rows {
             let [icp, icp_ga, global] = &row.attempts;

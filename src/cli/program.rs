@@ -80,8 +80,8 @@ pub(super) struct CellChoice {
     /// Radius of the gun around the line from the flange to the nozzle's mouth, from 1 mm to half the gun's length
     #[arg(long, value_name = "MM", default_value_t = 50.0, value_parser = |text: &str| within(text, &(1.0..=1000.0)), allow_negative_numbers = true, requires = "arm")]
     gun_radius: f64,
-    /// Greatest tilt of the nozzle about the point that it aims at, where the arm cannot follow the path as it is, 0 to 30
-    /// degrees
+    /// Maximum tilt of the nozzle about the point that it aims at, 0 to 30 degrees; used only where the arm cannot
+    /// otherwise follow the path
     #[arg(long, value_name = "DEG", default_value_t = 10.0, value_parser = |text: &str| within(text, &(0.0..=30.0)), allow_negative_numbers = true, requires = "arm")]
     max_tilt: f64,
 }

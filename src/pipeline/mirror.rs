@@ -226,7 +226,7 @@ mod tests {
         let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
         let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Right, 0, 41);
         let scene = scene_of(&setup);
-        let seen = run(&scene, &library, &recipe, &Unwatched).expect("nobody cancels");
+        let seen = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
         assert!(seen.verdict.is_mirrored(), "{:?}", seen.verdict);
         for is_aligned in [true, false] {
             // Another part is the nearest, and the door is the last, aligned or not.
@@ -246,7 +246,7 @@ mod tests {
 
             let clock = StageClock::start(&Unwatched);
             check_mirror_image(&mut inspection, &scene, &library, &recipe, &clock)
-                .expect("nobody cancels");
+                .expect("not cancelled");
             assert!(inspection.verdict.is_mirrored());
             assert_eq!(inspection.verdict.guess(), Some("front_door"));
             assert_eq!(inspection.reference(), Some("front_door"));

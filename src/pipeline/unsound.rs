@@ -69,8 +69,7 @@ mod tests {
     #[test]
     fn a_part_that_fits_is_refused_in_a_scene_that_cannot_be_right() {
         let (scene, recipe) = (fender(), Recipe::default());
-        let accepted =
-            run(&scene, &shipped_library(), &recipe, &Unwatched).expect("nobody cancels");
+        let accepted = run(&scene, &shipped_library(), &recipe, &Unwatched).expect("not cancelled");
         assert!(accepted.verdict.is_accepted());
         let refused = |inspection: &Inspection, scene: &SceneCloud| {
             let mut inspection = inspection.clone();
@@ -117,14 +116,14 @@ mod tests {
         }
         let (scene, library, recipe) = (fender(), shipped_library(), Recipe::default());
         for stage in [Stage::Segment, Stage::Rank, Stage::Pose] {
-            let found = run(&scene, &library, &recipe, &Fails(stage)).expect("nobody cancels");
+            let found = run(&scene, &library, &recipe, &Fails(stage)).expect("not cancelled");
             let Verdict::NoPart(Unrecognisable::Fault(fault)) = &found.verdict else {
                 panic!("{:?}", found.verdict);
             };
             assert!(fault.to_string().contains("today"), "{fault}");
             assert_eq!(found.segmentation.labels.len(), scene.cloud.points.len());
         }
-        let sound = run(&scene, &library, &recipe, &Unwatched).expect("nobody cancels");
+        let sound = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
         assert!(sound.verdict.is_accepted());
     }
 }

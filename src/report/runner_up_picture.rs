@@ -216,7 +216,7 @@ mod tests {
         let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 3);
         let scene = scene_of(&setup);
         let inspection =
-            run(&scene, &library, &Recipe::default(), &Unwatched).expect("nobody cancels");
+            run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
         let picture = runner_up_picture(&scene, &inspection, &library).expect("two contenders");
         let half = picture.image.width() / 2;
         let num = |is_left: bool| {
@@ -232,7 +232,7 @@ mod tests {
             3,
         ));
         let inspection =
-            run(&empty, &library, &Recipe::default(), &Unwatched).expect("nobody cancels");
+            run(&empty, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
         assert!(runner_up_picture(&empty, &inspection, &library).is_none());
     }
 }

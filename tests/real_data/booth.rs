@@ -181,7 +181,7 @@ fn parts_of_a_booth_are_named_and_placed_where_the_robot_says() {
             &Recipe::default(),
             &Unwatched,
         );
-        let inspection = inspection.expect("nobody cancels");
+        let inspection = inspection.expect("not cancelled");
         let expected = format!("booth_{}", frame.part);
         let is_named =
             matches!(&inspection.verdict, Verdict::Part { part, .. } if *part == expected);

@@ -18,7 +18,7 @@ use partsight::{
 use crate::{data_folder, kit::shipped_library};
 
 fn inspected(scene: &SceneCloud, library: &Library) -> Inspection {
-    run(scene, library, &Recipe::default(), &Unwatched).expect("nobody cancels")
+    run(scene, library, &Recipe::default(), &Unwatched).expect("not cancelled")
 }
 
 #[test]

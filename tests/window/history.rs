@@ -666,14 +666,7 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     harness.get_by_label_contains("Inspection 198").hover();
     harness.run_steps(2);
     for _ in 0..30 {
-        harness.event(egui::Event::MouseWheel {
-            source: egui::MouseWheelSource::Wheel,
-            unit: egui::MouseWheelUnit::Page,
-            delta: egui::vec2(0.0, -1.0),
-            phase: egui::TouchPhase::Move,
-            modifiers: egui::Modifiers::NONE,
-        });
-        harness.run_steps(12);
+        page_down(&mut harness);
     }
     settle(&mut harness);
     assert!(harness.query_by_label_contains("Inspection 201:").is_none());
@@ -689,6 +682,18 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     settle(&mut harness);
     harness.get_by_label_contains("Inspection 203:");
     assert_eq!(history_of(&harness).listed(), Some(199));
+}
+
+/// Scrolls by a page where the pointer is.
+fn page_down(harness: &mut WindowHarness) {
+    harness.event(egui::Event::MouseWheel {
+        source: egui::MouseWheelSource::Wheel,
+        unit: egui::MouseWheelUnit::Page,
+        delta: egui::vec2(0.0, -1.0),
+        phase: egui::TouchPhase::Move,
+        modifiers: egui::Modifiers::NONE,
+    });
+    harness.run_steps(12);
 }
 
 #[test]
@@ -708,14 +713,7 @@ fn the_details_of_another_part_begin_at_the_top() {
     let top = top_of_verdict(&harness);
     harness.get_by_label("Accepted").hover();
     harness.run_steps(2);
-    harness.event(egui::Event::MouseWheel {
-        source: egui::MouseWheelSource::Wheel,
-        unit: egui::MouseWheelUnit::Page,
-        delta: egui::vec2(0.0, -1.0),
-        phase: egui::TouchPhase::Move,
-        modifiers: egui::Modifiers::NONE,
-    });
-    harness.run_steps(12);
+    page_down(&mut harness);
     assert!(top_of_verdict(&harness) < top - 1.0);
     press(&mut harness, "Inspection 2: grille, Accepted");
     let again = top_of_verdict(&harness);

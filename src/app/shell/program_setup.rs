@@ -51,7 +51,7 @@ pub struct ProgramSetup {
     pub approach_mm: f64,
     /// Blend radius of the robot at corners, mm.
     pub blend_mm: f64,
-    /// Greatest tilt of the nozzle where the arm cannot follow the path as it is, degrees.
+    /// Maximum tilt of the nozzle, used only where the arm cannot otherwise follow the path, degrees.
     pub max_tilt_deg: f64,
 }
 

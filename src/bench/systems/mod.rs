@@ -238,7 +238,7 @@ mod tests {
                 cases.extend(systems.recognise(suite, case, scene, &recipe));
             },
         )
-        .expect("nobody cancels");
+        .expect("not cancelled");
         assert_eq!(cases.len(), 8);
         let preparations = systems.preparations();
         assert_eq!(preparations.len(), System::ALL.len());

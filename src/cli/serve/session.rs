@@ -113,7 +113,7 @@ impl Inspector for ServeSession<'_> {
         self.known_view = FieldOfView::remembered(self.known_view.take(), scene.field_of_view());
         let scene = Arc::new(scene);
         let inspection =
-            pipeline::run(&scene, &self.library, &self.recipe, &Unwatched).expect("nobody cancels");
+            pipeline::run(&scene, &self.library, &self.recipe, &Unwatched).expect("not cancelled");
         let mut found = self.finder.found(&inspection, &self.recipe, origin);
         let line = InspectionLine::of(&name, &inspection)
             .by(&self.recipe)

@@ -18,8 +18,8 @@ const TURN_COST: f64 = 0.02;
 /// Cost of every radian by which a joint is beyond half a turn: some controllers cannot name such turns, and cables
 /// suffer.
 const WOUND_COST: f64 = 0.001;
-/// Cost of a tilt at its limit, so that the nozzle is only tilted where that avoids a problem or a singularity.
-const TILT_COST: f64 = 1.0;
+/// Cost of a tilt per radian, so that the nozzle is only tilted where that avoids a problem or a singularity.
+const TILT_COST: f64 = 6.0;
 /// Cost of a joint move between two strokes, which takes a stop at both ends.
 const JOINT_MOVE_COST: f64 = 5.0;
 /// Cost of joints that are faster than this share of their top speeds, times the excess: between two points they may be
@@ -78,25 +78,23 @@ fn turns_apart(a: usize, b: usize, num_turns: usize) -> usize {
 /// A tilt of the nozzle about the point that it aims at: a rotation vector in the nozzle's xy plane, radians.
 pub(super) type Tilt = [f64; 2];
 
-/// No tilt, and tilts in eight directions by half of the limit and by all of it.
+/// The nozzle as the path has it.
+pub(super) const UPRIGHT: Tilt = [0.0; 2];
+
+/// Tilts in eight directions, by half of the limit and by all of it.
 pub(super) fn tilts_up_to(limit: f64) -> Vec<Tilt> {
-    let mut all = vec![[0.0; 2]];
-    for angle in [0.5 * limit, limit] {
-        all.extend((0..8).map(|k| {
+    let angles = [0.5 * limit, limit].into_iter();
+    let all = angles.flat_map(|angle| {
+        (0..8).map(move |k| {
             let (sin, cos) = (FRAC_PI_4 * f64::from(k)).sin_cos();
             [angle * cos, angle * sin]
-        }));
-    }
-    all
+        })
+    });
+    all.collect()
 }
 
-/// The nozzle at a point, turned about its z axis.
-pub(super) fn turned(point: &ArmPoint, angle: f64) -> RigidTransform {
-    point.robot_from_nozzle * UnitQuaternion::from_euler_angles(0.0, 0.0, angle)
-}
-
-/// The nozzle at a point, tilted and turned about its z axis.
-pub(super) fn held(point: &ArmPoint, [x, y]: Tilt, angle: f64) -> RigidTransform {
+/// Pose of the nozzle at a point, tilted, and turned about its z axis.
+pub(super) fn nozzle_at(point: &ArmPoint, [x, y]: Tilt, angle: f64) -> RigidTransform {
     let aim = Translation3::new(0.0, 0.0, point.aim);
     let tilt = UnitQuaternion::from_scaled_axis(Vector3::new(x, y, 0.0));
     let turn = UnitQuaternion::from_euler_angles(0.0, 0.0, angle);
@@ -113,31 +111,25 @@ pub(super) fn turns_of(point: &ArmPoint, num_turns: usize) -> impl Iterator<Item
     (0..num_turns).step_by(step)
 }
 
-/// All joints at a point with these tilts of the nozzle, whose limit is `max_tilt`.
+/// All joints at a point with these tilts of the nozzle.
 pub(super) fn candidates_of(
     solver: &Solver<'_>,
     point: &ArmPoint,
     num_turns: usize,
     tilts: &[Tilt],
-    max_tilt: f64,
 ) -> Vec<Candidate> {
     let mut all = Vec::new();
     for tilt in tilts {
         let [x, y] = *tilt;
-        let share = if max_tilt > 0.0 {
-            x.hypot(y) / max_tilt
-        } else {
-            0.0
-        };
         for turn in turns_of(point, num_turns) {
-            let pose = held(point, *tilt, angle_of(turn, num_turns));
+            let pose = nozzle_at(point, *tilt, angle_of(turn, num_turns));
             for solution in solver.solutions(&pose, None) {
                 let is_singular = solver.singularity(&solution).is_some();
                 let configuration = solver.arm.configuration_bit(&solution);
                 // Turning away from the path's own orientation has no benefit of its own.
                 let away = turn.min(num_turns - turn) as f64;
                 let cost = 0.1 * TURN_COST * away
-                    + TILT_COST * share
+                    + TILT_COST * x.hypot(y)
                     + if is_singular { SINGULAR_COST } else { 0.0 };
                 let within = solver.within_limits(&solution).into_iter();
                 all.extend(within.map(|joints| {

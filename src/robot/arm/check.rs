@@ -1,22 +1,20 @@
 //! Checks a path against an arm.
 
-use std::f64::consts::FRAC_PI_6;
-
 use nalgebra::Translation3;
 
 use super::{
-    ArmError, GUN_RADIUS, PlacedArm,
+    ArmError, PlacedArm,
     acceleration::check_accelerations,
-    chain::{Candidate, angle_of, candidates_of, free_chain, held, tilts_up_to, turned, turns_of},
+    chain::{
+        Candidate, UPRIGHT, angle_of, candidates_of, free_chain, nozzle_at, tilts_up_to, turns_of,
+    },
     kinematics::{Joints, Solver},
     problem::PointProblem,
     rail_plan::rail_positions,
+    validate::validate,
     way::{Way, WayEnd, way_between},
 };
-use crate::{
-    geometry::rigid::{RigidTransform, is_finite},
-    units::Metres,
-};
+use crate::geometry::rigid::RigidTransform;
 
 /// A pose of the nozzle that the arm must reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +38,7 @@ pub struct ArmPoint {
 pub struct CheckParams {
     /// Turns about the nozzle's z axis that are tried, 1..72. The time grows in proportion.
     pub num_turns: usize,
-    /// Greatest tilt of the nozzle where the arm cannot follow the path as it is, radians, 0..[`MAX_TILT`].
+    /// Maximum tilt of the nozzle, radians, 0..π/6. It is only tilted where the arm cannot otherwise follow the path.
     pub max_tilt: f64,
     /// Position of a rail that does not move along the path, metres; 0 without one.
     pub rail: f64,
@@ -49,14 +47,6 @@ pub struct CheckParams {
     pub approach: Option<f64>,
 }
 
-/// Least radius of the gun, metres: a gun without one is a line, and its body is not checked.
-const LEAST_GUN_RADIUS: f64 = 0.001;
-/// The foot of an arm may be this far below the floor, metres.
-pub(super) const PIT: f64 = 0.1;
-/// Most turns: steps of 5°.
-const MAX_TURNS: usize = 72;
-/// Greatest limit of the tilt, radians: beyond it a coat is uneven.
-pub const MAX_TILT: f64 = FRAC_PI_6;
 /// Points on either side of a problem at which the nozzle may tilt as well, so that it tilts gradually.
 const NEAR: usize = 8;
 
@@ -174,7 +164,7 @@ pub(super) fn check_unless(
     params: &CheckParams,
 ) -> Result<PathCheck, ArmError> {
     // Before the ends are added, so that an error counts the path's own points.
-    refuse_bad(placed, points, params)?;
+    validate(placed, points, params)?;
     let ends = params.approach.and_then(|away| ends_of(points, away));
     let Some([approach, retreat]) = ends else {
         let points = check_points(is_cancelled, placed, points, params)?;
@@ -261,13 +251,7 @@ fn check_on(
     let mut candidates: Vec<Vec<Candidate>> = Vec::with_capacity(points.len());
     for (solver, point) in solvers.iter().zip(points) {
         go_on()?;
-        candidates.push(candidates_of(
-            solver,
-            point,
-            params.num_turns,
-            &[[0.0; 2]],
-            0.0,
-        ));
+        candidates.push(candidates_of(solver, point, params.num_turns, &[UPRIGHT]));
     }
     let check = |candidates: &mut [Vec<Candidate>]| {
         let chosen = free_chain(&solvers, points, candidates, params.num_turns, is_cancelled);
@@ -297,9 +281,7 @@ fn check_on(
         let near = i.saturating_sub(NEAR)..points.len().min(i + NEAR + 1);
         if is_bad[near].contains(&true) {
             go_on()?;
-            let (num_turns, tilts) = (params.num_turns, &tilts[1..]);
-            let tilted = candidates_of(solver, point, num_turns, tilts, params.max_tilt);
-            candidates[i].extend(tilted);
+            candidates[i].extend(candidates_of(solver, point, params.num_turns, &tilts));
         }
     }
     let tilted = check(&mut candidates)?;
@@ -354,7 +336,7 @@ fn check_chosen(
             let end = WayEnd::of(&checked[before])?;
             Some((end, &points[before]))
         });
-        let robot_from_nozzle = held(point, candidate.tilt, turn);
+        let robot_from_nozzle = nozzle_at(point, candidate.tilt, turn);
         let to = WayEnd {
             nozzle: robot_from_nozzle,
             joints: candidate.joints,
@@ -403,89 +385,12 @@ fn as_passed(points: &[ArmPoint], checked: &[PointCheck]) -> Vec<ArmPoint> {
     passed
 }
 
-/// Refuses what cannot be checked. An error counts the points of `points` from 1.
-pub(super) fn refuse_bad(
-    placed: &PlacedArm,
-    points: &[ArmPoint],
-    params: &CheckParams,
-) -> Result<(), ArmError> {
-    let not_finite = |what: String| Err(ArmError::NotFinite { what });
-    if points.is_empty() {
-        return Err(ArmError::NoPoints);
-    }
-    if !is_finite(&placed.robot_from_base) {
-        return not_finite("the pose of the arm's base".into());
-    }
-    if !is_finite(&placed.flange_from_nozzle) {
-        return not_finite("the pose of the nozzle on the flange".into());
-    }
-    if !params.rail.is_finite() {
-        return not_finite("the position of the rail".into());
-    }
-    if params
-        .approach
-        .is_some_and(|distance| !distance.is_finite())
-    {
-        return not_finite("the distance of the approach point".into());
-    }
-    if !(1..=MAX_TURNS).contains(&params.num_turns) {
-        return Err(ArmError::Value {
-            what: "the number of turns about the nozzle's axis".into(),
-            value: params.num_turns as f64,
-        });
-    }
-    if !(0.0..=MAX_TILT + 1e-9).contains(&params.max_tilt) {
-        return Err(ArmError::Value {
-            what: "the greatest tilt of the nozzle".into(),
-            value: params.max_tilt,
-        });
-    }
-    if let Some(rail) = placed.arm.rail {
-        rail.checked()?;
-    }
-    for (what, value, low) in [
-        ("the radius of the gun", placed.gun_radius, LEAST_GUN_RADIUS),
-        ("the clearance", placed.obstacles.clearance, 0.0),
-    ] {
-        let high = 1.0;
-        if !(low..=high).contains(&value) {
-            return Err(ArmError::Length {
-                what,
-                value: Metres(value),
-                low: Metres(low),
-                high: Metres(high),
-            });
-        }
-    }
-    let most = placed.most_gun_radius();
-    if most > 0.0 && placed.gun_radius > most.max(GUN_RADIUS) {
-        return Err(ArmError::Length {
-            what: "the radius of the gun",
-            value: Metres(placed.gun_radius),
-            low: Metres(LEAST_GUN_RADIUS),
-            high: Metres(most),
-        });
-    }
-    let below = Solver::new(placed, params.rail).foot_below_floor();
-    if let Some(above) = below.filter(|below| *below > PIT) {
-        return Err(ArmError::Floor {
-            above: Metres(above),
-        });
-    }
-    for (i, point) in points.iter().enumerate() {
-        let is_speed = point.speed > 0.0 && point.speed < 100.0;
-        if !(is_finite(&point.robot_from_nozzle) && point.aim.is_finite() && is_speed) {
-            return not_finite(format!("the pose or speed of point {}", i + 1));
-        }
-    }
-    Ok(())
-}
-
 /// Returns why a point has no candidate.
 fn why_not(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> PointProblem {
     let mut nearest: Option<(f64, PointProblem)> = None;
     for turn in turns_of(point, num_turns) {
-        for joints in solver.solutions(&turned(point, angle_of(turn, num_turns)), None) {
+        for joints in solver.solutions(&nozzle_at(point, UPRIGHT, angle_of(turn, num_turns)), None)
+        {
             let Some((joint, angle)) = solver.beyond_limit(&joints) else {
                 continue;
             };
@@ -504,7 +409,8 @@ fn why_not(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> PointProb
 pub(super) fn is_reached(solver: &Solver<'_>, point: &ArmPoint, num_turns: usize) -> bool {
     /// If the first few solutions collide, the others usually do as well, and there are hundreds of places to compare.
     const NUM_TESTED: usize = 6;
-    let poses = turns_of(point, num_turns).map(|turn| turned(point, angle_of(turn, num_turns)));
+    let poses =
+        turns_of(point, num_turns).map(|turn| nozzle_at(point, UPRIGHT, angle_of(turn, num_turns)));
     let solutions = poses.flat_map(|pose| solver.solutions(&pose, None));
     let mut within = solutions
         .filter(|joints| {

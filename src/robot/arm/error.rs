@@ -146,7 +146,7 @@ impl Advice for ArmError {
                 "Give x, y or z, where it begins and ends in mm and, if it moves along the path, its top speed in mm/s and its acceleration in mm/s²: y,-2000,2000,1000,2000".into()
             }
             Self::Value { .. } => {
-                "Correct it: lengths in millimetres, angles in degrees, speeds and accelerations above 0, a rail's from 1 to 10000 mm/s and from 1 to 100000 mm/s², signs 1 or -1, turns about the nozzle from 1 to 72".into()
+                "Correct it: lengths in millimetres, angles in degrees, speeds and accelerations above 0, a rail's from 1 to 10000 mm/s and from 1 to 100000 mm/s², signs 1 or -1, turns about the nozzle from 1 to 72, its tilt from 0 to 30 degrees".into()
             }
             Self::Length { .. } => "Give a length in millimetres within this range".into(),
             Self::Cancelled => "Check it again".into(),

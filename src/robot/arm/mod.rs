@@ -33,6 +33,7 @@ mod rail;
 mod rail_plan;
 #[cfg(test)]
 mod tests;
+mod validate;
 mod way;
 
 use nalgebra::{Point3, Vector3};
@@ -40,7 +41,7 @@ use nalgebra::{Point3, Vector3};
 use crate::{geometry::rigid::RigidTransform, robot::Convention};
 
 pub use self::{
-    check::{ArmPoint, CheckParams, MAX_TILT, PathCheck, PointCheck, check_path},
+    check::{ArmPoint, CheckParams, PathCheck, PointCheck, check_path},
     error::ArmError,
     kinematics::{Joints, Singularity},
     models::ARM_NAMES,

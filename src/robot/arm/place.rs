@@ -5,8 +5,9 @@ use nalgebra::Translation3;
 
 use super::{
     ArmError, ArmPoint, CheckParams, PlacedArm,
-    check::{PIT, check_unless, ends_of, is_reached, refuse_bad},
+    check::{check_unless, ends_of, is_reached},
     kinematics::Solver,
+    validate::{PIT, validate},
 };
 
 /// A better place for the base or the rail, and what the arm reaches there.
@@ -162,7 +163,7 @@ impl Search<'_> {
         placed: &PlacedArm,
         rail: f64,
     ) -> Result<usize, ArmError> {
-        refuse_bad(placed, self.points, self.params)?;
+        validate(placed, self.points, self.params)?;
         let solvers: Vec<Solver<'_>> = rails(placed, rail)
             .into_iter()
             .map(|rail| Solver::new(placed, rail))

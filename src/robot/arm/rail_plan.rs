@@ -21,7 +21,7 @@
 
 use super::{
     Arm, ArmError, ArmPoint, CheckParams, PlacedArm,
-    chain::{angle_of, move_time, turned, turns_of},
+    chain::{UPRIGHT, angle_of, move_time, nozzle_at, turns_of},
     kinematics::Solver,
 };
 use crate::geometry::parallel::{map_in_order, num_cores};
@@ -104,7 +104,7 @@ fn configurations(arm: &Arm, solver: &Solver<'_>, point: &ArmPoint) -> u8 {
     let num_turns = if point.is_turn_free { NUM_TURNS } else { 1 };
     let mut found = 0;
     for turn in turns_of(point, num_turns) {
-        let pose = turned(point, angle_of(turn, num_turns));
+        let pose = nozzle_at(point, UPRIGHT, angle_of(turn, num_turns));
         for joints in solver.solutions(&pose, None) {
             let bit = arm.configuration_bit(&joints);
             let is_reached = found & bit == 0

@@ -164,30 +164,33 @@ fn a_long_way_through_a_limit_or_a_fold_is_found_between_its_ends() {
     assert!(found.points[1].problem.is_some(), "{:?}", found.points[1]);
 }
 
-#[test]
-fn a_slow_move_neither_turns_a_joint_once_around_nor_folds_the_arm_over() {
-    let mut placed = placed("irb2600");
-    let home = placed.clone();
-    let solver = Solver::new(&home, 0.0);
+/// 20 mm during which joint 6 turns from 2.95 to 3.1 rad, at 1 mm/s: every joint has time for a whole turn. Shoulder and
+/// elbow of the arm get one configuration only.
+fn one_way_round(placed: &mut PlacedArm) -> [ArmPoint; 2] {
+    let solver = Solver::new(placed, 0.0);
     let pose = |joint_6: f64| {
         let joints = [0.0, 0.2, 0.3, 0.0, 0.8, joint_6];
         solver.forward(&joints).expect("finite")
     };
-    // 20 mm at 1 mm/s while joint 6 turns from 2.95 to 3.1 rad: every joint has time for a whole turn.
     let poses = [pose(2.95), Translation3::new(0.02, 0.0, 0.0) * pose(3.1)];
-    let points = poses.map(|robot_from_nozzle| ArmPoint {
+    placed.arm.limits[0] = [-0.5, 0.5];
+    placed.arm.limits[1] = [-0.3, 0.7];
+    placed.arm.limits[2] = [-0.3, 0.9];
+    placed.arm.limits[4] = [-1.4, 1.4];
+    poses.map(|robot_from_nozzle| ArmPoint {
         robot_from_nozzle,
         speed: 0.001,
         aim: 0.15,
         is_turn_free: false,
         is_gun_on: true,
         is_stop: false,
-    });
-    // Shoulder and elbow have one configuration only.
-    placed.arm.limits[0] = [-0.5, 0.5];
-    placed.arm.limits[1] = [-0.3, 0.7];
-    placed.arm.limits[2] = [-0.3, 0.9];
-    placed.arm.limits[4] = [-1.4, 1.4];
+    })
+}
+
+#[test]
+fn a_slow_move_neither_turns_a_joint_once_around_nor_folds_the_arm_over() {
+    let mut placed = placed("irb2600");
+    let points = one_way_round(&mut placed);
     for (joint_4, joint_6, is_reached) in [
         ([-1.0, 1.0], [-4.0, 4.0], true),
         // At the second point only a whole turn back is left.

@@ -51,7 +51,7 @@ use jiff::Timestamp;
 use self::{configuration::configuration, steps::Step, text::Lines};
 use crate::{
     geometry::rigid::{RigidTransform, is_finite},
-    robot::arm::{Joints, PathCheck, PlacedArm, PointCheck, Way},
+    robot::arm::{PathCheck, PlacedArm, Way},
     units::{Metres, Radians},
 };
 
@@ -86,8 +86,8 @@ pub struct ProgramSettings {
     pub speed: f64,
     /// Distance of the approach point behind the first point, and of the end behind the last, 10..1000 mm.
     pub approach: Metres,
-    /// Greatest tilt of the nozzle about the point that it aims at, where a checked arm cannot follow the path as it is,
-    /// 0..30°.
+    /// Maximum tilt of the nozzle about the point that it aims at, 0..30°; used only where a checked arm cannot otherwise
+    /// follow the path.
     pub max_tilt: Radians,
     /// Radius within which the robot may cut a corner, 0..100 mm; at most 0.45 of the distance to the neighbouring
     /// points.
@@ -202,25 +202,30 @@ impl Program<'_> {
         if !is_sound {
             return Err(ProgramError::NotFinite { point: 0 });
         }
-        if let Some((arm, check)) = self.reach {
-            let all = check.points.iter().chain(check.ends.iter().flatten());
-            let mut joints = all.filter_map(|point| point.joints);
-            let is_named = |joints: Joints| configuration(format, &arm.arm, &joints).is_some();
-            let by_joints = |point: &PointCheck| point.way == Way::Joints;
-            if let Some(place) = check.points.iter().position(by_joints)
-                && !joints.all(is_named)
-            {
-                return Err(ProgramError::Configuration {
-                    format,
-                    point: place + 1,
-                    arm: arm.arm.name.clone(),
-                });
-            }
+        if let Some((arm, check)) = self.reach
+            && let Some(place) = check.points.iter().position(|p| p.way == Way::Joints)
+            && !self.names_configurations(format)
+        {
+            return Err(ProgramError::Configuration {
+                format,
+                point: place + 1,
+                arm: arm.arm.name.clone(),
+            });
         }
         if self.moves_on_rail() && format.rail_axis().is_none() {
             return Err(ProgramError::Rail { format });
         }
         Ok(())
+    }
+
+    /// Whether the language can name the configuration of the checked arm at every point that it reaches. If it cannot at
+    /// one of them, it names none: between two that it names, the controller might turn a joint once around.
+    fn names_configurations(&self, format: ProgramFormat) -> bool {
+        self.reach.is_some_and(|(arm, check)| {
+            let all = check.points.iter().chain(check.ends.iter().flatten());
+            let mut joints = all.filter_map(|point| point.joints);
+            joints.all(|joints| configuration(format, &arm.arm, &joints).is_some())
+        })
     }
 
     /// Top speed of the rail that moves the arm along the path, m/s; none if no rail moves.
@@ -292,7 +297,7 @@ impl Program<'_> {
         if let Some((arm, check)) = self.reach {
             if let Some((num, most)) = check.tilted() {
                 lines.push(format!(
-                    "nozzle: tilted at {num} points by up to {:.1} degrees, where the arm could not follow the path as it is",
+                    "nozzle: tilted at {num} points by up to {:.1} degrees, where the arm could not otherwise follow the path",
                     most.to_degrees()
                 ));
             }

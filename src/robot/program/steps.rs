@@ -76,8 +76,9 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
     };
     let checked = program.reach.map(|(arm, check)| (&arm.arm, check));
     let ends = checked.and_then(|(_, check)| check.ends.as_ref());
+    let is_named = program.names_configurations(format);
     let stands = |point: Option<&PointCheck>| {
-        let (arm, _) = checked?;
+        let (arm, _) = checked.filter(|_| is_named)?;
         configuration(format, arm, &point?.joints?)
     };
     let rail = |point: Option<&PointCheck>| {
@@ -151,12 +152,6 @@ pub(super) fn steps_of(program: &Program<'_>, format: ProgramFormat) -> Vec<Step
             gun: None,
         }),
     });
-    // If some are unknown, none is named: between those that are, the controller would turn a joint around.
-    if steps.iter().any(|step| step.configuration.is_none()) {
-        for step in &mut steps {
-            step.configuration = None;
-        }
-    }
     steps
 }
 

@@ -1,4 +1,4 @@
-//! The confusion matrix as it is drawn: counts and judgements, prepared once, and names for people.
+//! The confusion matrix for drawing: counts and verdicts, computed once, and the titles of its rows and columns.
 
 use crate::{
     app::{inspection::library_cache::LibraryView, language::text, shell::truth_menu},

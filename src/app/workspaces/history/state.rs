@@ -96,7 +96,7 @@ pub struct HistoryState {
 /// Whether the selection follows the newest inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Selection {
-    /// Nobody chose the selected inspection: the next one takes its place.
+    /// The newest inspection is selected, and the next one replaces it.
     Newest,
     /// The user asked for the newest inspection, whose ticket this is: it is chosen once it is written.
     Opening(u64),
@@ -238,7 +238,7 @@ impl HistoryState {
             self.whole.push_front((number, whole));
             self.whole.truncate(MAX_WHOLE);
         }
-        // If nobody chose a row, select the new one, or its part if this is a re-inspection.
+        // Unless the user chose a row, select the new one, or its part if this is a re-inspection.
         if !self.is_chosen() {
             self.selected = Some(number);
             self.wants_part = true;

@@ -85,7 +85,7 @@ impl Inspections {
         let scene = scene_from_frame(&frame);
         let recipe = &self.recipe;
         let inspection =
-            pipeline::run(&scene, &self.library, recipe, &Unwatched).expect("nobody cancels");
+            pipeline::run(&scene, &self.library, recipe, &Unwatched).expect("not cancelled");
         let mut found = self.finder.found(&inspection, recipe, origin);
         found.report = InspectionLine::of("simulated frame", &inspection)
             .by(recipe)

@@ -1,7 +1,7 @@
 //! What the check may change about a path: turn and tilt of the nozzle, and moves with the gun off.
 
 use super::*;
-use crate::robot::arm::{Way, chain::held, way::SLOWEST};
+use crate::robot::arm::{Way, chain::nozzle_at, way::SLOWEST};
 
 /// Leaves the joints 2° beyond what these points need.
 fn limit_to(placed: &mut PlacedArm, points: &[ArmPoint]) {
@@ -50,7 +50,7 @@ fn the_nozzle_tilts_about_the_point_that_it_aims_at_where_the_arm_needs_it() {
     // The second half of the path leans by 5°.
     let mut leaning = points.clone();
     for point in &mut leaning[10..] {
-        point.robot_from_nozzle = held(point, [0.5 * limit, 0.0], 0.0);
+        point.robot_from_nozzle = nozzle_at(point, [0.5 * limit, 0.0], 0.0);
     }
     // Slow enough for the tilt between two points.
     for point in &mut leaning {
@@ -114,27 +114,14 @@ fn a_move_with_the_gun_off_takes_the_time_that_the_joints_need() {
 #[test]
 fn between_strokes_the_arm_changes_its_configuration_by_a_joint_move_if_a_program_can_name_it() {
     let mut placed = placed("irb2600");
-    let home = placed.clone();
-    let solver = Solver::new(&home, 0.0);
-    let pose = |joint_6: f64| {
-        let joints = [0.0, 0.2, 0.3, 0.0, 0.8, joint_6];
-        solver.forward(&joints).expect("finite")
-    };
-    let poses = [pose(2.95), Translation3::new(0.02, 0.0, 0.0) * pose(3.1)];
-    let mut points = poses.map(|robot_from_nozzle| ArmPoint {
-        robot_from_nozzle,
-        speed: 0.3,
-        aim: 0.15,
-        is_turn_free: false,
-        is_gun_on: false,
-        is_stop: false,
-    });
+    let maker = placed.arm.maker;
+    let mut points = one_way_round(&mut placed);
+    for point in &mut points {
+        point.speed = 0.3;
+        point.is_gun_on = false;
+    }
     // At the second point only the other configuration of the wrist is left.
-    placed.arm.limits[0] = [-0.5, 0.5];
-    placed.arm.limits[1] = [-0.3, 0.7];
-    placed.arm.limits[2] = [-0.3, 0.9];
     placed.arm.limits[3] = [-4.0, 4.0];
-    placed.arm.limits[4] = [-1.4, 1.4];
     placed.arm.limits[5] = [-0.1, 3.0];
     let found = check(&placed, &points);
     assert_eq!(
@@ -153,7 +140,7 @@ fn between_strokes_the_arm_changes_its_configuration_by_a_joint_move_if_a_progra
     // A program that cannot name the configuration leaves it to the controller.
     placed.arm.maker = None;
     assert_eq!(check(&placed, &points).num_reached(), 1);
-    placed.arm.maker = home.arm.maker;
+    placed.arm.maker = maker;
     points[1].is_gun_on = true;
     assert_eq!(check(&placed, &points).num_reached(), 1);
 }

@@ -297,20 +297,27 @@ fn an_arm_of_another_maker_or_of_none_leaves_the_configuration_as_it_was() {
         let arm = Arm::named(path.to_str().expect("a path")).expect("an arm");
         assert_eq!(words(Some(arm), format), words(None, format), "{format:?}");
     }
-    // If a point was not reached, or RCONF cannot express its turns, every point has the usual configuration.
+    // A point that was not reached has the usual configuration; if RCONF cannot express the turns at one point, all have.
     let mut reach = reached(Arm::named("gp25").expect("known"), &joints);
     reach.1.points[2].joints = None;
-    reach.1.points[3].joints = Some(in_radians([20.0, 10.0, 5.0, 0.0, 40.0, 400.0]));
-    let program = Program {
-        reach: Some(&reach),
-        ..program(&points, &settings)
-    };
-    let read = parse::read(ProgramFormat::Jbi, &text_of(&program, ProgramFormat::Jbi));
     let is_usual = |found: &parse::Move| found.configuration.starts_with("1,0,0,0,0,0,");
-    assert!(read.moves.iter().all(is_usual), "{:?}", read.moves);
-    let words = read.comments.join(" ");
-    assert!(
-        words.contains("its configuration is not named here"),
-        "{words}"
-    );
+    for (joint_6, wanted, is_named) in [
+        (0.0, [false, false, false, true, false, false, false], true),
+        (400.0, [true; 7], false),
+    ] {
+        reach.1.points[3].joints = Some(in_radians([20.0, 10.0, 5.0, 0.0, 40.0, joint_6]));
+        let program = Program {
+            reach: Some(&reach),
+            ..program(&points, &settings)
+        };
+        let read = parse::read(ProgramFormat::Jbi, &text_of(&program, ProgramFormat::Jbi));
+        let usual: Vec<bool> = read.moves.iter().map(is_usual).collect();
+        // The first one is the approach.
+        assert_eq!(usual, wanted);
+        let says = read
+            .comments
+            .join(" ")
+            .contains("its configuration is not named here");
+        assert_eq!(says, !is_named);
+    }
 }

@@ -286,9 +286,8 @@ impl Inspector for AnsweringSession<'_> {
         self.know(&loaded, &inputs);
         let recipe = &inputs.recipe;
         let fitted = loaded.fitting(recipe, &Unwatched);
-        let fitted = fitted.expect("nobody cancels");
-        let inspection =
-            pipeline::run(&scene, &fitted, recipe, &Unwatched).expect("nobody cancels");
+        let fitted = fitted.expect("not cancelled");
+        let inspection = pipeline::run(&scene, &fitted, recipe, &Unwatched).expect("not cancelled");
         let mut found = self.finder.found(&inspection, recipe, origin);
         let trace = inputs.trace.remembered();
         let line = InspectionLine::of(&seen.title(), &inspection)

@@ -1,0 +1,89 @@
+//! Refuses an arm, a path or parameters that cannot be checked.
+
+use super::{ArmError, ArmPoint, CheckParams, GUN_RADIUS, PlacedArm, kinematics::Solver};
+use crate::{geometry::rigid::is_finite, robot::spray::MOST_TILT, units::Metres};
+
+/// Least radius of the gun, metres: a gun without one is a line, and its body is not checked.
+const LEAST_GUN_RADIUS: f64 = 0.001;
+/// The foot of an arm may be this far below the floor, metres.
+pub(super) const PIT: f64 = 0.1;
+/// Most turns: steps of 5°.
+const MAX_TURNS: usize = 72;
+
+/// Refuses what cannot be checked. An error counts the points of `points` from 1.
+pub(super) fn validate(
+    placed: &PlacedArm,
+    points: &[ArmPoint],
+    params: &CheckParams,
+) -> Result<(), ArmError> {
+    let not_finite = |what: String| Err(ArmError::NotFinite { what });
+    if points.is_empty() {
+        return Err(ArmError::NoPoints);
+    }
+    if !is_finite(&placed.robot_from_base) {
+        return not_finite("the pose of the arm's base".into());
+    }
+    if !is_finite(&placed.flange_from_nozzle) {
+        return not_finite("the pose of the nozzle on the flange".into());
+    }
+    if !params.rail.is_finite() {
+        return not_finite("the position of the rail".into());
+    }
+    if params
+        .approach
+        .is_some_and(|distance| !distance.is_finite())
+    {
+        return not_finite("the distance of the approach point".into());
+    }
+    if !(1..=MAX_TURNS).contains(&params.num_turns) {
+        return Err(ArmError::Value {
+            what: "the number of turns about the nozzle's axis".into(),
+            value: params.num_turns as f64,
+        });
+    }
+    if !(0.0..=MOST_TILT.0 + 1e-9).contains(&params.max_tilt) {
+        return Err(ArmError::Value {
+            what: "the maximum tilt of the nozzle".into(),
+            value: params.max_tilt,
+        });
+    }
+    if let Some(rail) = placed.arm.rail {
+        rail.checked()?;
+    }
+    for (what, value, low) in [
+        ("the radius of the gun", placed.gun_radius, LEAST_GUN_RADIUS),
+        ("the clearance", placed.obstacles.clearance, 0.0),
+    ] {
+        let high = 1.0;
+        if !(low..=high).contains(&value) {
+            return Err(ArmError::Length {
+                what,
+                value: Metres(value),
+                low: Metres(low),
+                high: Metres(high),
+            });
+        }
+    }
+    let most = placed.most_gun_radius();
+    if most > 0.0 && placed.gun_radius > most.max(GUN_RADIUS) {
+        return Err(ArmError::Length {
+            what: "the radius of the gun",
+            value: Metres(placed.gun_radius),
+            low: Metres(LEAST_GUN_RADIUS),
+            high: Metres(most),
+        });
+    }
+    let below = Solver::new(placed, params.rail).foot_below_floor();
+    if let Some(above) = below.filter(|below| *below > PIT) {
+        return Err(ArmError::Floor {
+            above: Metres(above),
+        });
+    }
+    for (i, point) in points.iter().enumerate() {
+        let is_speed = point.speed > 0.0 && point.speed < 100.0;
+        if !(is_finite(&point.robot_from_nozzle) && point.aim.is_finite() && is_speed) {
+            return not_finite(format!("the pose or speed of point {}", i + 1));
+        }
+    }
+    Ok(())
+}
