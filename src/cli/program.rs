@@ -263,8 +263,7 @@ impl ProgramFile {
         }
         let base = reach.as_ref().map(|(arm, _)| arm.robot_from_base);
         if base.is_some_and(|base| base != RigidTransform::identity()) {
-            console.note(&"warning: the arm was checked with its base elsewhere than the frame of the calibration, in which all poses of the program are");
-            console.note(&"  to do: If the controller's frame moves with the base, calibrate the cell again and leave --base out");
+            console.note(&"  its poses are in the frame of the calibration; --base only affects the check. If the controller's frame moves with the base, calibrate the cell again and leave --base out");
         }
         for doubt in &doubts {
             console.note(&format_args!("warning: written by --force: {doubt}"));
@@ -285,7 +284,7 @@ pub(super) fn against_seen(carried: &CarriedPath) -> String {
     let num_flat = carried.count(BandStatus::TooFlat);
     if num_flat > 0 {
         words = format!(
-            "{words}, {num_flat} meet it at more than {:.0}°, as strokes do that lean towards flanks",
+            "{words}, {num_flat} meet it at more than {:.0}°, as strokes that lean towards flanks may",
             MOST_TILT.degrees()
         );
     }

@@ -283,7 +283,7 @@ impl Program<'_> {
         lines.push(
             match base.filter(|base| *base != RigidTransform::identity()) {
                 Some(base) => format!(
-                    "frame: that of the calibration, with the base of the arm at {}; calibrate again if the frame of the controller is another",
+                    "frame: that of the calibration, with the base of the arm at {}",
                     convention.write(&base).line()
                 ),
                 None => "frame: robot base".into(),
