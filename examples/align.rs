@@ -4,7 +4,7 @@
 use std::error::Error;
 
 use nalgebra::{Isometry3, Vector3};
-use partsight::{PartKind, PartModel, PoseMethod, Side, align, pose_error};
+use partsight::{PartKind, PartModel, PoseMethod, Side, align};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let model = PartModel::new(PartKind::Fender, Side::Left, 0);
@@ -21,15 +21,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         *p = (source_from_target * p.cast::<f64>()).cast();
     }
     let pose = align(&source, &target, PoseMethod::Global, None)?;
-    let middle = source_from_target * nalgebra::Point3::origin();
-    let off = pose_error(
-        &pose.target_from_source,
-        &source_from_target.inverse(),
-        &middle,
-    );
+    // The identity if the pose is right.
+    let off = pose.target_from_source * source_from_target;
     println!(
-        "{:.2} mm rms; off the truth by {off:?}",
-        pose.fit.rms_m * 1e3
+        "{:.2} mm rms; off the truth by {:.2} mm and {:.3}°",
+        pose.fit.rms_m * 1e3,
+        off.translation.vector.norm() * 1e3,
+        off.rotation.angle().to_degrees()
     );
     if let Some(warning) = pose.doubt() {
         println!("warning: {warning}");

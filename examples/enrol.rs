@@ -5,15 +5,15 @@ use std::error::Error;
 
 use jiff::Timestamp;
 use partsight::{
-    CellSetup, EnrolParams, LibraryFolder, PartDescription, PartKind, PartName, Recipe,
-    ReferenceParams, SceneCloud, Side, Unwatched, enrol_captured, run, scene_from_frame,
+    CellSetup, EnrolParams, Image, LibraryFolder, PartDescription, PartKind, PartName, Recipe,
+    ReferenceParams, SceneCloud, Side, Unwatched, enrol_captured, run, scene_from_image,
     simulated_frame,
 };
 
 /// A right front door at a pose drawn from a seed.
 fn capture(seed: u64) -> SceneCloud {
     let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Right, 0, seed);
-    scene_from_frame(&simulated_frame(&setup).frame)
+    scene_from_image(Image::Depth(simulated_frame(&setup).frame))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -4,25 +4,22 @@
 use std::{error::Error, path::Path};
 
 use partsight::{
-    CellSetup, FileContent, LibraryFolder, PartKind, Recipe, ReferenceParams, SceneCloud, Side,
-    Unwatched, Verdict, open_file, run, scene_from_cloud, scene_from_frame, simulated_frame,
+    CellSetup, Image, LibraryFolder, PartKind, Recipe, ReferenceParams, Side, Unwatched, Verdict,
+    read_image, run, scene_from_image, simulated_frame,
 };
 
-fn scene_of(path: &str) -> Result<SceneCloud, Box<dyn Error>> {
-    match open_file(Path::new(path))? {
-        FileContent::Depth(frame) => Ok(scene_from_frame(&frame)),
-        FileContent::Cloud(cloud) => Ok(scene_from_cloud(cloud)),
-        FileContent::Mesh(_) => Err("a mesh is not a capture".into()),
-    }
-}
-
 fn main() -> Result<(), Box<dyn Error>> {
-    let scene = if let Some(path) = std::env::args().nth(1) {
-        scene_of(&path)?
+    let image = if let Some(path) = std::env::args().nth(1) {
+        let (image, warnings) = read_image(Path::new(&path))?;
+        for warning in &warnings {
+            println!("note: {warning}");
+        }
+        image
     } else {
         let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 1);
-        scene_from_frame(&simulated_frame(&setup).frame)
+        Image::Depth(simulated_frame(&setup).frame)
     };
+    let scene = scene_from_image(image);
     let folder = LibraryFolder::open(Path::new("reference_parts"))?;
     let library = folder.load(&ReferenceParams::default())?.library;
     let inspection = run(&scene, &library, &Recipe::default(), &Unwatched)?;

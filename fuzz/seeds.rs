@@ -7,13 +7,13 @@ use partsight::{
     CellSetup, DepthFrame, Grid, Intrinsics, LibraryFolder, PartKind, PointCloud, RigidTransform,
     Side,
     capture::{NextCapture, Recorder},
-    files::write_depth_png,
+    files::{save_cloud, write_depth_png},
     geometry::rigid::row_major,
     open_source,
     paint::built_in_coat,
     pipeline::RecipeFile,
     robot::calibration::{CameraPlace, CellCalibration, Origin},
-    save_cloud, simulated_frame,
+    simulated_frame,
 };
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;

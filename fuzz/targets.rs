@@ -9,9 +9,10 @@ use std::{
 
 use nalgebra::Point3;
 use partsight::{
-    Grid, Library, LibraryFolder, PointCloud, Recipe, SprayPath, Unwatched, Verdict,
+    Grid, Image, Library, LibraryFolder, PointCloud, Recipe, Unwatched, Verdict,
     capture::Replay,
     files::{DepthCamera, FileError, open_bytes},
+    library::SprayPath,
     paint::{Coat, read_stripe},
     pipeline::{RecipeFile, Unrecognisable},
     robot::{
@@ -20,7 +21,7 @@ use partsight::{
         frame_poses::FramePoses,
         pairs::{PairConventions, read_arm_poses, read_pairs},
     },
-    run, scene_from_cloud,
+    run, scene_from_image,
 };
 
 /// Runs the readers of clouds, meshes and depth images; the content decides which.
@@ -94,7 +95,7 @@ pub(crate) fn inspect(bytes: &[u8]) {
         grid: grid.filter(|grid| grid.height > 1),
         ..PointCloud::default()
     };
-    let scene = scene_from_cloud(cloud);
+    let scene = scene_from_image(Image::Cloud(cloud));
     let library = LIBRARY.get_or_init(library);
     let inspection = run(&scene, library, &Recipe::default(), &Unwatched).expect("not cancelled");
     if let Verdict::NoPart(Unrecognisable::Fault(fault)) = inspection.verdict {

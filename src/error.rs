@@ -8,7 +8,7 @@ use std::{
 
 /// Tells the user what to do about an error; kept apart from the error's message.
 ///
-/// The message says what was found and what was expected; the advice is one imperative sentence,
+/// The message states what was found and what was expected; the advice is one imperative sentence,
 /// for example "Clear the table and capture again".
 pub trait Advice {
     /// Returns what to do next, as one sentence without a line break.

@@ -1,18 +1,21 @@
 //! Partsight recognises a car body part in a depth frame and estimates its pose.
 //!
-//! - A file ([`open_file`]) or a camera ([`open_source`]) gives a [`SceneCloud`]; a [`Library`] holds the enrolled parts.
-//! - [`run`] takes both through the stages (segment, project, contour, signature, rank, confirm) and returns an
-//!   [`Inspection`]: the verdict, the pose and every intermediate result.
+//! - A file ([`read_image`]) or a camera ([`open_source`]) gives an [`Image`], and [`scene_from_image`] makes it a
+//!   [`SceneCloud`]. A [`Library`] holds the enrolled parts.
+//! - [`run`] takes scene and library through the stages (segment, project, contour, signature, rank, confirm) and returns
+//!   an [`Inspection`]: the verdict, the pose and every intermediate result.
 //! - Lengths are in metres, angles in radians. In camera space x points right, y down and z forward. A transform
 //!   `b_from_a` takes points of `a` to `b`: the pose is `camera_from_part`.
 //! - The same scene, library and [`Recipe`] give the same result, to the bit, on any number of threads.
 //!
 //! ```
-//! use partsight::{CellSetup, LibraryFolder, PartKind, Recipe, Side, Unwatched, run, scene_from_frame, simulated_frame};
+//! use partsight::{
+//!     CellSetup, Image, LibraryFolder, PartKind, Recipe, Side, Unwatched, run, scene_from_image, simulated_frame,
+//! };
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 1);
-//! let scene = scene_from_frame(&simulated_frame(&setup).frame);
+//! let scene = scene_from_image(Image::Depth(simulated_frame(&setup).frame));
 //! let library = LibraryFolder::open("reference_parts".as_ref())?.load(&Default::default())?.library;
 //! let inspection = run(&scene, &library, &Recipe::default(), &Unwatched)?;
 //! let pose = inspection.pose.ok_or("nothing to recognise")??;
@@ -22,8 +25,8 @@
 //! # }
 //! ```
 //!
-//! The items on this page are the library. The modules behind it are public for the program and its tests only, and
-//! change without notice.
+//! The items on this page are the library. The modules behind it are public for the program, the Python package and the
+//! tests only, and change without notice.
 //!
 //! Features, both on by default: `cli`, the command line, pictures and reports; `window`, the window. Without them only
 //! the algorithms build. Off by default: `plant`, HTTP and MQTT beside the protocols of the server, the history in PostgreSQL,
@@ -85,42 +88,35 @@ pub use self::{
         CaptureError, CaptureWarning, Captured, DepthSource, Image, NextCapture, SourceSpec,
         open as open_source, read_image,
     },
-    error::{Advice, Fault},
-    files::{FileContent, FileError, open as open_file, save_cloud},
+    error::Advice,
+    files::{FileContent, FileError, open as open_file},
     geometry::{
         cloud::{Grid, PointCloud},
         depth_frame::{DepthFrame, Intrinsics},
         distortion::Distortion,
         mesh::{MeshError, TriangleMesh},
-        rigid::{PoseDelta, RigidTransform, pose_error},
+        rigid::RigidTransform,
     },
     library::{
         EnrolError, EnrolParams, EnrolWarning, Enrolled, Library, LibraryError, LibraryFolder,
-        LibraryLoad, LibraryPlace, Part, PartDescription, PartName, SprayPath, enrol_captured,
-        enrol_mesh, enrol_scan, open_library,
+        LibraryLoad, Part, PartDescription, PartName, enrol_captured, enrol_mesh,
     },
     pipeline::{
-        AcceptParams, Cancelled, Inspection, NamedRecipe, PoseChoice, ProgressObserver, Recipe,
-        RecipeError, RecipeFile, RecipeLabel, Rejection, Stage, Timings, Unwatched, Verdict,
-        parameters::Setting,
-        run,
-        scan::{ScanInspection, run_scan},
+        AcceptParams, Cancelled, Inspection, PoseChoice, ProgressObserver, Recipe, RecipeError,
+        RecipeFile, Rejection, Stage, Timings, Unwatched, Verdict, run,
     },
-    report::InspectionLine,
-    robot::{Convention, RobotFrame, RobotPose},
-    scan::{Scan, ScanParams, Shot, assemble},
     simulate::{CellSetup, PartKind, PartModel, Side, SimulatedFrame, frame as simulated_frame},
     stages::{
         confirm::{ConfirmParams, ConfirmedMatch, ConfirmedRanking, Evidence},
         contour::{Contour, ContourParams},
         pose::{
-            AlignParams, PoseError, PoseEstimate, PoseMethod, PoseWarning, align, align_with,
-            icp::IcpParams, icp_ga::IcpGaParams,
+            PoseError, PoseEstimate, PoseMethod, PoseWarning, align, icp::IcpParams,
+            icp_ga::IcpGaParams,
         },
         project::{PlaneImage, ProjectParams},
-        rank::{MatchRanking, RankParams},
+        rank::RankParams,
         reference::{Reference, ReferenceParams},
-        scene::{SceneCloud, scene_from_cloud, scene_from_frame, scene_from_image},
+        scene::{SceneCloud, scene_from_image},
         segment::{NoPart, PointLabel, SegmentParams, Segmentation, SegmentedPart},
         signature::{FanSignature, SignatureParams},
     },

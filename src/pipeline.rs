@@ -50,8 +50,9 @@ pub use self::{
     refusal::{Refusal, RefusalKind},
     rejection::{Rejection, Unrecognisable, is_like},
     verdict::{AcceptParams, Verdict},
-    watch::{Cancelled, ProgressObserver, Stage, Timings, Unwatched},
+    watch::{Cancelled, ProgressObserver, Stage, Timings},
 };
+pub use crate::scan::Unwatched;
 
 /// All parameters of an inspection.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -120,8 +121,8 @@ pub struct Inspection {
     pub contour: Option<Contour>,
     /// Signature.
     pub signature: Option<FanSignature>,
-    /// References, best first; in the order of the confirmed scores once poses were confirmed. The part that a mirror image is
-    /// called the image of comes first.
+    /// References, best first; in the order of the confirmed scores once poses were confirmed. For a
+    /// mirror image, the part that it mirrors comes first.
     pub ranking: ConfirmedRanking,
     /// Pose of the reference ranked first; `None` if the recipe asks for none, or the reference ranked too low to be aligned.
     pub pose: Option<Result<PoseEstimate, PoseError>>,
@@ -301,6 +302,7 @@ impl Inspection {
                 labels: vec![PointLabel::NoReading; num_points],
                 planes: Vec::new(),
                 clusters: Vec::new(),
+                surfaces: Vec::new(),
                 noise_at_1m: Metres(0.0),
                 part: Err(NoPart::TooFewPoints {
                     found: 0,

@@ -54,3 +54,20 @@ impl fmt::Display for Radians {
         write!(f, "{:.2}°", self.degrees())
     }
 }
+
+/// Writes a number of things in English, such as "1 point" or "5 points".
+pub fn counted(num: usize, one: &str, many: &str) -> String {
+    let noun = if num == 1 { one } else { many };
+    format!("{num} {noun}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_one_thing_is_singular() {
+        let texts = [0, 1, 2].map(|num| counted(num, "point", "points"));
+        assert_eq!(texts, ["0 points", "1 point", "2 points"]);
+    }
+}

@@ -108,7 +108,7 @@ fn body() {
             .write(Path::new(&name), &line, &[])
             .expect("written");
         let report = report_of(number, &inspection);
-        let pdf = pose_pdf(&report, &PdfPictures::default()).expect("a page");
+        let pdf = pose_pdf(&report, &PdfPictures::default());
         for (ending, bytes) in [("json", report.to_json().as_bytes()), ("pdf", &pdf)] {
             let path = folder.join(format!("reports/frame-{number}.pose.{ending}"));
             write_atomically(&path, |writer| writer.write_all(bytes)).expect("written");

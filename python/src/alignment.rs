@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use numpy::{PyArray2, PyArrayDyn};
 use partsight::{
-    PointCloud, PoseEstimate, PoseMethod, ProgressObserver as _, align_with, open_file,
-    stages::scene::cloud_of as cloud_of_file,
+    PointCloud, PoseEstimate, PoseMethod, ProgressObserver as _, open_file,
+    stages::{pose::align_with, scene::cloud_of as cloud_of_file},
 };
 use pyo3::{prelude::*, types::PyAny};
 

@@ -4,13 +4,13 @@
 use std::{path::PathBuf, time::Duration};
 
 use partsight::{
-    Inspection, Metres, PoseDelta, Radians, SceneCloud, Timings,
+    Inspection, Metres, Radians, SceneCloud, Timings,
     bench::EvaluationReport,
     cases::{
         CaseError, CaseFolder, CaseJudge, CaseList, CaseResult, FoundVerdict, KeptCase, PackedCase,
         RecipeRecord, SCHEMA_VERSION, Truth,
     },
-    geometry::rigid::row_major,
+    geometry::rigid::{PoseDelta, row_major},
     run,
     stages::pose::Uncertainty,
 };

@@ -4,8 +4,8 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods as _, ndarray::IxDyn};
 use partsight::{
-    InspectionLine, NamedRecipe, PointLabel, PoseEstimate, RigidTransform, SceneCloud, run,
-    stages::pose::Uncertainty,
+    PointLabel, PoseEstimate, RigidTransform, SceneCloud, pipeline::NamedRecipe,
+    report::InspectionLine, run, stages::pose::Uncertainty,
 };
 use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*};
 

@@ -9,10 +9,10 @@ use std::{
 use jiff::Timestamp;
 use numpy::PyArrayDyn;
 use partsight::{
-    EnrolParams, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, NamedRecipe,
-    PartDescription, PartName, enrol_captured,
-    library::{MAX_TITLE, most_similar},
-    open_library,
+    EnrolParams, LibraryError, LibraryFolder, LibraryLoad, PartDescription, PartName,
+    enrol_captured,
+    library::{LibraryPlace, MAX_TITLE, most_similar, open_library},
+    pipeline::NamedRecipe,
 };
 use pyo3::prelude::*;
 

@@ -3,8 +3,11 @@
 use std::{fmt::Display, path::PathBuf, sync::Arc};
 
 use partsight::{
-    NamedRecipe, RecipeFile, RecipeLabel, Setting,
-    pipeline::parameters::{Kind, PARAMETERS, Parameter, SettingError},
+    RecipeFile,
+    pipeline::{
+        NamedRecipe, RecipeLabel,
+        parameters::{Kind, PARAMETERS, Parameter, Setting, SettingError},
+    },
 };
 use pyo3::{
     IntoPyObjectExt as _,

@@ -4,8 +4,8 @@ use std::{path::PathBuf, sync::Arc};
 
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods as _};
 use partsight::{
-    CellSetup, DepthFrame, Distortion, Intrinsics, PartKind, PointCloud, SceneCloud, Side,
-    read_image, scene_from_cloud, scene_from_frame, scene_from_image, simulated_frame,
+    CellSetup, DepthFrame, Distortion, Image, Intrinsics, PartKind, PointCloud, SceneCloud, Side,
+    read_image, scene_from_image, simulated_frame,
 };
 use pyo3::{prelude::*, types::PyAny};
 
@@ -91,12 +91,12 @@ impl Scene {
             distortion: Distortion::NONE,
         };
         let scene = py.detach(|| match depths {
-            Depths::Units(depth) => scene_from_frame(&DepthFrame {
+            Depths::Units(depth) => scene_from_image(Image::Depth(DepthFrame {
                 intrinsics,
                 metres_per_unit,
                 depth,
                 is_simulated,
-            }),
+            })),
             Depths::Floats(depth) => {
                 scene_of_floats(&depth, intrinsics, metres_per_unit, is_simulated)
             }
@@ -122,7 +122,7 @@ impl Scene {
             is_simulated,
             ..cloud_of(points)?
         };
-        let scene = py.detach(|| scene_from_cloud(cloud));
+        let scene = py.detach(|| scene_from_image(Image::Cloud(cloud)));
         Ok(Self::new(name.to_owned(), scene))
     }
 
@@ -176,7 +176,7 @@ fn scene_of_floats(
         let is_reading = z > 0.0 && point.iter().all(|x| x.is_finite());
         if is_reading { point } else { NO_POINT }
     };
-    let mut scene = scene_from_cloud(PointCloud {
+    let mut scene = scene_from_image(Image::Cloud(PointCloud {
         points: depth.iter().enumerate().map(point).collect(),
         grid: Some(partsight::Grid {
             width: camera.width,
@@ -184,7 +184,7 @@ fn scene_of_floats(
         }),
         is_simulated,
         ..PointCloud::default()
-    });
+    }));
     if scene.cloud.grid.is_some() {
         // Replace the intrinsics fitted to the points by those that the points were made with.
         let block_side = scene.reduced.as_ref().map_or(1, |from| from.block_side);
@@ -229,7 +229,8 @@ impl SimulatedFrame {
 
     /// The scene of the frame.
     fn scene(&self, py: Python<'_>) -> Scene {
-        let scene = py.detach(|| scene_from_frame(&self.frame.frame));
+        let image = Image::Depth(self.frame.frame.clone());
+        let scene = py.detach(|| scene_from_image(image));
         Scene::new("simulated".into(), scene)
     }
 }

@@ -11,7 +11,7 @@ use super::{
         action::{Action, DialogRequest, Effect, apply},
         closing::{self, Closing},
         context::Services,
-        dialogs,
+        current_trace, dialogs,
         file_dialog::{DialogLock, FileDialog},
         inspector, keys,
         live::{self, LiveAction},
@@ -135,6 +135,7 @@ impl Window {
         let coats = recipes.as_ref().map(|path| path.with_file_name("coats"));
         let draft = settings.as_ref();
         let draft = draft.map(|path| path.with_file_name("draft.json"));
+        let remembered_live = remembered.live;
         let mut window = Self {
             memory: Memory::new(settings, remembered.clone(), &runner),
             state: remembered.into_state(&runner, &library_cache),
@@ -168,21 +169,29 @@ impl Window {
         window.state.session.usual_cell = cell;
         window.with_robot(ctx, RobotCell::load_remembered);
         let session = &window.state.session;
-        let answers = session.answering.is_on && session.source.followed().is_some();
-        let first = match (scene, &session.source) {
-            (Some(path), _) => Action::Open(path),
-            // If robots were answered before, follow the source: answering them takes frames.
-            (None, _) if answers => Action::Live(LiveAction::Toggle),
-            (None, Source::Camera(spec)) => Action::Live(LiveAction::Use((**spec).clone())),
-            (None, _) => Action::Capture,
+        // If robots were answered before, follow the source: answering them takes frames.
+        let follows = remembered_live || session.answering.is_on;
+        let is_opened = scene.is_some();
+        let first = match scene {
+            Some(path) => Some(Action::Open(path)),
+            None if follows && session.source.followed().is_some() => {
+                Some(Action::Live(LiveAction::Toggle))
+            }
+            // It has no frame yet.
+            None if session.source.is_watched() => None,
+            None => Some(Action::Capture),
         };
         window.state.load_library();
-        // The first scene is inspected even if Enrol is in front.
+        // The first scene is inspected even if Enrol is in front; one that the user names is shown with its result.
         let front = std::mem::take(&mut window.state.session.workspace);
         window.state.inspector.is_start = true;
-        window.act(first, ctx);
+        if let Some(first) = first {
+            window.act(first, ctx);
+        }
         window.state.inspector.is_start = false;
-        window.state.session.workspace = front;
+        if !is_opened {
+            window.state.session.workspace = front;
+        }
         Ok(window)
     }
 
@@ -385,7 +394,8 @@ impl Window {
         self.state.inspector.loader.may_reload = !(is_enrolling && has_draft);
         let inspected = inspector::update(&mut self.state);
         let counted = live::update(&mut self.state);
-        for event in inspected.into_iter().chain(counted) {
+        let traced = current_trace::update(&self.state.session, ctx);
+        for event in inspected.into_iter().chain(counted).chain(traced) {
             self.tell(&event, ctx);
         }
         for kind in WorkspaceKind::ALL {
@@ -423,12 +433,17 @@ impl Window {
         } else {
             KeyTarget::Page
         };
-        // A PIN is typed as quickly as a code.
-        let may_be_scan =
-            self.state.session.role == UserRole::Operator && self.state.roles.asked.is_none();
-        if may_be_scan && let Some(code) = scanner::listen(&ctx, key_target) {
-            let notice = self.state.session.enter_scanned(&code);
-            actions.extend(notice.map(Action::Notify));
+        if self.state.session.role == UserRole::Operator
+            && let Some(code) = scanner::listen(&ctx, key_target)
+        {
+            if self.state.roles.may_be_pin(&code) {
+                let digits = code.chars().map(RoleAction::Digit);
+                actions.extend(digits.chain([RoleAction::Enter]).map(Action::Role));
+            } else {
+                let now = ctx.input(|input| input.time);
+                let notice = self.state.session.enter_scanned(&code, now);
+                actions.extend(notice.map(Action::Notify));
+            }
         }
         let work = self.work();
         if self.state.session.is_operator_view() {
@@ -516,7 +531,9 @@ impl eframe::App for Window {
     fn on_exit(&mut self) {
         // Nothing is drawn any more.
         let ctx = egui::Context::default();
-        for event in live::close(&mut self.state) {
+        let mut events = live::close(&mut self.state);
+        events.extend(current_trace::settle(&self.state.session, f64::INFINITY));
+        for event in events {
             self.lend(WorkspaceKind::History, &ctx, |history, cx| {
                 history.on_event(&event, cx);
             });

@@ -82,7 +82,7 @@ impl EvaluationReport<'_> {
         let by_truth = by_truth.iter().map(|(truth, tally)| (truth.name(), tally));
         let by_difficulty = by_difficulty
             .iter()
-            .map(|(words, tally)| (words.as_deref().unwrap_or("not said"), tally));
+            .map(|(words, tally)| (words.as_deref().unwrap_or("not given"), tally));
         let all = std::iter::once(("all", &confusion.tally));
         show_tallies("what it is", by_truth.chain(all), text);
         text.line(&"");

@@ -92,7 +92,7 @@ pub enum FeedState {
     Ended,
     /// The source cannot be used until a person intervenes.
     Failed(Arc<CaptureError>),
-    /// The feed was told to stop, and has stopped.
+    /// The feed has stopped on request.
     Stopped,
 }
 
@@ -227,7 +227,7 @@ impl Camera<'_> {
         }
     }
 
-    /// Delivers what the source yields until it is lost, ended or told to stop.
+    /// Delivers captures of the source until it is lost, ends or is to stop.
     fn follow(&mut self, source: &mut dyn DepthSource) -> Option<StopReason> {
         while !self.slot.is_stopping() {
             match source.next(TURN) {

@@ -23,7 +23,7 @@ pub trait DepthSource {
 
     /// Returns the next capture, or [`NextCapture::NotYet`] after waiting for about `wait`.
     ///
-    /// An error ends the source, unless [`CaptureError::recovery`] says that it may be queried again.
+    /// An error ends the source, unless [`CaptureError::recovery`] allows another call.
     fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError>;
 }
 

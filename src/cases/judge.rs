@@ -74,7 +74,7 @@ impl FoundVerdict {
             (Some(part), Some(score)) => Some(format!("best guess {part} at {score:.2}")),
             _ => None,
         };
-        // A high score alone does not say why it is refused.
+        // A high score alone does not explain the refusal.
         let words: Vec<String> = guess.into_iter().chain(self.reason.clone()).collect();
         if words.is_empty() {
             return "nothing found".into();

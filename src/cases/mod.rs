@@ -34,7 +34,7 @@
 //! accepted = true
 //! reason = "..."                    # only if not accepted
 //!
-//! [pose]                            # where the part truly is; absent if nobody knows
+//! [pose]                            # where the part truly is; absent if unknown
 //! camera_from_part = [16 numbers]   # row after row, metres
 //! cloud_crc32 = "4d355f87"          # the cloud of the enrolled part whose coordinates these are
 //!

@@ -29,7 +29,7 @@ use super::{
     console::{Advised as _, Console, advised_error},
     recipe::RecipeSource,
 };
-use crate::{files::write_atomically, stages::rank::Matcher};
+use crate::{bench::registration::Condition, files::write_atomically, stages::rank::Matcher};
 
 /// Measure recognition, pose and speed on simulated frames with known truth
 #[derive(Debug, Args)]
@@ -99,7 +99,7 @@ pub(super) struct BenchArgs {
     mesh: Vec<PathBuf>,
     /// For registration: only sources of this kind; may be given several times
     #[arg(long, value_enum, value_name = "NAME")]
-    condition: Vec<registration::ConditionChoice>,
+    condition: Vec<Condition>,
     /// For scaling and soak: draw the figures into this file
     #[arg(long, value_name = "PNG")]
     plot: Option<PathBuf>,

@@ -213,7 +213,7 @@ pub(super) fn store_a_path(part: &str) -> String {
     )
 }
 
-/// Returns the name of a scene, marked as simulated if it is and the name does not already say so.
+/// Returns the name of a scene, marked as simulated if it is and the name does not already contain the mark.
 pub(super) fn marked_simulated(name: &str, is_simulated: bool) -> String {
     if is_simulated && !name.to_lowercase().contains("simulated") {
         format!("{name}, simulated")

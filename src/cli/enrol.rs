@@ -172,7 +172,7 @@ pub(super) fn parse_title(text: &str) -> Result<String, String> {
     }
 }
 
-/// Creates the description of a part; `simulated` is what its file says.
+/// Creates the description of a part; `simulated` is the mark in its file.
 fn about(args: &EnrolArgs, from: &Path, simulated: bool) -> anyhow::Result<PartDescription> {
     let file_name = from.file_name().unwrap_or(from.as_os_str());
     Ok(PartDescription {

@@ -192,11 +192,12 @@ struct ShowArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("export").required(true).multiple(true).args(["csv", "cases"])))]
 struct ExportArgs {
     #[command(flatten)]
     filter: FilterArgs,
     /// Write a table to this file, the oldest first
-    #[arg(long, value_name = "FILE", required_unless_present = "cases")]
+    #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Write those with a kept frame and a true label as cases into this folder
     #[arg(long, value_name = "DIR")]
@@ -226,7 +227,7 @@ struct KeepArgs {
 enum KeepChoice {
     /// All inspections
     All,
-    /// Those that were not accepted
+    /// Those that were not accepted, and the newest 200 accepted ones
     NotAccepted,
     /// None
     None,
@@ -288,7 +289,7 @@ fn note_if_unknown(part: &str, library: &LibraryChoice, console: &mut Console) {
     if !enrolled.contains(part) {
         let enrolled: Vec<&str> = enrolled.into_iter().collect();
         console.note(&format_args!(
-            "no part in the library {} is named {part}; the label is set nevertheless; enrolled there: {}",
+            "no part in the library {} is named {part}; the label was set anyway; enrolled there: {}",
             place.location(),
             enrolled.join(", ")
         ));

@@ -7,7 +7,10 @@ use std::{
     thread,
 };
 
-use clap::{Args, builder::PossibleValuesParser};
+use clap::{
+    Args,
+    builder::{PossibleValuesParser, ValueParser, ValueParserFactory},
+};
 
 use super::console::{Advised as _, Console, advised_error, with_advice};
 use crate::{
@@ -19,7 +22,7 @@ use crate::{
         import::{ImportOptions, LengthUnit, UpAxis},
     },
     geometry::cloud::PointCloud,
-    library::LibraryFolder,
+    library::{LibraryFolder, PartName},
     robot::{Convention, WrittenPose, parse_nozzle, parse_written_pose},
     stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image},
 };
@@ -84,6 +87,9 @@ impl Advice for FileAdvice<'_> {
             FileWarning::TooWideForMetres { .. } => {
                 "Read it as millimetres: --units mm, or #units=mm after its path".into()
             }
+            FileWarning::TooSmall { .. } => {
+                "Give the unit that the file is in, probably metres: --units m, or #units=m after its path".into()
+            }
             other => other.advice(),
         }
     }
@@ -133,6 +139,15 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
     Ok((scene, warnings))
 }
 
+/// Every name of a part or a recipe among the arguments is parsed like this, so that a bad one comes with the rule.
+impl ValueParserFactory for PartName {
+    type Parser = ValueParser;
+
+    fn value_parser() -> ValueParser {
+        ValueParser::new(|name: &str| Self::new(name).map_err(|error| with_advice(&error)))
+    }
+}
+
 /// Parses a pose in a robot's convention for clap.
 pub(super) fn parse_robot_pose(text: &str) -> Result<WrittenPose, String> {
     parse_written_pose(text).map_err(|error| with_advice(&error))
@@ -154,13 +169,24 @@ pub(super) fn parse_convention(name: &str) -> Result<Convention, String> {
     })
 }
 
-/// Opens a capture of the empty cell by the same camera.
-pub(super) fn open_empty_cell(path: &Path, console: &Console) -> anyhow::Result<Arc<EmptyCell>> {
-    let (scene, warnings) = open_scene(path).advised()?;
-    for warning in &warnings {
-        console.warn(warning, &FileAdvice(warning));
+#[derive(Debug, Args)]
+pub(super) struct EmptyCellChoice {
+    /// Capture of the empty cell by the same camera: nothing in it is taken for a part
+    #[arg(long, value_name = "FILE")]
+    empty_cell: Option<PathBuf>,
+}
+
+impl EmptyCellChoice {
+    pub(super) fn open(&self, console: &Console) -> anyhow::Result<Option<Arc<EmptyCell>>> {
+        let Some(path) = &self.empty_cell else {
+            return Ok(None);
+        };
+        let (scene, warnings) = open_scene(path).advised()?;
+        for warning in &warnings {
+            console.warn(warning, &FileAdvice(warning));
+        }
+        Ok(Some(Arc::new(EmptyCell::of(&scene).advised()?)))
     }
-    Ok(Arc::new(EmptyCell::of(&scene).advised()?))
 }
 
 /// Attaches the empty cell to a scene, with a warning if it is from another camera.

@@ -21,7 +21,7 @@ use super::{
     calibrate::CalibrationChoice,
     console::{Advised as _, Console},
     follow::{follow, parse_source},
-    input::{ImportChoice, Scenes, open_ahead, open_empty_cell},
+    input::{EmptyCellChoice, ImportChoice, Scenes, open_ahead},
     output::{Columns, OutputFormat},
     recipe::RecipeChoice,
     record::{HistoryChoice, HistoryRecorder},
@@ -92,9 +92,8 @@ pub(super) struct InspectArgs {
     library: LibraryChoice,
     #[command(flatten)]
     recipe: RecipeChoice,
-    /// Capture of the empty cell by the same camera: nothing in it is taken for a part
-    #[arg(long, value_name = "FILE")]
-    empty_cell: Option<PathBuf>,
+    #[command(flatten)]
+    empty_cell: EmptyCellChoice,
     #[command(flatten)]
     calibration: CalibrationChoice,
     #[command(flatten)]
@@ -164,11 +163,7 @@ fn inspect(
     };
     let report = args.report.as_deref().map(ReportFolder::make);
     let report = report.transpose().advised()?;
-    let empty_cell = args
-        .empty_cell
-        .as_deref()
-        .map(|path| open_empty_cell(path, console));
-    let empty_cell = empty_cell.transpose()?;
+    let empty_cell = args.empty_cell.open(console)?;
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
         .flatten();

@@ -18,7 +18,7 @@ use crate::{
         PartNumbers, SharedTitle, StoredPart,
     },
     stages::reference::{Coverage, Reference, ReferenceParams},
-    units::Metres,
+    units::{Metres, counted},
 };
 
 /// List, show, check, rename, remove and restore enrolled parts, and store their spray paths
@@ -219,7 +219,8 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
         row("views", format!("{} prepared", reference.views.len()));
     }
     if let Some(spray) = &meta.spray {
-        row("path", format!("spray path of {} points", spray.num_points));
+        let points = counted(spray.num_points, "point", "points");
+        row("path", format!("spray path of {points}"));
     }
     row(
         "enrolled",

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     library::{GivenNumbers, LibraryLoad, LibraryPlace, PartNumbers},
-    robot::Convention,
+    robot::{Convention, spray::off_the_part},
     serve::{NumberedPart, PoseKind},
 };
 
@@ -98,7 +98,8 @@ impl NumbersChoice {
         } else {
             PartNumbers::default()
         };
-        let parts = load.parts.iter().map(|meta| {
+        let parts = load.parts.iter().zip(&load.library.references);
+        let parts = parts.map(|(meta, reference)| {
             let name = meta.name.as_str();
             let number = given.iter().find(|given| given.name == name);
             let number = number.map(|given| given.number);
@@ -106,9 +107,13 @@ impl NumbersChoice {
                 console.warn(&format_args!("{name} has no spray path: {error}"), &error);
                 None
             });
+            let off = path.as_ref().and_then(|path| off_the_part(path, reference));
+            if let Some(off) = &off {
+                console.warn(&format_args!("robots get no path of {name}: {off}"), off);
+            }
             NumberedPart {
                 number: number.or_else(|| stored.of(&meta.name)).unwrap_or(0),
-                path,
+                path: path.filter(|_| off.is_none()),
                 is_simulated: meta.simulated,
             }
         });

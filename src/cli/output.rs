@@ -111,12 +111,14 @@ impl Columns {
                 ..
             } => {
                 let triple = |[a, b, c]: [f64; 3]| format!("{a:7.1} {b:7.1} {c:7.1}");
+                let is_named = inspection.verdict.is_named();
                 let (middle, turn) = place_of(inspection, library)
+                    .filter(|_| is_named)
                     .map_or_else(Default::default, |(middle, turn)| {
                         (triple(middle), triple(turn))
                     });
                 let rms = match &inspection.pose {
-                    Some(Ok(pose)) => format!("{:.1}", pose.fit.rms_m * 1000.0),
+                    Some(Ok(pose)) if is_named => format!("{:.1}", pose.fit.rms_m * 1000.0),
                     _ => String::new(),
                 };
                 let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");

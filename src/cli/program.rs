@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use jiff::Timestamp;
-use nalgebra::Point3;
 
 use super::{
     Outcome,
@@ -12,15 +11,17 @@ use super::{
     input::{parse_nozzle_pose, parse_robot_pose, within},
 };
 use crate::{
+    error::Advice as _,
     geometry::rigid::RigidTransform,
-    library::PartName,
+    library::{PartName, SprayPath},
     robot::{
         RobotFrame, WrittenPose,
         arm::{Arm, ArmError, Obstacles, PathCheck, PlacedArm, Rail},
         program::{Program, ProgramFormat, ProgramSettings, check_reach, program_points},
-        spray::{BandStatus, CarriedPath, MOST_TILT},
+        spray::{BandStatus, CarriedPath, MOST_TILT, off_the_part},
     },
-    units::{Metres, Radians},
+    stages::reference::Reference,
+    units::{Metres, Radians, counted},
 };
 
 /// Tool, gun and arm of a program; the command names its file `program`.
@@ -49,12 +50,12 @@ pub(super) struct ProgramOptions {
     arm: Option<String>,
     #[command(flatten)]
     cell: CellChoice,
-    /// Write the program despite doubts about part, capture or reach; the program names them
+    /// Write the program despite doubts about part, path, capture or reach; the program names them
     #[arg(long, requires = "program")]
     force: bool,
 }
 
-/// Where an arm stands, and what gun and arm have to stay clear of beside the part.
+/// Where an arm stands, and the obstacles besides the part.
 #[derive(Debug, Args)]
 pub(super) struct CellChoice {
     /// Pose of the arm's base in the calibration's frame; default: the two frames are the same
@@ -122,12 +123,12 @@ pub(super) fn parse_format(name: &str) -> Result<ProgramFormat, String> {
     })
 }
 
-/// Parses a speed where the path sets none, mm/s, for clap. Most controllers' own limits are lower.
+/// Parses `--speed`, mm/s. Most controllers' own limits are lower.
 pub(super) fn parse_speed(text: &str) -> Result<f64, String> {
     within(text, &(1.0..=5000.0))
 }
 
-/// Parses the distance of the approach points, mm, for clap.
+/// Parses `--approach`, mm.
 pub(super) fn parse_approach(text: &str) -> Result<f64, String> {
     within(text, &(10.0..=1000.0))
 }
@@ -144,8 +145,9 @@ pub(super) struct ProgramFile {
 /// The part and capture that a program is for.
 pub(super) struct ProgramSubject<'a> {
     pub(super) part: &'a PartName,
-    /// Points of the reference, in part space.
-    pub(super) part_points: &'a [Point3<f32>],
+    pub(super) reference: &'a Reference,
+    /// The stored path, in part space.
+    pub(super) path: &'a SprayPath,
     /// Name of the capture; `None` for the standard position.
     pub(super) scene: Option<&'a str>,
     pub(super) camera_from_part: RigidTransform,
@@ -153,8 +155,8 @@ pub(super) struct ProgramSubject<'a> {
 }
 
 impl ProgramOptions {
-    /// Prepares writing a program to a file, in this format or in the one of the file's ending, which must not be that of
-    /// another language.
+    /// Prepares a program file in this format, or in that of the file's ending. The ending must not be that of another
+    /// language.
     pub(super) fn open(
         &self,
         file: &Path,
@@ -164,7 +166,7 @@ impl ProgramOptions {
             (Some(format), Ok(other)) if format != other => {
                 return Err(advised_error(
                     format!(
-                        "{} is to be {}, but its ending stands for {}",
+                        "{} was requested as {}, but its ending is that of {}",
                         file.display(),
                         format.title(),
                         other.title()
@@ -203,7 +205,7 @@ impl ProgramOptions {
 }
 
 impl ProgramFile {
-    /// Writes the program of a carried path, unless there is a reason against it.
+    /// Writes the program of a carried path, unless there are doubts and `--force` is not set.
     pub(super) fn write(
         &self,
         carried: &CarriedPath,
@@ -214,7 +216,9 @@ impl ProgramFile {
     ) -> anyhow::Result<Outcome> {
         let robot_from_part = frame.robot_from_part(&subject.camera_from_part);
         let reach = self.arm.as_ref().map(|arm| {
-            let arm = arm.clone().with_part(subject.part_points, &robot_from_part);
+            let arm = arm
+                .clone()
+                .with_part(&subject.reference.cloud.points, &robot_from_part);
             let reach = check_reach(&arm, carried, frame, &self.settings)?;
             Ok((arm, reach))
         });
@@ -222,10 +226,21 @@ impl ProgramFile {
         let reach = reach.advised()?;
         let doubt = |(arm, reach): &(PlacedArm, PathCheck)| reach.doubt(&arm.arm.name);
         doubts.extend(reach.as_ref().and_then(doubt));
+        // Neither another capture nor another place of the arm helps against this one.
+        let off = off_the_part(subject.path, subject.reference);
+        if let Some(off) = &off {
+            doubts.insert(0, off.to_string());
+        }
         let points = program_points(carried, frame, reach.as_ref().map(|(_, reach)| reach));
         if let (false, Some(doubt)) = (self.is_forced, doubts.first()) {
             console.note(&format_args!("no program was written: {doubt}"));
-            let advice = if subject.scene.is_some() {
+            let advice = if let Some(off) = off {
+                format!(
+                    "{} (partsight library path {} shows it), or plan a new one",
+                    off.advice(),
+                    subject.part
+                )
+            } else if subject.scene.is_some() {
                 "Capture all of the part again, or move part or arm".to_owned()
             } else {
                 format!(
@@ -250,9 +265,9 @@ impl ProgramFile {
         };
         let num_parts = program.save(&self.file, self.format).advised()?;
         console.note(&format_args!(
-            "{}: {} points as {}; {}",
+            "{}: {} as {}; {}",
             self.file.display(),
-            points.len(),
+            counted(points.len(), "point", "points"),
             self.format.title(),
             against_seen(carried)
         ));
@@ -272,19 +287,23 @@ impl ProgramFile {
     }
 }
 
-/// Says how many points of a carried path are within the band, of those that could be checked against what was seen. Adds
-/// how many could not be, if they are more than the moves beside a part that is seen whole.
+/// Describes how many points of a carried path are within the band, of those that could be checked against the capture.
+/// Adds the number of unchecked points if there are more of them than the moves beside a part that is seen whole.
 pub(super) fn against_seen(carried: &CarriedPath) -> String {
     let num = carried.points.len();
     let num_seen = carried.num_seen();
+    let verb = |num: usize, one: &'static str, many| if num == 1 { one } else { many };
+    let num_inside = carried.num_inside();
     let mut words = format!(
-        "of {num_seen} that aim at what was seen of the part, {} are within the band",
-        carried.num_inside()
+        "of {num_seen} that {} at what was seen of the part, {num_inside} {} within the band",
+        verb(num_seen, "aims", "aim"),
+        verb(num_inside, "is", "are")
     );
     let num_flat = carried.count(BandStatus::TooFlat);
     if num_flat > 0 {
         words = format!(
-            "{words}, {num_flat} meet it at more than {:.0}°, as strokes that lean towards flanks may",
+            "{words}, {num_flat} {} it at more than {:.0}°, as strokes that lean towards flanks may",
+            verb(num_flat, "meets", "meet"),
             MOST_TILT.degrees()
         );
     }

@@ -235,7 +235,6 @@ fn tell_of(news: HistoryEvent, console: &Console) {
 /// Origin of a scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SceneOrigin<'a> {
-    /// Name of the scene.
     pub(super) scene: &'a str,
     /// The source in the form that opens it again, or a file.
     pub(super) source: &'a str,

@@ -13,7 +13,7 @@ use super::{
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, Table},
     input::{
-        FileAdvice, OpenedScene, Scenes, before, open_ahead, open_empty_cell, parse_convention,
+        EmptyCellChoice, FileAdvice, OpenedScene, Scenes, before, open_ahead, parse_convention,
     },
     recipe::RecipeChoice,
     trace::TraceChoice,
@@ -72,9 +72,8 @@ pub(super) struct ReportArgs {
     library: LibraryChoice,
     #[command(flatten)]
     recipe: RecipeChoice,
-    /// Capture of the empty cell by the same camera: nothing in it is taken for a part
-    #[arg(long, value_name = "FILE")]
-    empty_cell: Option<PathBuf>,
+    #[command(flatten)]
+    empty_cell: EmptyCellChoice,
     #[command(flatten)]
     calibration: CalibrationChoice,
     #[command(flatten)]
@@ -134,17 +133,14 @@ pub(super) fn run(args: &ReportArgs, console: &mut Console) -> anyhow::Result<Ou
 fn report(args: &ReportArgs, scenes: Scenes<'_>, console: &mut Console) -> anyhow::Result<Outcome> {
     let recipe = args.recipe.recipe()?;
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
-    let empty_cell = args
-        .empty_cell
-        .as_deref()
-        .map(|path| open_empty_cell(path, console));
+    let empty_cell = args.empty_cell.open(console)?;
     let trace = args.trace.of_parts(Some(args.files.len()))?;
     let out = args.out.as_deref().unwrap_or(Path::new("."));
     let mut one = Reporter {
         recipe,
         library_identity: load.identity(),
         load,
-        empty_cell: empty_cell.transpose()?,
+        empty_cell,
         robot: args.calibration.frame(console)?,
         folder: ReportFolder::make(out).advised()?,
         trace,
@@ -281,7 +277,7 @@ impl Reporter<'_> {
                 stages: &stage_pictures(scene, inspection),
                 title: title.map(PartMeta::shown_title),
             };
-            files.push(("pdf", pose_pdf(report, &pictures).advised()?));
+            files.push(("pdf", pose_pdf(report, &pictures)));
         }
         let is_csv = asked(Format::Csv);
         let mut written = self.folder.write_pose(path, &files).advised()?;

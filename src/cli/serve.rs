@@ -8,7 +8,6 @@ mod take;
 
 use std::{
     net::{Ipv4Addr, SocketAddr, SocketAddrV4},
-    path::PathBuf,
     sync::{
         Arc,
         mpsc::{self, Receiver},
@@ -25,7 +24,7 @@ use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, advised_error, with_advice},
-    input::{open_empty_cell, within},
+    input::{EmptyCellChoice, within},
     interrupt::Interrupt,
     numbers::NumbersChoice,
     output::{Columns, OutputFormat},
@@ -103,9 +102,8 @@ pub(super) struct ServeArgs {
     take: take::TakeArgs,
     #[command(flatten)]
     recipe: RecipeChoice,
-    /// Capture of the empty cell by the same camera: nothing in it is taken for a part
-    #[arg(long, value_name = "FILE")]
-    empty_cell: Option<PathBuf>,
+    #[command(flatten)]
+    empty_cell: EmptyCellChoice,
     #[command(flatten)]
     calibration: CalibrationChoice,
     /// Write one line of JSON per trigger, and nothing else, to standard output
@@ -209,9 +207,7 @@ pub(super) fn run(args: &ServeArgs, console: &mut Console) -> anyhow::Result<Out
         ));
     };
     let parts = args.numbers.parts(&place, &load, console)?;
-    let empty_cell = args.empty_cell.as_deref();
-    let empty_cell = empty_cell.map(|path| open_empty_cell(path, console));
-    let empty_cell = empty_cell.transpose()?;
+    let empty_cell = args.empty_cell.open(console)?;
     let camera = Arc::new(Camera::start(&args.source).advised()?);
     let interrupt = Interrupt::listen()?;
     let StartedServer { mut server, events } = start(args, &listeners, &camera)?;

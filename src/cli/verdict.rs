@@ -4,9 +4,9 @@ use super::{Outcome, console::Console};
 use crate::{
     files::visible,
     library::Library,
-    pipeline::{Inspection, Rejection, Verdict, is_like},
+    pipeline::{Inspection, Rejection, Verdict},
     robot::RobotFrame,
-    stages::pose::Stopped,
+    stages::pose::{Stopped, Uncertainty},
     units::Metres,
 };
 
@@ -51,6 +51,17 @@ pub(super) fn show_in_robot(
     console.entry("robot", &text);
 }
 
+fn bounds_in_words(bounds: &Uncertainty) -> String {
+    match bounds.freedom {
+        None => format!(
+            "off by less than {:.1} mm and {:.2} degrees in 95 of 100 cases",
+            bounds.shift.mm(),
+            bounds.turn.degrees()
+        ),
+        Some(freedom) => format!("unconstrained: {freedom}"),
+    }
+}
+
 /// Shows everything about one inspection, one line per item.
 pub(super) fn show_card(
     scene: &str,
@@ -73,7 +84,7 @@ pub(super) fn show_card(
                 Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }) => {
                     format!("mirror image of {part}")
                 }
-                Some(Rejection::Unknown { .. }) if is_like(*score) => {
+                Some(Rejection::Unknown { .. }) if inspection.verdict.is_named() => {
                     format!("unknown, nearest {part}")
                 }
                 Some(Rejection::Unknown { .. }) => "unknown".to_owned(),
@@ -92,7 +103,9 @@ pub(super) fn show_card(
             line("part", "none: NOT ACCEPTED".to_owned());
         }
     }
-    if let Some(([x, y, z], [rx, ry, rz])) = place_of(inspection, library) {
+    let is_named = inspection.verdict.is_named();
+    let place = place_of(inspection, library).filter(|_| is_named);
+    if let Some(([x, y, z], [rx, ry, rz])) = place {
         line(
             "middle",
             format!("x {x:.1}  y {y:.1}  z {z:.1} mm, in the camera's frame"),
@@ -104,15 +117,20 @@ pub(super) fn show_card(
             ),
         );
     }
-    if let (Some(Ok(_)), Some(other)) = (&inspection.pose, inspection.other_reference()) {
-        let text =
-            format!("{other}, another reference of this part, with a standard position of its own");
-        line("reference", text);
-    }
-    if let Some(Ok(pose)) = &inspection.pose {
+    // Without a name, nobody could tell which part the pose is of.
+    let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    let pose = pose.filter(|_| is_named);
+    if let Some(pose) = pose {
+        if let Some(other) = inspection.other_reference() {
+            let text = format!(
+                "{other}, another reference of this part, with a standard position of its own"
+            );
+            line("reference", text);
+        }
         // The pose of something unknown is of no use.
         let is_known = !inspection.verdict.is_unknown();
-        let ambiguous = if is_known && pose.is_ambiguous() {
+        let is_ambiguous = is_known && pose.is_ambiguous();
+        let ambiguous = if is_ambiguous {
             "; another pose fits as well"
         } else {
             ""
@@ -133,18 +151,8 @@ pub(super) fn show_card(
             ),
         );
     }
-    if let Some(Ok(pose)) = &inspection.pose
-        && let Some(bounds) = pose.uncertainty
-    {
-        let text = match bounds.freedom {
-            None => format!(
-                "off by less than {:.1} mm and {:.2} degrees in 95 of 100 cases",
-                bounds.shift.mm(),
-                bounds.turn.degrees()
-            ),
-            Some(freedom) => format!("unconstrained: {freedom}"),
-        };
-        line("bounds", text);
+    if let Some(bounds) = pose.and_then(|pose| pose.uncertainty) {
+        line("bounds", bounds_in_words(&bounds));
     }
     if inspection.touches_edge() {
         let text = "what was found reaches the picture's edge: some of it may be missing";

@@ -207,7 +207,7 @@ impl DepthCamera {
         Ok(self)
     }
 
-    /// Builds the frame as the camera saw it from stored depths of a picture of `size` pixels. The error says what is wrong.
+    /// Builds the frame as the camera saw it from stored depths of a picture of `size` pixels. The error describes what is wrong.
     pub(crate) fn frame(self, size: (usize, usize), depth: Vec<u16>) -> Result<DepthFrame, String> {
         let Intrinsics { width, height, .. } = self.intrinsics;
         if (width, height) != size {

@@ -314,8 +314,8 @@ impl Advice for FileError {
                 path,
                 found: NoFile::Folder,
             } => format!(
-                "Give the files in it, for example {}",
-                path.join("*").display()
+                "Give the captures in it, for example {}",
+                path.join("*.png").display()
             ),
             Self::NotAFile { .. } => "Copy its content into a file and give that".into(),
             Self::IsIntrinsics { image, .. } => format!("Give the PNG: {}", image.display()),

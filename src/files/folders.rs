@@ -12,7 +12,7 @@ use directories::ProjectDirs;
 use super::disk;
 
 /// The environment variable that names another folder for the user's data and settings. As with those of the system, a
-/// relative path is ignored: it would be another folder in each working folder.
+/// relative path is ignored: its meaning would depend on the working folder.
 const OWN_FOLDER: &str = "PARTSIGHT_DATA";
 
 /// Returns the folder for this program's data of the user; `None` if the system has none.

@@ -1,4 +1,4 @@
-//! Checks of relative paths, and names in errors: the nearest to the requested one first, and not all of hundreds.
+//! Checks of relative paths, and the names that errors suggest: those nearest to the requested one.
 
 use std::path::{Component, Path};
 
@@ -25,8 +25,8 @@ pub(super) fn listed(names: &[String], wanted: &str) -> String {
     }
 }
 
-/// Returns the name nearest to `wanted`, the first of equally near ones; `None` if more than half of the letters differ,
-/// so that it was hardly meant.
+/// Returns the name nearest to `wanted`, the first if several are equally near; `None` if more than half of the letters
+/// differ, because it was probably not meant.
 pub(crate) fn nearest_name<'a>(
     names: impl Iterator<Item = &'a str>,
     wanted: &str,

@@ -35,7 +35,13 @@ pub enum FileWarning {
         /// The longest side of the box around the points.
         extent: Metres,
     },
-    /// The file is longer than its header says.
+    /// The points span less than any part.
+    #[error("the points span only {extent}, so the file is probably in another unit")]
+    TooSmall {
+        /// The longest side of the box around the points.
+        extent: Metres,
+    },
+    /// The file is longer than its header announces.
     #[error("{num} bytes follow the last point, so the file is probably damaged")]
     SurplusBytes {
         /// Bytes after the last point.
@@ -56,6 +62,7 @@ impl Advice for FileWarning {
     fn advice(&self) -> String {
         match self {
             Self::TooWideForMetres { .. } => "Read it as millimetres, or export it in metres".into(),
+            Self::TooSmall { .. } => "Read it in its own unit, probably metres".into(),
             Self::SurplusBytes { .. } => {
                 "Copy or export the file again from the program that made it".into()
             }
@@ -70,7 +77,11 @@ impl Advice for FileWarning {
 /// The extent that causes a warning, in metres: a part of 0.1 m in millimetres looks this wide, and no cell is.
 const SUSPICIOUS_EXTENT: f64 = 100.0;
 
-/// Organised clouds with fewer readings get no warning: a camera cannot be fitted to a few.
+/// The extent below which captures and parts get a warning, in metres: a cell of metres, read as millimetres, is smaller, and
+/// no part is.
+const SMALLEST_EXTENT: f64 = 0.1;
+
+/// Clouds with fewer readings are no captures, and a camera cannot be fitted to a few.
 const MIN_READINGS: usize = 1000;
 
 fn warnings_of(cloud: &PointCloud) -> impl Iterator<Item = FileWarning> {
@@ -87,7 +98,7 @@ fn warnings_of(cloud: &PointCloud) -> impl Iterator<Item = FileWarning> {
 }
 
 impl FileContent {
-    /// Returns true if the file says that its content is simulated.
+    /// Returns true if the content is marked as simulated.
     pub fn is_simulated(&self) -> bool {
         match self {
             Self::Cloud(cloud) => cloud.is_simulated,
@@ -108,6 +119,15 @@ impl FileContent {
         if extent >= SUSPICIOUS_EXTENT {
             let extent = Metres(extent);
             warnings.push(FileWarning::TooWideForMetres { extent });
+        }
+        let has_surface = match self {
+            Self::Cloud(cloud) => cloud.num_finite() >= MIN_READINGS,
+            Self::Mesh(_) => true,
+            Self::Depth(_) => false,
+        };
+        if has_surface && extent < SMALLEST_EXTENT {
+            let extent = Metres(extent);
+            warnings.push(FileWarning::TooSmall { extent });
         }
         if let Self::Cloud(cloud) = self {
             warnings.extend(warnings_of(cloud));
@@ -237,7 +257,12 @@ fn recognise(source: Source<'_>) -> Result<Format, FileError> {
     if depth_png::is_intrinsics(bytes) {
         return Err(FileError::IsIntrinsics {
             path: source.path.to_owned(),
-            image: source.path.with_extension("png"),
+            image: match source.path.file_name() {
+                Some(name) if name == depth_png::FOLDER_CAMERA => {
+                    source.path.with_file_name("*.png")
+                }
+                _ => source.path.with_extension("png"),
+            },
         });
     }
     if obj::is_obj(source) {

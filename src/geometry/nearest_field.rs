@@ -108,6 +108,25 @@ impl NearestField {
     /// Returns the point nearest to the cell of `query`; `None` outside the band.
     #[inline]
     pub fn nearest(&self, query: &Point3<f32>) -> Option<Neighbour> {
+        let index = self.index_near(query)?;
+        Some(Neighbour {
+            index,
+            distance_sq: (self.points[index] - query).norm_squared(),
+        })
+    }
+
+    /// Returns the squared distance of that point; infinite outside the band.
+    #[expect(clippy::inline_always, reason = "a call takes as long as the look-up")]
+    #[inline(always)]
+    pub fn distance_sq(&self, query: &Point3<f32>) -> f32 {
+        let index = self.index_near(query);
+        index.map_or(f32::INFINITY, |i| (self.points[i] - query).norm_squared())
+    }
+
+    /// Returns the index of that point.
+    #[expect(clippy::inline_always, reason = "a call takes as long as the look-up")]
+    #[inline(always)]
+    fn index_near(&self, query: &Point3<f32>) -> Option<usize> {
         let d = (query - self.low) * self.per_cell;
         let inside = d.x >= 0.0 && d.y >= 0.0 && d.z >= 0.0;
         // A cast saturates at `u16::MAX`, which exceeds every axis; casting to 16 bits takes the fewest instructions.
@@ -117,13 +136,7 @@ impl NearestField {
             return None;
         }
         let row = usize::from(z) * usize::from(height) + usize::from(y);
-        let index = self
-            .cells
-            .point(row * usize::from(width) + usize::from(x))?;
-        Some(Neighbour {
-            index,
-            distance_sq: (self.points[index] - query).norm_squared(),
-        })
+        self.cells.point(row * usize::from(width) + usize::from(x))
     }
 
     /// Seeds the occupied cells and propagates each cell's point to its neighbours, one layer at a time.

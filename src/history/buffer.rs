@@ -20,8 +20,8 @@ use jiff::Timestamp;
 use super::{
     entry::{NewEntry, Summary},
     error::HistoryError,
+    event::HistoryEvent,
     hung::HungId,
-    news::HistoryEvent,
     open::OpenedHistory,
     retention::{PruneResult, Retention, Usage},
     store::History,
@@ -56,7 +56,7 @@ struct Inner {
     retention: Retention,
     /// Oldest first.
     waiting: VecDeque<NewEntry>,
-    /// What became known of parts whose rows are written, oldest first.
+    /// Traceability that arrived after the rows of its part were written, oldest first.
     untraced: VecDeque<(HungId, Traceability)>,
     /// Number of the newest row, written or waiting; a waiting one is listed with its negative.
     last: i64,
@@ -150,7 +150,8 @@ impl HistoryBuffer {
         self.tell(HistoryEvent::Added { ticket, number });
     }
 
-    /// Adds what became known of a part after its verdict to its inspections, written or waiting, where they lack it.
+    /// Adds traceability that arrived after a part's verdict to all inspections of the part, written or waiting. Fills only
+    /// what they lack.
     pub fn trace_part(&self, hung: &HungId, known: &Traceability, now: Instant) {
         let mut inner = self.lock();
         for entry in &mut inner.waiting {
@@ -325,8 +326,8 @@ impl HistoryBuffer {
         }
     }
 
-    /// Writes all waiting inspections, the oldest first, then what became known of written ones. Returns each inspection's
-    /// number before and after.
+    /// Writes all waiting inspections, the oldest first, then the late traceability of written ones. Returns the number of
+    /// each inspection before and after.
     fn write_waiting(&self, inner: &mut Inner, now: Instant) -> Vec<(i64, i64)> {
         let has_failed = inner.next_try.is_some();
         let mut numbers = Vec::new();

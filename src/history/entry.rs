@@ -74,7 +74,7 @@ impl From<&Verdict> for StoredVerdict {
     }
 }
 
-/// Begin of the title of a mirror image; the title of the part follows.
+/// Start of a mirror image's title; the part's title follows.
 const MIRRORED: &str = "Mirror image of ";
 
 /// An inspection as a row of a list.
@@ -121,6 +121,13 @@ impl Summary {
     pub fn mirror_of(&self) -> Option<&str> {
         let is_unknown = self.verdict == StoredVerdict::Unknown;
         self.title.strip_prefix(MIRRORED).filter(|_| is_unknown)
+    }
+
+    /// True if it was accepted and its true label says that it is another part, or none.
+    pub fn is_wrongly_accepted(&self) -> bool {
+        let label = self.label.as_ref();
+        self.verdict == StoredVerdict::Accepted
+            && label.is_some_and(|label| label.part() != self.part.as_deref())
     }
 
     /// Returns the lower-case text in which a filter looks for its words.

@@ -20,7 +20,7 @@ pub struct Filter {
     pub is_accepted: Option<bool>,
     /// Simulated or not.
     pub is_simulated: Option<bool>,
-    /// From exactly this source.
+    /// Only from this source.
     pub source: Option<String>,
     /// Includes the re-inspections; otherwise the list has one row per part.
     pub with_below: bool,
@@ -100,7 +100,7 @@ impl Filter {
         (parts.join(" AND "), values)
     }
 
-    /// Returns whether the filter lets an inspection through.
+    /// Returns whether an inspection matches the filter.
     pub(crate) fn passes(&self, row: &Summary) -> bool {
         let search = row.search();
         (self.with_below || row.parent.is_none())

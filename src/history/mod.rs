@@ -19,10 +19,10 @@ mod differences;
 mod drift;
 mod entry;
 mod error;
+mod event;
 mod filter;
 mod frames;
 mod hung;
-mod news;
 mod open;
 mod outcomes;
 mod retention;
@@ -48,16 +48,16 @@ pub use self::{
         Summary,
     },
     error::HistoryError,
+    event::HistoryEvent,
     filter::Filter,
     frames::{
         FrameError, FrameRecord, read as read_frame, read_by as read_frame_by,
         write_as as write_frame,
     },
     hung::{HungId, HungRows},
-    news::HistoryEvent,
     open::{FILE, OnlyRead, OpenedHistory, SetAside, users_folder},
     outcomes::{PartOutcome, RefusalReason},
-    retention::{KeepFrames, PruneResult, Retention, Usage},
+    retention::{ACCEPTED_KEPT, KeepFrames, PruneResult, Retention, Usage},
     shots::{ShotRecord, read_shots},
     store::{History, Page},
     table::write_table,

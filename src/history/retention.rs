@@ -2,7 +2,8 @@
 //! frames.
 //!
 //! The oldest frames are removed first, by age and then by size. A frame whose inspection has a remark or a true label
-//! has been looked at by a person: no rule removes it, but it counts towards the size.
+//! has been looked at by a person: no rule removes it, but it counts towards the size. That a part was wrongly accepted is
+//! noticed a few parts later, so the newest accepted parts keep their frames, too.
 
 use std::collections::BTreeSet;
 
@@ -15,6 +16,10 @@ use super::{
     frames::{self, FrameRecord},
     store::History,
 };
+
+/// Number of the newest accepted inspections whose frames are kept by [`KeepFrames::NotAccepted`]; fewer than 100 MB of a
+/// Kinect.
+pub const ACCEPTED_KEPT: usize = 200;
 
 /// Which frames are kept, and for how long.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -61,7 +66,7 @@ impl Retention {
 pub enum KeepFrames {
     /// All inspections.
     All,
-    /// Those not accepted, which are the ones that people ask about.
+    /// Those not accepted, which are the ones that people ask about, and the newest [`ACCEPTED_KEPT`] accepted ones.
     #[default]
     NotAccepted,
     /// No inspection.
@@ -76,16 +81,8 @@ impl KeepFrames {
     pub fn title(self) -> &'static str {
         match self {
             Self::All => "All",
-            Self::NotAccepted => "Only not accepted",
+            Self::NotAccepted => "Not accepted",
             Self::None => "None",
-        }
-    }
-
-    pub(super) fn keeps(self, verdict: StoredVerdict) -> bool {
-        match self {
-            Self::All => true,
-            Self::NotAccepted => verdict != StoredVerdict::Accepted,
-            Self::None => false,
         }
     }
 }
@@ -114,6 +111,7 @@ struct PrunableFrame {
     number: i64,
     at: i64,
     bytes: u64,
+    is_accepted: bool,
 }
 
 /// Name under which the file stores the rule, so that window and commands apply the same.
@@ -166,27 +164,38 @@ impl History {
         now: Timestamp,
     ) -> Result<PruneResult, HistoryError> {
         let Retention {
+            keep,
             max_days,
             max_gigabytes,
-            ..
         } = retention.clamped();
         let days = SignedDuration::from_hours(24 * i64::from(max_days));
         let oldest = now
             .checked_sub(days)
             .map_or(i64::MIN, Timestamp::as_microsecond);
-        let mut left = self.usage()?.num_bytes;
-        let most = (max_gigabytes * 1e9) as u64;
         let candidates = self.candidates().map_err(|error| self.error(error))?;
-        let goes = |candidate: &PrunableFrame| {
-            let goes = candidate.at < oldest || left > most;
+        let num_accepted = candidates.iter().filter(|frame| frame.is_accepted).count();
+        let mut num_over = match keep {
+            KeepFrames::NotAccepted => num_accepted.saturating_sub(ACCEPTED_KEPT),
+            KeepFrames::All | KeepFrames::None => 0,
+        };
+        let (mut leaving, others): (Vec<_>, Vec<_>) = candidates.into_iter().partition(|frame| {
+            let is_over = frame.is_accepted && num_over > 0;
+            num_over -= usize::from(is_over);
+            is_over
+        });
+        let num_bytes: u64 = leaving.iter().map(|frame| frame.bytes).sum();
+        let mut left = self.usage()?.num_bytes.saturating_sub(num_bytes);
+        let most = (max_gigabytes * 1e9) as u64;
+        let goes = |frame: &PrunableFrame| {
+            let goes = frame.at < oldest || left > most;
             if goes {
-                left = left.saturating_sub(candidate.bytes);
+                left = left.saturating_sub(frame.bytes);
             }
             goes
         };
         // The oldest come first: once one frame stays, all later ones stay.
         let mut goes = goes;
-        let leaving: Vec<PrunableFrame> = candidates.into_iter().take_while(|c| goes(c)).collect();
+        leaving.extend(others.into_iter().take_while(|frame| goes(frame)));
         if leaving.is_empty() {
             return Ok(PruneResult::default());
         }
@@ -202,15 +211,16 @@ impl History {
     /// Returns the frames that a rule may remove, the oldest first.
     fn candidates(&self) -> rusqlite::Result<Vec<PrunableFrame>> {
         let mut asked = self.file.prepare(
-            "SELECT number, at, frame_bytes FROM inspection
+            "SELECT number, at, frame_bytes, verdict = ? FROM inspection
             WHERE frame_bytes IS NOT NULL AND remark = '' AND label IS NULL ORDER BY at",
         )?;
-        let rows = asked.query_map([], |row| {
+        let rows = asked.query_map([StoredVerdict::Accepted.name()], |row| {
             let bytes: i64 = row.get(2)?;
             Ok(PrunableFrame {
                 number: row.get(0)?,
                 at: row.get(1)?,
                 bytes: bytes as u64,
+                is_accepted: row.get(3)?,
             })
         })?;
         rows.collect()

@@ -74,7 +74,7 @@ pub(super) fn insert(
         }
         None => (None, None),
     };
-    // Remark, label, traceability and source of the part stay with it.
+    // The part keeps its remark, label, traceability and source.
     let mut summary = summary.clone();
     if let Some(head) = &head {
         summary.trace = summary.trace.or(&head.trace);
@@ -150,7 +150,7 @@ pub(super) fn insert(
     Ok(number)
 }
 
-/// Traces all inspections of a part by what was not known yet when they were written.
+/// Adds late traceability to all inspections of a part.
 pub(super) fn trace_part(
     file: &mut Connection,
     hung: &HungId,
@@ -169,7 +169,7 @@ pub(super) fn trace_part(
     file.commit()
 }
 
-/// Traces an inspection by what was not known yet when it was written.
+/// Adds late traceability to an inspection; keeps what it already has.
 fn trace_row(file: &Connection, row: &Summary, known: &Traceability) -> rusqlite::Result<()> {
     let trace = row.trace.clone().or(known);
     if trace == row.trace {

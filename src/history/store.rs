@@ -14,7 +14,7 @@ use super::{
     frames::{self, FrameRecord},
     hung::HungId,
     open::{FILE, FRAMES, Lock},
-    retention::Retention,
+    retention::{KeepFrames, Retention},
     rows::{columns, detail_columns, head_of, insert, json, record_of, summary_of, trace_part},
     shots,
     traceability::Traceability,
@@ -65,7 +65,7 @@ impl History {
     pub fn add(&mut self, entry: &NewEntry, retention: &Retention) -> Result<i64, HistoryError> {
         let summary = &entry.record.summary;
         let scene = entry.scene.as_ref();
-        let frame = match scene.filter(|_| retention.keep.keeps(summary.verdict)) {
+        let frame = match scene.filter(|_| retention.keep != KeepFrames::None) {
             Some(scene) if entry.shots.is_empty() => {
                 frames::write(&self.frames, scene, summary.at)?
             }
@@ -268,7 +268,7 @@ impl History {
         self.change(number, |row| remark.trim().clone_into(&mut row.remark))
     }
 
-    /// Adds what became known of a part after its verdict to its inspections, where they lack it.
+    /// Adds traceability that arrived after a part's verdict to all inspections of the part. Fills only what they lack.
     pub fn trace_part(&mut self, hung: &HungId, known: &Traceability) -> Result<(), HistoryError> {
         trace_part(&mut self.file, hung, known).map_err(|error| self.error(error))
     }

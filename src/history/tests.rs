@@ -295,11 +295,6 @@ fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
         (number, frame)
     };
     assert!(
-        add(0, StoredVerdict::Accepted, keep(KeepFrames::NotAccepted))
-            .1
-            .is_none()
-    );
-    assert!(
         add(0, StoredVerdict::NoPart, keep(KeepFrames::None))
             .1
             .is_none()
@@ -343,6 +338,50 @@ fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
     let files = std::fs::read_dir(folder.path().join("history-frames")).expect("listed");
     // The two frames and their camera.
     assert_eq!(files.count(), 3, "{bytes}");
+}
+
+#[test]
+fn only_an_accepted_part_with_the_label_of_another_is_wrongly_accepted() {
+    let mut row = history_entry(1, StoredVerdict::Accepted, "fender")
+        .record
+        .summary;
+    assert!(!row.is_wrongly_accepted());
+    for (label, is_wrong) in [
+        (Truth::Part("fender".into()), false),
+        (Truth::Part("grille".into()), true),
+        (Truth::NotEnrolled, true),
+    ] {
+        row.label = Some(label);
+        assert_eq!(row.is_wrongly_accepted(), is_wrong);
+    }
+    row.verdict = StoredVerdict::Rejected;
+    assert!(!row.is_wrongly_accepted());
+}
+
+#[test]
+fn the_newest_accepted_parts_keep_their_frames_until_they_are_labelled() {
+    let (_folder, mut history) = new_history();
+    let rule = Retention {
+        keep: KeepFrames::NotAccepted,
+        ..ALL
+    };
+    let num = ACCEPTED_KEPT as i64 + 3;
+    for seconds in 0..num {
+        let entry = history_entry(seconds, StoredVerdict::Accepted, "grille");
+        history.add(&entry, &rule).expect("written");
+    }
+    let refused = history_entry(0, StoredVerdict::Rejected, "grille");
+    let refused = history.add(&refused, &rule).expect("written");
+    // What was wrongly accepted is said two parts later.
+    let truth = Truth::Part("fender".into());
+    history.set_label(1, Some(&truth)).expect("labelled");
+    let swept = history.sweep(&rule, moment(num)).expect("swept");
+    assert_eq!(swept.num_frames, 2);
+    let kept = [1, 2, 3, 4, num, refused].map(|number| {
+        let frame = history.known(number).expect("there").summary.frame_bytes;
+        frame.is_some()
+    });
+    assert_eq!(kept, [true, false, false, true, true, true]);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the plant knows about a part besides the camera's data.
+//! Traceability: data of the plant about a part, besides those of the camera.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(default)]
 pub struct Traceability {
-    /// Serial number, or what the barcode says; of this part alone.
+    /// Serial number or content of the barcode; of this part alone.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub serial: String,
     /// The production order.

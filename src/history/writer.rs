@@ -102,7 +102,7 @@ impl Writer {
         self.post(Job::Add(ticket, Box::new(entry)));
     }
 
-    /// Queues what became known of a part after its verdict.
+    /// Queues traceability that arrived after a part's verdict.
     pub fn trace(&self, hung: HungId, known: Traceability) {
         self.post(Job::Trace(hung, known));
     }

@@ -17,12 +17,12 @@ pub enum LibraryError {
         /// The folder.
         path: PathBuf,
     },
-    /// The user's own library, which was made earlier, is no longer there.
+    /// The user's own library was created before and is no longer there.
     #[error("{}: your library is no longer there", path.display())]
     Gone {
         /// Its folder.
         path: PathBuf,
-        /// The file that says that it was made.
+        /// The file that marks that it was created before.
         made: PathBuf,
     },
     /// The path is not a folder.

@@ -59,7 +59,7 @@ pub enum BadName {
 }
 
 impl BadName {
-    /// Returns a valid name, like the bad one if possible.
+    /// Returns a valid name, as similar to the bad one as possible.
     pub fn example(&self) -> String {
         let alike = match self {
             Self::BadCharacter { name, .. } | Self::BadBeginning { name, .. } => {

@@ -61,7 +61,7 @@ pub struct PartMeta {
     pub simulated: bool,
     /// Size and checksum of the cloud.
     pub cloud: CloudCheck,
-    /// Where the field of view of its capture cut the part off; nothing if the file does not say.
+    /// Where the field of view of its capture cut the part off; nothing if the file has no such entry.
     #[serde(default, skip_serializing_if = "ViewCut::is_nothing")]
     pub cut: ViewCut,
     /// How the part was enrolled.

@@ -155,7 +155,7 @@ pub fn open_library(given: Option<&Path>) -> Result<LibraryPlace, LibraryError> 
     }
 }
 
-/// Opens the library in this folder, which is made the first time only: a file beside it remembers that.
+/// Opens the library in this folder. Creates it the first time only; a file beside it marks that this was done.
 fn open_filled(path: &Path) -> Result<LibraryFolder, LibraryError> {
     let made = path.with_extension("made");
     if !path.is_dir() {

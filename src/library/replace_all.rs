@@ -81,7 +81,7 @@ impl LibraryFolder {
         }
     }
 
-    /// Tidies up after all parts were replaced, and says what was moved to the trash. Only under the lock.
+    /// Tidies up after all parts were replaced, and returns what was moved to the trash. Call it only under the lock.
     pub(super) fn finish_replacement(&self) -> io::Result<Vec<PathBuf>> {
         let [replacement, remainder] = self.replacement_folders();
         let mut trashed = Vec::new();

@@ -5,7 +5,7 @@
 //! score of a pair is the confirmed one, limited to that of the outlines where those differ. All rotations in the
 //! picture count, including half turns.
 //!
-//! The mirror image of the part is tried as well: a right door is not a left one, and an inspection tells the two apart
+//! The mirror image of the part is tried as well: a right door is not a left one, and an inspection distinguishes the two
 //! where it sees enough of them, but no other enrolled part is as similar to it.
 //!
 //! Limit: views that show only half of the part are not tried.
@@ -23,7 +23,7 @@ use crate::{
     },
 };
 
-/// Score from which on two parts cannot be told apart. Two captures of one simulated part reach it, no two shipped
+/// Score from which on two parts are indistinguishable. Two captures of one simulated part reach it, no two shipped
 /// parts do.
 const LEAST_SCORE: f64 = 0.9;
 

@@ -38,10 +38,10 @@ const DOUBLE_ABOVE: f64 = 1.8;
 const NUM_BARS: usize = 20;
 /// Angle beyond the tilt limit up to which a surface still counts as reachable: cos 30° is 0.87 of the film.
 const FACED_WITHIN: f64 = FRAC_PI_6;
-/// Step between the tilts in which the gun is looked for, and their number around the upright gun.
+/// Step between the tilts that are tried, radians, and number of directions of each.
 const TILT_STEP: f64 = PI / 36.0;
 const NUM_TURNS: u32 = 24;
-/// The best of these tilts may be off the best one by this.
+/// The best tilt may be this far from the nearest one tried, radians.
 const BETWEEN_TILTS: f64 = PI / 90.0;
 
 /// The film on a surface.

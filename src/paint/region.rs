@@ -52,7 +52,7 @@ impl KeepOut {
         Ok(())
     }
 
-    /// Returns whether the region reaches the surface, if only between its points.
+    /// Returns whether the region touches the surface, even only between its points.
     pub fn touches(&self, surface: &PaintSurface) -> bool {
         let mut distances = distances(surface, std::slice::from_ref(self));
         distances.any(|distance| distance < surface.spacing)

@@ -4,8 +4,8 @@
 //! another disc more than [`TOLERANCE`] before the point. The discs in the jet are sorted into cells of directions from
 //! the mouth, each into all cells that its ball touches, so a ray is tested against the discs of one cell alone. A ray
 //! meets no disc of a smooth surface before the point, however flat its angle, so smooth surfaces do not shadow
-//! themselves. The cells do not change the result: it is the same wherever the part hangs. Seen from far away, the same
-//! discs tell which points the gun sees in a direction.
+//! themselves. The cells do not change the result: it is the same wherever the part hangs. With rays
+//! from far away, the same discs show which points are visible from a direction.
 //!
 //! Known limits: layers closer to each other than the tolerance cast no shadow. The edge of a shadow is exact to about
 //! the spacing of the points.

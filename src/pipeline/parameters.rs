@@ -376,7 +376,7 @@ pub enum SettingError {
     UnknownName {
         /// The name given.
         name: String,
-        /// The name that is most like it, if one is near.
+        /// The most similar name, if one is similar.
         nearest: Option<&'static str>,
     },
     /// Neither a number, nor an option of the parameter.
@@ -461,7 +461,7 @@ impl<R: Parameters> FromStr for Setting<R> {
     }
 }
 
-/// The key that ends with the name, or else the one most like it, if one is near.
+/// Returns the key that ends with the name, else the most similar one, if any is similar.
 fn nearest_key<R: Parameters>(name: &str) -> Option<&'static str> {
     let keys = || R::ALL.iter().map(|parameter| parameter.key);
     let ends_so = keys().find(|key| key.rsplit('.').next() == Some(name));

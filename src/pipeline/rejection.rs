@@ -226,7 +226,7 @@ pub enum Rejection {
         /// Share of the scene's points.
         share: f64,
     },
-    /// The file holds more than its header says.
+    /// The file is longer than its header announces.
     #[error(
         "{num} bytes follow the last point of the file: it is damaged, and with it what may be {part}"
     )]
@@ -255,7 +255,7 @@ pub enum Rejection {
         /// Frames needed.
         needed: usize,
     },
-    /// Frames of a scene that does not move say different things.
+    /// Frames of a scene that does not move have different verdicts.
     #[error("{num_agreeing} of {num_frames} frames accept {part}, but {needed} are needed")]
     Undecided {
         /// The part that most frames name.

@@ -56,7 +56,7 @@ const NEAR_PART: f32 = 0.015;
 const NUM_ENTRIES: usize = 6;
 /// Points of a reference, approximately, that are looked for in all frames.
 const NUM_LOOKED_FOR: usize = 2000;
-/// A camera often loses a surface seen at a flatter angle than this (cosine), so its absence says nothing.
+/// A camera often loses a surface seen at a flatter angle than this (cosine), so its absence is no evidence.
 const LEAST_FACING: f64 = 0.3;
 
 /// Recognises the part of a scan from all its frames together.
@@ -287,7 +287,7 @@ fn seen_together(
     normal: &Vector3<f32>,
     tolerance: Metres,
 ) -> Option<Visibility> {
-    // In order of how much it says about the point.
+    // The most informative first.
     let rank = |look: &Visibility| match look {
         Visibility::Here(_) => 0,
         Visibility::Through => 1,

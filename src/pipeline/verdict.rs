@@ -3,7 +3,7 @@
 use super::{
     Recipe,
     refusal::Refusal,
-    rejection::{Rejection, Unrecognisable},
+    rejection::{Rejection, Unrecognisable, is_like},
 };
 use crate::{
     error::Advice as _,
@@ -129,6 +129,20 @@ impl Verdict {
         matches!(self.rejected(), Some(Rejection::Unknown { .. })) || self.is_mirrored()
     }
 
+    /// True if a part can be named, accepted or not: something unknown that is like no enrolled part has no name, and its
+    /// pose belongs to nothing.
+    pub fn is_named(&self) -> bool {
+        match self {
+            Self::Part {
+                score,
+                rejected: Some(Rejection::Unknown { .. }),
+                ..
+            } => is_like(*score),
+            Self::Part { .. } => true,
+            Self::NoPart(_) => false,
+        }
+    }
+
     /// True if it fits an enrolled part only as its mirror image.
     pub fn is_mirrored(&self) -> bool {
         matches!(
@@ -173,7 +187,7 @@ pub(super) fn verdict(
     };
     let accept = &recipe.accept;
     let next = ranking.runner_up();
-    // The part that a mirror image is called the image of comes first, even if another one scores more.
+    // For a mirror image, the part that it mirrors comes first, even if another one scores higher.
     let margin = lead(best.score, next.map_or(0.0, |n| n.score)).max(0.0);
     let unlike = best.evidence.map_or(0.0, |e| model_deviation(&e, accept));
     let other_model = best.evidence.filter(|_| unlike > 1.0);
@@ -266,7 +280,7 @@ const MEDIAN_LIMIT: f64 = 0.3;
 /// True if an accepted part may still be another model: relief, missing surface and outline exceed half of their
 /// limits on average.
 ///
-/// A single one says little. In real frames, single stretches of the outline are off by centimetres and up to 1 % of
+/// A single one means little. In real frames, single stretches of the outline are off by centimetres and up to 1 % of
 /// the surface is missing at the right pose; another model differs all round, and in more than one way.
 fn may_be_another_model(evidence: &Evidence, accept: &AcceptParams) -> bool {
     let median_limit = MEDIAN_LIMIT * accept.max_outline_shift.0;
@@ -330,6 +344,24 @@ mod tests {
         assert!((lead(0.97, 0.9) - (32.333 - 9.0) / 42.333).abs() < 1e-4);
         assert!(lead(1.0, 0.99) > 0.99);
         assert!(lead(0.5, 0.9) < 0.0);
+    }
+
+    #[test]
+    fn something_unknown_is_named_only_if_it_is_like_an_enrolled_part() {
+        let found = |score, rejected| Verdict::Part {
+            part: "fender".into(),
+            score,
+            margin: 0.0,
+            rejected,
+            is_approximate: false,
+        };
+        let unknown = |score| {
+            let nearest = "fender".into();
+            found(score, Some(Rejection::Unknown { nearest, score }))
+        };
+        assert!(!unknown(0.01).is_named() && unknown(0.05).is_named());
+        assert!(found(0.97, None).is_named());
+        assert!(!Verdict::NoPart(Unrecognisable::EmptyLibrary).is_named());
     }
 
     /// A good fit of a whole part, with these shares of the limits: relief, missing, and median of the outline.

@@ -5,6 +5,8 @@ use std::{
     time::{Duration, Instant},
 };
 
+use crate::scan::Unwatched;
+
 /// How long each stage took, over all surfaces of the scene that were tried.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timings {
@@ -50,9 +52,6 @@ pub trait ProgressObserver {
         false
     }
 }
-
-/// An observer that ignores progress and never cancels.
-pub struct Unwatched;
 
 impl ProgressObserver for Unwatched {}
 

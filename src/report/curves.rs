@@ -1,4 +1,4 @@
-//! Picture of figures over sizes, on logarithmic axes.
+//! Plots of measurements against size, on logarithmic axes.
 
 use image::{Rgb, RgbImage, imageops::replace};
 
@@ -9,12 +9,12 @@ use super::{
     pictures::{DARK, DIM, LIGHT},
 };
 
-/// A figure over sizes.
+/// A measurement for several sizes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeCurve {
     /// Name in the legend.
     pub name: String,
-    /// Sizes and figures, both above zero, by ascending size.
+    /// Size and measured value, both above zero, by ascending size.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -26,7 +26,7 @@ const LOOKS: [(Rgb<u8>, &[f64]); 4] = [
     (Rgb([178, 110, 200]), &[2.0, 4.0]),
 ];
 
-/// Draws the curves over axes with these titles; a vertical line marks one size.
+/// Draws the curves with these axis titles; a vertical line marks one size.
 pub fn curves_picture(
     title: &str,
     [across, up]: [&str; 2],

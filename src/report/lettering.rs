@@ -5,6 +5,7 @@
 use skrifa::{
     FontRef, GlyphId, MetadataProvider as _,
     instance::{LocationRef, Size},
+    metrics::Metrics,
     outline::{DrawSettings, OutlinePen},
 };
 use vello_cpu::kurbo::{BezPath, Point};
@@ -42,6 +43,11 @@ pub(super) struct Lettering(FontRef<'static>);
 impl Lettering {
     pub(super) fn of(font: &'static [u8]) -> Self {
         Self(FontRef::new(font).expect("our own font is one"))
+    }
+
+    /// Returns the measures of the font at a text size.
+    pub(super) fn metrics(&self, size: f32) -> Metrics {
+        self.0.metrics(Size::new(size), LocationRef::default())
     }
 
     /// Returns the glyph of each character and its width relative to the text size.

@@ -36,7 +36,9 @@ use crate::geometry::rigid::RigidTransform;
 pub use self::{
     convention::Convention,
     robot_pose::{ConventionError, GimbalLock, RobotPose, RobotValue, Unit},
-    written::{NOZZLE_DISTANCE, WrittenPose, WrittenPoseError, parse_nozzle, parse_written_pose},
+    written::{
+        FARTHEST, NOZZLE_DISTANCE, WrittenPose, WrittenPoseError, parse_nozzle, parse_written_pose,
+    },
 };
 
 /// Pose of the camera in the robot's base frame, and the calibration that it comes from.

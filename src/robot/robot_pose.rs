@@ -88,12 +88,12 @@ impl RobotValue {
     }
 }
 
-/// Whether three angles say a rotation well.
+/// Whether three angles express a rotation reliably.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum GimbalLock {
-    /// They do, or there are no three angles.
+    /// They do, or the convention has no three angles.
     Clear,
     /// Within 0.6° of gimbal lock: the numbers are right together, but the first and the last angle change by many
     /// degrees where the pose hardly changes.
@@ -114,7 +114,7 @@ pub struct RobotPose {
     pub values: Vec<RobotValue>,
     /// Whether they are in gimbal lock.
     pub gimbal_lock: GimbalLock,
-    /// What that means here, in words; null if there is nothing to say.
+    /// Explanation of the gimbal lock for people; null if there is none.
     pub gimbal_note: Option<String>,
 }
 

@@ -40,7 +40,15 @@ pub enum WrittenPoseError {
     /// The numbers are not a pose in their convention.
     #[error(transparent)]
     Numbers(#[from] ConventionError),
-    /// A nozzle where no gun has it, as with lengths in another unit.
+    /// No cell is this large: the unit is wrong.
+    #[error("the position is {:.0} m away, expected at most {} m", distance.0, FARTHEST)]
+    TooFar {
+        /// Its distance from the origin.
+        distance: Metres,
+        /// The convention in which it was written.
+        convention: Convention,
+    },
+    /// The nozzle is too near to the flange or too far from it for any gun: the unit is probably wrong.
     #[error("the nozzle is {:.3} mm from the flange, expected {:.0} to {:.0} mm", distance.mm(), NOZZLE_DISTANCE.start() * 1000.0, NOZZLE_DISTANCE.end() * 1000.0)]
     Nozzle {
         /// Its distance from the flange.
@@ -59,6 +67,11 @@ impl Advice for WrittenPoseError {
             ),
             Self::NoNumber { .. } => "Write numbers with a point, separated by spaces".into(),
             Self::Numbers(error) => error.advice(),
+            Self::TooFar { convention, .. } => format!(
+                "Write its position in {}, the unit of {}",
+                convention.length_unit().symbol(),
+                convention.name()
+            ),
             Self::Nozzle { convention, .. } => format!(
                 "Write its position in {}, the unit of {}; 0 0 0 only if the controller's flange frame already is at the nozzle",
                 convention.length_unit().symbol(),
@@ -71,8 +84,23 @@ impl Advice for WrittenPoseError {
 /// Valid distances of a nozzle from the flange, metres.
 pub const NOZZLE_DISTANCE: RangeInclusive<f64> = 0.01..=3.0;
 
-/// Reads `kuka 1450 -310 890 10 20 30`, or the 16 numbers of a matrix.
+/// Maximum distance of a pose from the origin, metres.
+pub const FARTHEST: f64 = 100.0;
+
+/// Reads `kuka 1450 -310 890 10 20 30`, or the 16 numbers of a matrix. Refuses a position that is in no cell.
 pub fn parse_written_pose(text: &str) -> Result<WrittenPose, WrittenPoseError> {
+    let written = read(text)?;
+    let distance = Metres(written.pose.translation.vector.norm());
+    if distance.0 > FARTHEST {
+        return Err(WrittenPoseError::TooFar {
+            distance,
+            convention: written.convention,
+        });
+    }
+    Ok(written)
+}
+
+fn read(text: &str) -> Result<WrittenPose, WrittenPoseError> {
     let text = text.trim();
     let first = text
         .split(|c: char| c.is_whitespace() || matches!(c, ':' | ',' | ';' | '['))
@@ -120,7 +148,7 @@ pub fn parse_written_pose(text: &str) -> Result<WrittenPose, WrittenPoseError> {
 /// As [`parse_written_pose`], for the pose of a nozzle on the flange: refuses a distance that no gun has. The nozzle is
 /// exactly at the flange if the controller's flange frame was moved there.
 pub fn parse_nozzle(text: &str) -> Result<WrittenPose, WrittenPoseError> {
-    let written = parse_written_pose(text)?;
+    let written = read(text)?;
     let at = written.pose.translation.vector;
     if at == Vector3::zeros() || NOZZLE_DISTANCE.contains(&at.norm()) {
         return Ok(written);
@@ -198,6 +226,10 @@ mod tests {
             ("kuka 1 2 3 4 5", "5 are given"),
             ("kuka 1 2 3 4 5 six", "\"six\" is not a number"),
             ("2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "not a rigid transform"),
+            (
+                "universal-robots 1200 -400 1900 0 0 0",
+                "2283 m away, expected at most 100 m",
+            ),
         ] {
             let error = parse_written_pose(text).expect_err(text);
             assert!(error.to_string().contains(expected), "{error}");

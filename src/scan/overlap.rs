@@ -64,7 +64,7 @@ pub struct Agreement {
     pub shots_on_part: Vec<Option<Overlap>>,
 }
 
-/// Measures how well shots agree at these poses. `is_part` tells whether a point of the base frame is on the part.
+/// Measures how well shots agree at these poses. `is_part` returns whether a point of the base frame is on the part.
 pub fn overlap(
     surfaces: &[&ShotSurface],
     poses: &[RigidTransform],

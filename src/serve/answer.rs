@@ -42,7 +42,7 @@ impl Request {
     }
 }
 
-/// What an answer says of the inspection. The numbers are part of the protocols.
+/// Verdict of an inspection in an answer. The numbers are part of the protocols.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum VerdictCode {

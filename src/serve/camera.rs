@@ -83,7 +83,7 @@ impl NewFrame {
     pub fn captured_at(self, captured: &Captured) -> Instant {
         match self {
             Self::SecondArrived => captured.arrived,
-            // Never later than its arrival, whatever the file's clock says.
+            // Never later than its arrival, even if the file's clock is fast.
             Self::WrittenAfter => {
                 let age = Timestamp::now().duration_since(captured.taken_at);
                 let age = Duration::try_from(age).unwrap_or_default();
@@ -190,7 +190,7 @@ impl Advice for NoFrame {
     }
 }
 
-/// Converts a source's state into what a client is told.
+/// Converts a source's state into the answer for a client.
 impl From<&FeedState> for CameraStatus {
     fn from(state: &FeedState) -> Self {
         let gone = |reason: &str, error: &Arc<CaptureError>| Some(Trouble::of(reason, &**error));
@@ -518,7 +518,7 @@ mod tests {
         assert!(why.to_string().contains("5.0 s ahead"), "{why}");
         let file = captured(1, Timestamp::now() + ahead);
         assert_eq!(NewFrame::WrittenAfter.captured_at(&file), file.arrived);
-        // A file that waited in the feed was written before the trigger, whatever its clock says.
+        // A file that waited in the feed was written before the trigger, even if its clock is fast.
         assert!(!NewFrame::WrittenAfter.is_new(&file, &Asked::now(), 0));
     }
 

@@ -34,7 +34,7 @@ pub(super) struct Client {
 enum EndReason {
     /// The client hung up or was idle for too long, or the server stops.
     Silent,
-    /// The request was bad; the client is told why.
+    /// The request was bad; the answer gives the reason.
     Told(BadRequest),
 }
 
@@ -45,7 +45,7 @@ impl Client {
         self.shared.tell(self.peer, protocol, ClientNews::Connected);
         let news = match self.talk() {
             Ok(EndReason::Told(why)) => {
-                // The client may have hung up; then it need not be told.
+                // If the client has hung up, it needs no answer.
                 let _ = self.refuse(&why);
                 ClientNews::BadRequest(why)
             }

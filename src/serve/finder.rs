@@ -28,7 +28,7 @@ pub enum PoseKind {
     RobotOffset,
 }
 
-/// What a client is told about a reference of the library besides its name.
+/// Data about a reference of the library that a client gets besides its name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NumberedPart {
     /// Number from 1; 0 if it has none.

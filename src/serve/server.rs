@@ -45,7 +45,7 @@ const ACCEPT_TURN: Duration = Duration::from_millis(10);
 pub(super) const LINGER: Duration = Duration::from_secs(1);
 /// Most refused connections that are kept open at a time.
 const MAX_TURNED_AWAY: usize = 64;
-/// How long a connection without a request keeps its place if others want it: a robot sends its request right away.
+/// How long a connection without a request keeps its place while others wait: a robot sends its request right away.
 const SILENT_GRACE: Duration = Duration::from_secs(1);
 /// How long a client may take to accept its answer before it is disconnected.
 pub(super) const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
@@ -131,9 +131,9 @@ pub enum ClientNews {
     Left,
     /// It was refused because the maximum number of clients was connected.
     TurnedAway,
-    /// It sent a bad request, was told so and disconnected.
+    /// It sent a bad request, got an answer and was disconnected.
     BadRequest(BadRequest),
-    /// It sent no token or a wrong one, and was told so.
+    /// It sent no token or a wrong one, and got an answer.
     WrongToken,
 }
 
@@ -353,7 +353,7 @@ impl Server {
                 self.inspect(&job, inspector);
             }
         }
-        // Waiting clients are told that the service ends.
+        // Answer waiting clients that the service ends.
         drop(jobs);
         self.stop();
     }

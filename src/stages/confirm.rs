@@ -149,9 +149,10 @@ const HOPELESS: f64 = 2.5;
 /// The ranking by confirmed scores, and the pose of the first.
 type Confirmed = (ConfirmedRanking, Result<PoseEstimate, PoseError>);
 
-/// Maximum number of draws of a piece's border: one in three misses a part that is half hidden and noisy. Where there is
-/// a score to beat, one draw is enough: none of 130 further draws led to an acceptance, and they took a tenth of the time.
-const MOST_DRAWS: u64 = 3;
+/// Maximum number of draws of a piece's border: one in three misses a part that is half hidden and noisy. Some 200 second
+/// draws led to four acceptances, as many third ones to none. Where there is a score to beat, one draw is enough: none of
+/// 130 further draws led to an acceptance, and they took a tenth of the time.
+const MOST_DRAWS: u64 = 2;
 /// A best score below this says that a draw may have missed the part.
 const MISSED_BELOW: f64 = 0.1;
 /// It is drawn again only for references on which a start cost less than this: 0.6 is a good fit, and where nothing is
@@ -191,6 +192,13 @@ pub fn confirm(
     let (looked_at, others) = entries.split_at(num_looked_at);
     let mut tried = seen.examine(looked_at, references, least_score);
     let num_draws = if least_score > 0.0 { 1 } else { MOST_DRAWS };
+    // As long as it may be drawn again, only what may make that needless is refined to the end.
+    let least_of_a_draw = if num_draws > 1 {
+        MISSED_BELOW
+    } else {
+        least_score
+    };
+    seen.finish(&mut tried, references, least_of_a_draw);
     for draw in 1..num_draws {
         let best = tried.first().map_or(0.0, |first| first.score);
         let costs = tried.iter().map(|tried| tried.piece_cost);
@@ -201,7 +209,9 @@ pub fn confirm(
         let nearly = tried.iter().filter(|tried| tried.piece_cost < NEARLY);
         let nearly: Vec<&MatchEntry> = nearly.map(|tried| tried.entry).collect();
         seen.draw_again(params.seed + draw);
-        for again in seen.examine(&nearly, references, least_score) {
+        let mut again = seen.examine(&nearly, references, least_score);
+        seen.finish(&mut again, references, least_of_a_draw);
+        for again in again {
             let mut before = tried.iter_mut();
             let before = before.find(|before| before.entry.reference == again.entry.reference);
             if let Some(before) = before.filter(|before| before.score < again.score) {
@@ -209,6 +219,9 @@ pub fn confirm(
             }
         }
         sort_by_score(&mut tried);
+    }
+    if least_of_a_draw > least_score {
+        seen.finish(&mut tried, references, least_score);
     }
     // Those that were not looked at stay behind those that were.
     let others = others.iter().map(|entry| ConfirmedMatch {
@@ -261,10 +274,20 @@ impl PreparedScene<'_> {
             })
             .collect();
         sort_by_score(&mut tried);
+        tried
+    }
+
+    /// Refines to the end the first, if it may reach `least_score` then, and what may become as good.
+    fn finish(&self, tried: &mut [Tried<'_>], references: &[Reference], least_score: f64) {
+        let hopeless = if self.is_piece {
+            HOPELESS_PIECE
+        } else {
+            HOPELESS_SCORE
+        };
         let best = tried.first().map_or(0.0, |first| first.score);
         let finished = self.in_parallel(tried.len(), |place| {
             let least = match place {
-                0 => (least_score / MOST_GAINED).max(HOPELESS_SCORE),
+                0 => (least_score / MOST_GAINED).max(hopeless),
                 _ if best < UNACCEPTABLE => f64::INFINITY,
                 _ => (CONTENDS * best).max(NO_RUNNER_UP),
             };
@@ -274,7 +297,8 @@ impl PreparedScene<'_> {
                 candidate,
                 ..
             } = &tried[place];
-            let candidate = candidate.as_ref().filter(|_| *score > least)?;
+            let is_worth_it = |c: &&ReferenceCandidate| *score > least && c.uncertainty.is_none();
+            let candidate = candidate.as_ref().filter(is_worth_it)?;
             Some(self.finished(&references[entry.reference], candidate))
         });
         for (tried, finished) in tried.iter_mut().zip(finished) {
@@ -283,8 +307,7 @@ impl PreparedScene<'_> {
                 tried.candidate = Some(candidate);
             }
         }
-        sort_by_score(&mut tried);
-        tried
+        sort_by_score(tried);
     }
 }
 
@@ -327,6 +350,8 @@ fn sort_by_score(tried: &mut [Tried<'_>]) {
 const CONTENDS: f64 = 1.0 / MOST_GAINED;
 /// What scores less will not be accepted however exactly it is placed.
 const HOPELESS_SCORE: f64 = 1e-4;
+/// The same for a piece, which is like nothing enrolled below 0.05: of a whole part the likeness counts as well.
+const HOPELESS_PIECE: f64 = 0.05 / MOST_GAINED;
 /// Where the best scores less than this, none will score the 0.9 that is asked for: the others are scored where they are.
 const UNACCEPTABLE: f64 = 0.9 / MOST_GAINED;
 /// And what comes second with less than this will not become the first.

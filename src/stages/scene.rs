@@ -141,7 +141,7 @@ pub fn cloud_of(opened: FileContent) -> Option<PointCloud> {
     }
 }
 
-/// Converts a depth frame to a scene; pixels without a reading become NaN. A picture finer than the method needs is reduced.
+/// As [`scene_from_image`], for a depth frame, but panics on a fault.
 pub fn scene_from_frame(frame: &DepthFrame) -> SceneCloud {
     match SceneParams::default().block_side(grid_of(&frame.intrinsics)) {
         1 => full_scene(frame),
@@ -232,7 +232,10 @@ pub fn reduced_scene(original: Arc<Image>, side: usize) -> SceneCloud {
     }
 }
 
-/// Converts a capture to a scene; a picture finer than the method needs is reduced.
+/// Converts a capture to a scene. A picture finer than the method needs is reduced.
+///
+/// Pixels without a reading become NaN. An organised cloud keeps its grid and gets a fitted camera. An unorganised cloud
+/// that a single camera at the origin can have seen is arranged into a picture of its own density; any other stays unchanged.
 pub fn scene_from_image(image: Image) -> SceneCloud {
     guarded(|| scene_with(image, &SceneParams::default())).unwrap_or_else(|fault| SceneCloud {
         fault: Some(fault),
@@ -256,11 +259,7 @@ pub fn scene_with(image: Image, params: &SceneParams) -> SceneCloud {
     }
 }
 
-/// Converts a loaded cloud to a scene in camera space.
-///
-/// An organised cloud keeps its grid and gets a fitted camera; one finer than the method needs is reduced. An
-/// unorganised cloud that a single camera at the origin can have seen is arranged into a picture of its own
-/// density; any other stays unchanged.
+/// As [`scene_from_image`], for a cloud.
 pub fn scene_from_cloud(cloud: PointCloud) -> SceneCloud {
     scene_from_image(Image::Cloud(cloud))
 }

@@ -550,6 +550,13 @@ fn numbers_that_the_file_cannot_hold_are_not_reported_as_written_and_a_wrong_uni
     );
     let near = set(0, "kuka 1.2 -0.4 1.9 86 -5 120").err;
     assert!(near.contains("metres given as millimetres"), "{near}");
-    let far = set(0, "quaternion-xyzw 1200 -400 1900 0 0 0 1").err;
+    let far = set(0, "quaternion-xyzw 30 -10 20 0 0 0 1").err;
     assert!(far.contains("millimetres given as metres"), "{far}");
+    // No cell is this large, so nothing is written.
+    let written = place.read("cell.toml");
+    let ran = set(2, "universal-robots 1200 -400 1900 0 0 0");
+    assert!(ran.err.contains("2283 m away"), "{}", ran.err);
+    let advice = "to do: Write its position in m, the unit of universal-robots";
+    assert!(ran.err.contains(advice), "{}", ran.err);
+    assert_eq!(place.read("cell.toml"), written);
 }

@@ -89,3 +89,32 @@ fn every_command_in_a_block_of_shell_is_one() {
     }
     assert!(num_commands > 40, "{num_commands} commands");
 }
+
+#[test]
+fn an_example_of_the_robot_s_guide_makes_the_files_that_it_reads_or_names_the_example_that_does() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/guide/robot.md");
+    let text = fs::read_to_string(page).expect("text");
+    let mut num_read = 0;
+    for section in text.split("\n## ") {
+        let (heading, _) = section.split_once('\n').unwrap_or((section, ""));
+        let made_above = section.contains("of the [example above](#");
+        let blocks = section.split("```sh\n").skip(1);
+        let lines = blocks.flat_map(|block| block.split("```").next().unwrap_or("").lines());
+        let mut made = Vec::new();
+        for line in lines {
+            let words = words(line);
+            let mut former = "";
+            for word in words {
+                if matches!(former, "--out" | ">") {
+                    made.push(word);
+                } else if matches!(word, "cell.toml" | "fender.pcd" | "taught.csv") {
+                    num_read += 1;
+                    let is_known = made_above || made.contains(&word);
+                    assert!(is_known, "{heading}: where does {word} come from? {line}");
+                }
+                former = word;
+            }
+        }
+    }
+    assert!(num_read > 5, "{num_read} files");
+}

@@ -51,10 +51,7 @@ fn with_captures() -> Workplace {
 fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
     let place = with_captures();
     let own = place.path("data/partsight/history.sqlite");
-    assert_eq!(
-        place.run(&["inspect", "fender.pcd", "--no-history"]).code,
-        0
-    );
+    place.accepted(&["inspect", "fender.pcd", "--no-history"]);
     assert!(!own.exists());
     let inspected = place.run(&["inspect", "fender.pcd", "hood.png", "--json"]);
     assert_eq!((inspected.code, inspected.err.as_str()), (1, ""));
@@ -62,14 +59,14 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
 
     let listed = place.accepted(&["history", "list", "--json"]).lines();
     assert_eq!(listed.len(), 2);
-    // The newest comes first; the frame of a refused one is kept.
+    // The newest comes first; the frames of refused and of recently accepted ones are kept.
     assert_eq!(
         (&listed[0]["number"], &listed[0]["scene"]),
         (&2.into(), &"hood.png".into())
     );
     assert_eq!(
         (&listed[0]["frame_kept"], &listed[1]["frame_kept"]),
-        (&true.into(), &false.into())
+        (&true.into(), &true.into())
     );
     assert_eq!(
         (&listed[1]["verdict"], &listed[1]["part"]),
@@ -117,13 +114,6 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
         other.contains("changed") && other.contains("recipe"),
         "{other}"
     );
-    let gone = place.run(&["history", "show", "1", "--again"]);
-    assert_eq!(gone.code, 2);
-    assert!(
-        gone.err.contains("is not kept") && gone.err.contains("history keep all"),
-        "{}",
-        gone.err
-    );
 
     let mistyped = place.accepted(&["history", "label", "2", "frnt_door"]);
     assert!(mistyped.err.contains("front_door"), "{}", mistyped.err);
@@ -157,6 +147,15 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
     assert_eq!(
         (&newest[0]["number"], &newest[0]["frame_kept"]),
         (&3.into(), &true.into())
+    );
+    place.accepted(&["history", "keep", "none"]);
+    place.accepted(&["inspect", "fender.pcd"]);
+    let gone = place.run(&["history", "show", "4", "--again"]);
+    assert_eq!(gone.code, 2);
+    assert!(
+        gone.err.contains("is not kept") && gone.err.contains("history keep all"),
+        "{}",
+        gone.err
     );
 }
 

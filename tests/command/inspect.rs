@@ -115,7 +115,7 @@ fn an_empty_cell_and_an_unknown_part_are_not_accepted() {
     assert_eq!(lines[1]["status"], "unknown");
     assert_eq!(lines[1]["part"], Value::Null);
     assert_eq!(lines[1]["reason_kind"], "unknown");
-    for line in lines {
+    for line in &lines {
         assert_eq!(line["accepted"], false);
         assert!(line["reason"].is_string() && line["reason_kind"].is_string());
     }
@@ -125,6 +125,12 @@ fn an_empty_cell_and_an_unknown_part_are_not_accepted() {
         "{}",
         card.out
     );
+    // What is like no part has no pose of one; the line of JSON still has that of the best match.
+    assert!(lines[1]["score"].as_f64().expect("a score") < 0.05);
+    assert!(lines[1]["pose"]["camera_from_part"].is_array());
+    for label in ["  middle ", "  turn ", "  fit ", "  bounds "] {
+        assert!(!card.out.contains(label), "{label}: {}", card.out);
+    }
 }
 
 #[test]
@@ -380,4 +386,13 @@ fn only_the_command_line_names_the_option_for_millimetres() {
     place.write("part.xyz", &cloud);
     let ran = place.run(&["inspect", "part.xyz"]);
     assert!(ran.err.contains("--units mm"), "{}", ran.err);
+}
+
+#[test]
+fn a_capture_in_metres_that_is_read_as_millimetres_gets_a_hint_on_its_unit() {
+    let place = Workplace::new();
+    place.accepted(&["simulate", "--part", "fender", "--out", "fender.pcd"]);
+    let ran = place.coded(1, &["inspect", "fender.pcd", "--units", "mm"]);
+    assert!(ran.err.contains("the points span only"), "{}", ran.err);
+    assert!(ran.err.contains("--units m,"), "{}", ran.err);
 }

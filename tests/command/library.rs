@@ -113,6 +113,22 @@ fn without_a_library_the_shipped_parts_are_there() {
 }
 
 #[test]
+fn a_bad_name_is_refused_with_the_rule_and_a_name_that_follows_it() {
+    let place = Workplace::new();
+    for arguments in [
+        &["enrol", "door.pcd", "--name", "Front Door"][..],
+        &["library", "show", "Front Door"],
+        &["path", "export", "Front Door", "-o", "paint.src"],
+        &["recipe", "save", "Front Door"],
+    ] {
+        let ran = place.coded(2, arguments);
+        let wanted =
+            "to do: Use up to 64 lowercase letters, digits, _ and -, for example front_door";
+        assert!(ran.err.contains(wanted), "{}", ran.err);
+    }
+}
+
+#[test]
 fn a_part_is_enrolled_into_the_users_library_wherever_that_is_done() {
     let place = Workplace::new();
     // As in the checkout, where the folder is under version control.

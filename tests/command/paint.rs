@@ -197,7 +197,7 @@ fn the_stored_path_is_exported_to_each_controller_unless_the_arm_does_not_reach_
         &[&export[..], &["--as", "rapid", "-o", "other.src"]].concat(),
     );
     assert!(
-        ran.err.contains("stands for KUKA KRL") && ran.err.contains("in .mod"),
+        ran.err.contains("that of KUKA KRL") && ran.err.contains("in .mod"),
         "{}",
         ran.err
     );

@@ -415,6 +415,38 @@ fn no_program_is_written_for_a_pose_that_another_one_fits_as_well_unless_forced(
 }
 
 #[test]
+fn no_program_is_written_of_a_path_that_does_not_aim_at_the_part_unless_forced() {
+    let shop = shop();
+    let plan = ["path", "plan", "grille", "--coat", "primer"];
+    shop.run(&[&plan[..], &["--output", "grille.csv"]].concat());
+    shop.write(
+        "far.csv",
+        "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm\n\
+         5000,5000,9000,0,0,-1,150\n5100,5000,9000,0,0,-1,150\n",
+    );
+    for path in ["grille.csv", "far.csv"] {
+        let ran = shop.coded(1, &["library", "path", "front_door", path]);
+        let doubt = "the spray path does not aim at the part: of its ";
+        assert!(ran.err.contains(doubt), "{}", ran.err);
+        for write in [
+            ["path", "export", "front_door", "--output", "paint.src"].as_slice(),
+            ["inspect", "door.pcd", "--program", "paint.src"].as_slice(),
+        ] {
+            let ran = shop.coded(1, write);
+            let wanted = format!("no program was written: {doubt}");
+            assert!(ran.err.contains(&wanted), "{}", ran.err);
+            let wanted = "partsight library path front_door";
+            assert!(ran.err.contains(wanted), "{}", ran.err);
+            assert!(ran.err.contains("--force"), "{}", ran.err);
+            assert!(!shop.path("paint.src").exists());
+            shop.coded(0, &[write, &["--force"]].concat());
+            let text = shop.read("paint.src").replace("\r\n; ", " ");
+            assert!(text.contains(&format!("FORCED: {doubt}")), "{text:.1500}");
+        }
+    }
+}
+
+#[test]
 fn both_exports_say_how_much_of_the_path_was_checked_against_what_was_seen() {
     let shop = shop();
     let mut path =
@@ -436,7 +468,7 @@ fn both_exports_say_how_much_of_the_path_was_checked_against_what_was_seen() {
     };
     for err in store(&[0.0, 4000.0, 4040.0, 4080.0]) {
         assert!(
-            err.contains("of 1 that aim at what was seen of the part"),
+            err.contains("of 1 that aims at what was seen of the part"),
             "{err}"
         );
         assert!(!err.contains("Not checked"), "{err}");

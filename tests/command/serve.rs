@@ -272,6 +272,32 @@ fn a_trigger_without_a_frame_is_a_line_of_json_as_well() {
     );
 }
 
+#[test]
+fn a_path_that_does_not_aim_at_the_part_goes_to_no_robot() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    place.write(
+        "far.csv",
+        "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm\n5000,5000,9000,0,0,-1,150\n",
+    );
+    let library = ["library", "--library", "parts", "path", "fender"];
+    place.coded(1, &[&library[..], &["far.csv"]].concat());
+    let source = ["--source", "simulated,fps=5:fender", "--as", "kuka"];
+    let rest = ["--listen", "ascii=0", "--no-history", "--library", "parts"];
+    let mut service = Service::start(&place, &[&source[..], &rest[..]].concat());
+    let mut robot = service.connect("ascii");
+    let answer = asked(&mut robot, "TRIGGER\n");
+    assert!(answer.starts_with("TRIGGER;accepted;"), "{answer}");
+    let answer = asked(&mut robot, "PATH\n");
+    let fields: Vec<&str> = answer.split(';').collect();
+    assert_eq!(fields[6], "fender", "{answer}");
+    assert_eq!(fields[10], "0", "{answer}");
+    let (code, _, messages) = service.interrupt();
+    assert_eq!(code, Some(0), "{messages}");
+    let wanted = "robots get no path of fender: the spray path does not aim at the part";
+    assert!(messages.contains(wanted), "{messages}");
+}
+
 /// The number in the answer to a trigger of a service with this library.
 fn number_of_fender(place: &Workplace) -> String {
     let source = ["--source", "simulated,fps=5:fender", "--as", "kuka"];

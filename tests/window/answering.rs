@@ -65,8 +65,8 @@ impl DepthSource for Steady {
     }
 
     fn next(&mut self, _: Duration) -> Result<NextCapture, CaptureError> {
-        // Leave processor time to other threads.
-        thread::sleep(Duration::from_millis(5));
+        // Leave processor time to other threads, and let few frames be dropped: they are far apart by the camera's clock.
+        thread::sleep(Duration::from_millis(20));
         self.number += 1;
         let at = SignedDuration::from_millis(APART * self.number as i64);
         Ok(NextCapture::Captured(Captured {
@@ -340,6 +340,12 @@ fn parts_are_numbered_once_robots_are_answered_and_keep_their_numbers() {
         let numbers = stored.numbers();
         numbers.is_ok_and(|numbers| numbers.of(&fender) == Some(3))
     });
+    // The window shows them, and does not take its own change for that of another program.
+    wait_until(&mut harness, |state| {
+        let library = state.session.library.as_ref();
+        library.is_some_and(|library| library.numbers.of(&fender) == Some(3))
+    });
+    assert!(!says(&harness, "another program has changed it"));
     fs::remove_dir_all(parts.join("back_door")).expect("removed");
     wait_until(&mut harness, |state| {
         let library = state.session.library.as_ref();

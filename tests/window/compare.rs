@@ -94,6 +94,10 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
             .is_empty()
     );
 
+    press(&mut harness, "Choose… ▼");
+    press(&mut harness, "Actual part: Fender, left");
+    // Once it is chosen, nobody has to be told to choose it.
+    assert!(harness.query_by_label("First choose what it is").is_none());
     keep(
         &mut harness,
         CellChoice::Foreign(ObjectKind::Hood),
@@ -271,6 +275,12 @@ fn what_is_refused_is_said_to_be_so_and_why_and_only_the_judgement_is_good() {
     press(&mut harness, "Choose… ▼");
     press(&mut harness, "Actual part: Fender, left");
     harness.get_by_label("accepted, but it is");
+    // The run does not cover a case that is kept after it.
+    press(&mut harness, "Keep case");
+    harness.get_by_label("· 2 of 2 right · none wrongly refused");
+    harness.get_by_label("· outdated: 2 of 3 kept cases");
+    press(&mut harness, "Run all cases");
+    assert!(harness.query_by_label_contains("outdated").is_none());
 }
 
 #[test]
@@ -326,6 +336,21 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     harness.get_by_label_contains("Auto- and cross-correlation: paper:");
     press(&mut harness, "Reset all");
     harness.get_by_label_contains("Auto- and cross-correlation: default:");
+}
+
+/// The recipe `strict` is in use; results and records go by its name.
+fn a_copy_is_on_trial_and_the_recipe_in_use_keeps_its_name(harness: &mut WindowHarness) {
+    press(harness, "Recipe strict");
+    press(harness, "Duplicate");
+    harness.get_by_label("Recipe strict_3");
+    let in_use = |harness: &WindowHarness| harness.state().state().session.recipe.label.to_string();
+    assert_eq!(in_use(harness), "strict");
+    press(harness, "Use this recipe");
+    assert_eq!(in_use(harness), "strict_3");
+    press(harness, "Recipe strict_3");
+    press(harness, "strict");
+    press(harness, "Use this recipe");
+    assert_eq!(in_use(harness), "strict");
 }
 
 #[test]
@@ -396,6 +421,8 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     press(&mut harness, "strict");
     harness.get_by_label("Recipe strict");
     assert!(own(&harness).tried.is_none());
+
+    a_copy_is_on_trial_and_the_recipe_in_use_keeps_its_name(&mut harness);
 
     press(&mut harness, "Recipe strict");
     press(&mut harness, "Set as default");

@@ -203,6 +203,9 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     press(&mut harness, "Actual part · Not set ▼");
     press(&mut harness, "Actual part: Not enrolled");
     harness.get_by_label("Actual part · Not enrolled ▼");
+    let row = harness.get_by_label_contains("Inspection 2: ");
+    let marked = row.accesskit_node().value();
+    assert_eq!(marked.as_deref(), Some("Actual part: Not enrolled"));
     harness.get_by_label("Your remark").click();
     harness.run_steps(2);
     harness.get_by_label("Your remark").type_text("a wheel");
@@ -245,7 +248,7 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
             .is_some_and(|shown| shown.is_past)
     );
     assert!(state.notices.is_empty(), "{:?}", state.notices);
-    // The frame of the first was not kept, but the simulated cell can show it again.
+    // So is that of the first, which was accepted a short while ago.
     act_in_history(&mut harness, HistoryAction::Open(1));
     harness.get_by_label("Front door, left");
     let state = harness.state().state();
@@ -410,7 +413,8 @@ fn frames_are_kept_by_the_rule_that_a_person_sets() {
     let mut harness = open_with(SMALL, keeping(folder.path()));
     go_to_history(&mut harness);
     press(&mut harness, "Frames…");
-    harness.get_by_label_contains("Now: 0 frames");
+    // A part that has just been accepted.
+    harness.get_by_label_contains("Now: 1 frame, ");
     press(&mut harness, "All");
     press(&mut harness, "Apply");
     assert!(harness.query_by_label("Apply").is_none());
@@ -418,9 +422,9 @@ fn frames_are_kept_by_the_rule_that_a_person_sets() {
     assert_eq!(rule(&harness), KeepFrames::All);
     act(&mut harness, Action::Capture);
     let kept = history_of(&harness).kept.1;
-    assert_eq!(kept.num_frames, 1);
+    assert_eq!(kept.num_frames, 2);
     press(&mut harness, "Frames…");
-    harness.get_by_label_contains("Now: 1 frame, ");
+    harness.get_by_label_contains("Now: 2 frames, ");
     drop(harness);
     // The rule is stored in the history: commands keep frames by the same rule.
     let mut harness = open_with(SMALL, keeping(folder.path()));
@@ -697,6 +701,33 @@ fn page_down(harness: &mut WindowHarness) {
 }
 
 #[test]
+fn a_part_with_a_long_name_does_not_widen_the_details_over_the_list() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let name = "tuer_vorn_rechts_grau";
+    let first = history_entry(1, StoredVerdict::Accepted, name);
+    let mut again = history_entry(2, StoredVerdict::Rejected, name);
+    again.record.summary.hung = first.record.summary.hung.clone();
+    let mut history = open_history(folder.path());
+    for entry in [first, again] {
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let mut harness = open_with(SMALL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    press(
+        &mut harness,
+        "Inspection 1: tuer vorn rechts grau, Accepted, inspected again once",
+    );
+    let list = harness.get_by_label("Export CSV…").rect();
+    let details = harness.get_by_label("Your remark").rect();
+    assert!(list.right() < details.left(), "{list:?} {details:?}");
+    for shown in harness.get_all_by_label(name) {
+        let rect = shown.rect();
+        assert!(rect.right() <= SMALL.x, "{rect:?}");
+    }
+}
+
+#[test]
 fn the_details_of_another_part_begin_at_the_top() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut history = crate::kit::open_history(folder.path());
@@ -753,6 +784,21 @@ fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
     assert!(harness.query_by_label("3 × Too low").is_none());
     press(&mut harness, "Statistics");
     harness.get_by_label_contains("Inspection 13: ");
+}
+
+#[test]
+fn statistics_say_how_many_parts_a_drift_needs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = crate::kit::open_history(folder.path());
+    for seconds in 0..2 {
+        let entry = crate::kit::history_entry(seconds, StoredVerdict::Accepted, "fender");
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let mut harness = open_with(SMALL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    press(&mut harness, "Statistics");
+    harness.get_by_label("Drift is shown for a part that was accepted at least 3 times");
 }
 
 #[test]

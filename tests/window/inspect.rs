@@ -1,16 +1,28 @@
 //! The Inspect workspace, and the shell around every workspace.
 
-use std::{thread, time::Duration};
+use std::{sync::Arc, thread, time::Duration};
 
-use egui::{Key, Modifiers, Role};
+use egui::{Key, Modifiers, Rect, Role, Shape};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
-        inspection::{figures::StagePanel, unit_system::UnitSystem},
-        shell::{action::Action, notice::Notice, session::ThemeChoice},
+        WindowOptions,
+        inspection::{
+            camera::Camera,
+            figures::StagePanel,
+            inspected::{InspectRequest, inspect},
+            library_cache::LibraryCache,
+            source::{CellChoice, SceneSource},
+            unit_system::UnitSystem,
+        },
+        shell::{
+            action::Action,
+            notice::Notice,
+            session::{ThemeChoice, WorkspaceKind},
+        },
     },
     files::save_cloud,
-    pipeline::Verdict,
+    pipeline::{Rejection, Unwatched, Verdict},
     robot::Convention,
     simulate::{PartKind, Side},
 };
@@ -18,7 +30,7 @@ use partsight::{
 use crate::kit::facing_part;
 
 use super::set_up::{
-    SMALL, WindowHarness, act, drop_file, inspect_of, open, open_with, plain_options, settle,
+    SMALL, USUAL, WindowHarness, act, drop_file, inspect_of, open, open_with, plain_options, settle,
 };
 
 fn generation(harness: &WindowHarness) -> u64 {
@@ -33,6 +45,31 @@ fn it_opens_with_a_first_frame_inspected() {
     harness.get_by_label("Accepted");
     harness.get_by_label("Simulated frame 1");
     assert!(harness.state().state().notices.is_empty());
+}
+
+#[test]
+fn a_capture_named_at_the_start_is_shown_with_its_result_whatever_was_in_front() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let open = |scene| {
+        let settings = Some(folder.path().join("settings.toml"));
+        let options = WindowOptions {
+            scene,
+            settings,
+            ..plain_options()
+        };
+        open_with(USUAL, options)
+    };
+    let front = |harness: &WindowHarness| harness.state().state().session.workspace;
+    let mut harness = open(None);
+    act(&mut harness, Action::GoTo(WorkspaceKind::Paint));
+    eframe::App::on_exit(harness.state_mut());
+    drop(harness);
+    assert_eq!(front(&open(None)), WorkspaceKind::Paint);
+    let path = folder.path().join("fender.pcd");
+    save_cloud(&path, &facing_part(PartKind::Fender, Side::Left, 5).cloud).expect("written");
+    let harness = open(Some(path));
+    assert_eq!(front(&harness), WorkspaceKind::Inspect);
+    harness.get_by_label("Accepted");
 }
 
 #[test]
@@ -195,6 +232,43 @@ fn a_part_that_is_not_accepted_has_no_numbers_for_a_robot() {
 }
 
 #[test]
+fn the_figures_of_a_pose_are_shown_only_with_the_name_of_their_part() {
+    let mut harness = open();
+    for (score, is_named) in [(0.3, true), (0.01, false)] {
+        let choice = CellChoice::InTurn;
+        let request = InspectRequest {
+            source: SceneSource::Cell { choice, number: 1 },
+            recipe: Arc::default(),
+        };
+        let library_cache = LibraryCache::new(Some("reference_parts".into()), Camera::default());
+        let mut found = inspect(&request, &library_cache, &Unwatched).expect("inspected");
+        let unknown = Rejection::Unknown {
+            nearest: "front_door".into(),
+            score,
+        };
+        found.inspection.verdict = Verdict::Part {
+            part: "front_door".into(),
+            score,
+            margin: score,
+            rejected: Some(unknown),
+            is_approximate: false,
+        };
+        let context = harness.ctx.clone();
+        let window = harness.state_mut();
+        window.show_result(Arc::new(found), &context);
+        settle(&mut harness);
+        harness.get_by_label("Unknown part");
+        for label in [
+            "As Front door, left (not accepted)",
+            "Offset from standard position",
+        ] {
+            let is_shown = harness.query_by_label(label).is_some();
+            assert_eq!(is_shown, is_named, "{label} at {score}");
+        }
+    }
+}
+
+#[test]
 fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
     let size = SMALL;
     let mut harness = open_with(size, plain_options());
@@ -221,6 +295,31 @@ fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
             }
         }
         assert!(num_controls >= 14, "{num_controls} controls");
+    }
+}
+
+#[test]
+fn the_bars_of_the_enlarged_ranking_end_before_their_scores() {
+    let mut harness = open();
+    harness.get_by_label("Enlarge ranking").click();
+    harness.run_steps(2);
+    let shapes = harness.output().shapes.iter();
+    let shapes: Vec<&Shape> = shapes.map(|clipped| &clipped.shape).collect();
+    let words = shapes.iter().filter_map(|shape| match shape {
+        Shape::Text(text) if text.galley.text() == "not examined" => {
+            Some(text.visual_bounding_rect())
+        }
+        _ => None,
+    });
+    let words: Vec<Rect> = words.collect();
+    assert!(!words.is_empty());
+    let bars = shapes.iter().filter_map(|shape| match shape {
+        Shape::Rect(bar) if bar.rect.height() < 30.0 => Some(bar.rect),
+        _ => None,
+    });
+    for bar in bars {
+        let covered = words.iter().find(|word| bar.intersects(**word));
+        assert_eq!(covered, None, "{bar:?}");
     }
 }
 

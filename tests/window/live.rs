@@ -9,14 +9,14 @@ use std::{
 };
 
 use egui::Key;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::{Harness, kittest::Queryable as _};
 use jiff::{SignedDuration, Timestamp};
 use partsight::{
     app::{
         Window, WindowOptions,
         inspection::{camera::Camera, source::CellChoice},
         shell::{
-            action::Action,
+            action::{Action, DialogRequest},
             live::{LiveAction, SourceState},
             roles::RoleAction,
             session::{Source, WorkspaceKind},
@@ -33,9 +33,12 @@ use partsight::{
 
 use crate::kit::{HangingPart, facing_part};
 
-use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, history_of, open, open_with, plain_options, settle, wait_for,
-    wait_until,
+use super::{
+    operator::{pass_time, scan, wait_for_serial},
+    set_up::{
+        SMALL, USUAL, WindowHarness, act, history_of, open, open_with, plain_options, settle,
+        wait_for, wait_until,
+    },
 };
 
 /// Time between two frames by the camera's clock, milliseconds: that of a slow camera.
@@ -320,13 +323,15 @@ fn a_capture_during_live_is_an_inspection_of_the_part_that_hangs_there() {
     assert_eq!(serial(&harness), "");
 
     // A serial number that comes after the verdict is of the part that hangs there; the one after it is of the next part.
+    act_live(&mut harness, Action::Role(RoleAction::Switch));
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 22]);
-    harness.get_by_label("Accepted");
-    set_serial(&harness, "4712");
-    sees(&mut harness, &wire, [0.0; 2]);
-    set_serial(&harness, "4713");
+    harness.get_by_label("OK");
+    scan(&mut harness, "4712");
+    scan(&mut harness, "4713");
     capture(&mut harness, &wire);
+    pass_time(&mut harness);
+    wait_for_serial(&mut harness, 0, "4712");
     assert_eq!(newest_of(&mut harness, 3), (true, "4712".to_owned()));
     assert_eq!(num_below(&harness), Some(1), "the capture");
     assert_eq!(serial(&harness), "4713");
@@ -425,6 +430,38 @@ fn a_lost_source_is_a_notice_until_it_comes_back_by_itself() {
     assert!(says(&harness, "The source is back"));
     assert!(!says(&harness, "the folder does not exist"));
     assert!(harness.state().state().session.is_live());
+}
+
+#[test]
+fn a_watched_folder_is_followed_from_the_next_start_on_unless_live_was_off() {
+    for was_live in [true, false] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let start = || {
+            let options = WindowOptions {
+                settings: Some(folder.path().join("settings.toml")),
+                ..plain_options()
+            };
+            let mut harness: WindowHarness =
+                Harness::builder().with_size(USUAL).build_eframe(|cc| {
+                    let render_state = cc.wgpu_render_state.as_ref();
+                    Window::new(&cc.egui_ctx, render_state, options).expect("threads")
+                });
+            // It does not settle while the folder is followed.
+            harness.run_steps(4);
+            harness
+        };
+        let mut harness = start();
+        let watched = Action::Chosen(DialogRequest::WatchedFolder, folder.path().to_owned());
+        act_live(&mut harness, watched);
+        assert!(harness.state().state().session.is_live());
+        if !was_live {
+            act_live(&mut harness, Action::Live(LiveAction::Toggle));
+        }
+        eframe::App::on_exit(harness.state_mut());
+        drop(harness);
+        let harness = start();
+        assert_eq!(harness.state().state().session.is_live(), was_live);
+    }
 }
 
 #[test]

@@ -14,27 +14,28 @@ use partsight::{
         inspection::source::CellChoice,
         language::Language,
         shell::{
-            action::Action,
+            action::{Action, DialogRequest},
+            live::SourceState,
             robot::{AnswerSetup, RobotAction},
             roles::RoleAction,
             session::{UserRole, WorkspaceKind},
             settings,
         },
-        workspaces::history::HistoryWorkspace,
+        workspaces::history::{HistoryAction, HistoryWorkspace},
     },
     files::save_cloud,
     history::{Retention, StoredVerdict},
-    simulate::{PartKind, Side},
+    simulate::{CellSetup, PartKind, SensorNoise, Side, SimulatedObject},
 };
 
-use crate::kit::{facing_part, history_entry, open_history};
+use crate::kit::{facing_part, history_entry, open_history, scene_of};
 
 use super::{
     live::{Step, sees, toggle, wired_options},
     robot::save_calibration,
     set_up::{
-        SMALL, USUAL, WindowHarness, act, drop_file, history_of, open, open_with, plain_options,
-        press, settle, wait_for, wait_until,
+        SMALL, USUAL, WindowHarness, act, act_in, drop_file, history_of, open, open_with,
+        plain_options, press, settle, wait_for, wait_until,
     },
 };
 
@@ -119,6 +120,9 @@ fn the_list_of_keys_has_only_those_that_act_in_the_operators_view() {
 fn a_good_part_carries_no_warning_in_either_view() {
     let mut harness = open();
     harness.get_by_label("Accepted");
+    assert!(!shows(&harness, "the pose to the path"));
+    harness.key_press(Key::N);
+    harness.run_steps(2);
     harness.get_by_label("The robot program must apply the pose to the path");
     assert!(!shows(&harness, "Move the path by the pose first"));
     act(&mut harness, Action::Role(RoleAction::Switch));
@@ -157,7 +161,8 @@ fn the_parts_of_this_shift_are_counted_and_what_is_only_tried_is_not() {
     write_unknown(&path);
     drop_file(&mut harness, &path);
     harness.get_by_label("NOK");
-    harness.get_by_label("0 parts");
+    counts(&harness, before);
+    assert!(shows(&harness, "\nSimulated cell"), "whose parts these are");
     act(&mut harness, Action::UseCell(CellChoice::InTurn));
     counts(&harness, before);
     toggle(&mut harness);
@@ -303,6 +308,47 @@ fn what_is_followed_is_good_only_while_its_verdict_counts() {
 }
 
 #[test]
+fn a_source_that_has_delivered_nothing_has_no_verdict() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (options, wire) = wired_options();
+    let mut harness = open_operators(options);
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 22]);
+    harness.get_by_label("OK");
+    let context = harness.ctx.clone();
+    let watched = Action::Chosen(DialogRequest::WatchedFolder, folder.path().to_owned());
+    harness.state_mut().act(watched, &context);
+    wait_until(&mut harness, |state| {
+        let status = state.session.live.status.as_ref();
+        status.is_some_and(|status| status.source == SourceState::Running)
+    });
+    harness.run_steps(2);
+    harness.get_by_label("Waiting for a new file");
+    harness.get_by_label("Save a capture to the folder: it is inspected by itself");
+    assert!(harness.query_by_label("OK").is_none());
+    // Nor has it one when nobody waits any longer.
+    toggle(&mut harness);
+    settle(&mut harness);
+    harness.get_by_label("Hang a part and press Capture");
+    assert!(harness.query_by_label("OK").is_none());
+}
+
+#[test]
+fn a_past_inspection_that_ends_live_says_so_and_live_is_a_way_back() {
+    let (options, wire) = wired_options();
+    let mut harness = open_operators(options);
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 22]);
+    let number = history_of(&harness).row(0).expect("listed").number;
+    act_in(&mut harness, |history: &mut HistoryWorkspace, cx| {
+        history.apply(HistoryAction::InspectAgain(number), cx);
+    });
+    assert!(!harness.state().state().session.is_live());
+    assert!(shows(&harness, "Live stopped: a past inspection"));
+    harness.get_by_label("Press Live or Capture for the current part");
+}
+
+#[test]
 fn its_controls_are_large_labelled_and_inside_a_small_window() {
     let mut harness = open_operators(plain_options());
     harness.run_steps(4);
@@ -370,7 +416,7 @@ fn the_operator_is_not_told_to_do_what_only_the_engineer_can() {
 }
 
 /// Types a code as a scanner does, with Enter at its end.
-fn scan(harness: &mut WindowHarness, code: &str) {
+pub(crate) fn scan(harness: &mut WindowHarness, code: &str) {
     for letter in code.chars() {
         let key = Key::from_name(&letter.to_string()).expect("a key");
         harness.input_mut().events.push(egui::Event::Key {
@@ -387,42 +433,67 @@ fn scan(harness: &mut WindowHarness, code: &str) {
     harness.run_steps(4);
 }
 
+/// Lets the time pass within which a serial number can be moved to the next part.
+pub(crate) fn pass_time(harness: &mut WindowHarness) {
+    let time = harness.ctx.input(|input| input.time) + 31.0;
+    harness.input_mut().time = Some(time);
+    harness.step();
+    harness.input_mut().time = None;
+}
+
+/// Waits until the row at this index of the history has this serial number.
+pub(crate) fn wait_for_serial(harness: &mut WindowHarness, place: usize, serial: &str) {
+    wait_for(harness, |window| {
+        let history = window.workspace::<HistoryWorkspace>().expect("there");
+        let row = history.state().row(place);
+        row.is_some_and(|row| row.trace.serial == serial)
+    });
+}
+
 #[test]
 fn a_serial_number_scanned_after_the_verdict_is_of_the_part_that_hangs_there_and_the_next_is_not() {
     let (options, wire) = wired_options();
     let mut harness = open_operators(options);
+    let waiting = |harness: &WindowHarness| harness.state().state().session.trace.get().serial;
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 22]);
     harness.get_by_label("OK");
     scan(&mut harness, "LATE77");
-    assert!(!shows(&harness, "For the next part"));
-    sees(&mut harness, &wire, [0.0; 2]);
-    let serial = |window: &partsight::app::Window| {
-        let history = window.workspace::<HistoryWorkspace>().expect("there");
-        history.state().row(0).map(|row| row.trace.serial.clone())
-    };
-    wait_for(&mut harness, |window| {
-        serial(window).as_deref() == Some("LATE77")
-    });
-    assert_eq!(harness.state().state().session.trace.get().serial, "");
+    assert!(shows(&harness, "Serial number LATE77 → Fender, left, "));
+    assert!(shows(&harness, "· LATE77"), "in the banner");
+    assert_eq!(waiting(&harness), "");
+    // It can be moved to the next part and back.
+    for (button, serial) in [
+        ("Give it to the next part", "LATE77"),
+        ("Give it to this part", ""),
+    ] {
+        harness.get_by_label(button).click();
+        harness.run_steps(4);
+        assert_eq!(waiting(&harness), serial);
+        assert_eq!(shows(&harness, "For the next part"), !serial.is_empty());
+    }
+    pass_time(&mut harness);
+    wait_for_serial(&mut harness, 0, "LATE77");
+    assert!(!shows(&harness, "Give it to"), "it is written");
     // It is added to the row of that part: nothing was inspected again.
     let num_below = |harness: &WindowHarness| history_of(harness).row(0).map(|row| row.num_below);
     assert_eq!(num_below(&harness), Some(0));
+    sees(&mut harness, &wire, [0.0; 2]);
     assert!(shows(&harness, "· LATE77"), "in the banner");
     // Scanned again, it stays with that part.
     scan(&mut harness, "LATE77");
     assert!(shows(&harness, "LATE77 is already the number of this part"));
-    assert_eq!(harness.state().state().session.trace.get().serial, "");
+    assert_eq!(waiting(&harness), "");
     // That part has one now.
     scan(&mut harness, "NEXT8");
     sees(&mut harness, &wire, [0.0; 2]);
     harness.get_by_label("For the next part that is inspected");
-    assert_eq!(harness.state().state().session.trace.get().serial, "NEXT8");
-    assert_eq!(serial(harness.state()).as_deref(), Some("LATE77"));
+    assert_eq!(waiting(&harness), "NEXT8");
+    wait_for_serial(&mut harness, 0, "LATE77");
     assert_eq!(num_below(&harness), Some(0));
     scan(&mut harness, "NEXT9");
     assert!(shows(&harness, "NEXT9 replaces NEXT8"));
-    assert_eq!(harness.state().state().session.trace.get().serial, "NEXT9");
+    assert_eq!(waiting(&harness), "NEXT9");
 }
 
 #[test]
@@ -432,10 +503,96 @@ fn a_scanner_is_heard_on_every_page_of_the_operator() {
     let before = harness.state().state().session.theme;
     scan(&mut harness, "TL471");
     let session = &harness.state().state().session;
-    assert_eq!(session.trace.get().serial, "TL471");
+    assert_eq!(session.trace.get().serial, "");
     assert_eq!(session.workspace, WorkspaceKind::History);
     assert!(session.theme == before && !session.is_live());
-    harness.get_by_label("Serial number TL471 entered");
+    // This page does not show to which part it goes.
+    assert!(shows(&harness, "Serial number TL471 → Front door, left, "));
+    scan(&mut harness, "TL472");
+    harness.get_by_label("Serial number TL472 is for the next part");
+}
+
+#[test]
+fn a_scan_answers_no_question_and_its_number_is_not_lost() {
+    let mut harness = open_operators(plain_options());
+    press(&mut harness, "Engineer's view");
+    harness.get_by_label("Switch");
+    scan(&mut harness, "99001");
+    let role = harness.state().state().session.role;
+    assert_eq!(role, UserRole::Operator);
+    press(&mut harness, "Cancel");
+    assert!(shows(&harness, "· 99001"), "in the banner");
+}
+
+#[test]
+fn a_part_that_is_labelled_as_another_one_is_no_longer_ok() {
+    let mut harness = open_operators(plain_options());
+    harness.get_by_label("OK");
+    press(&mut harness, "Wrong part?");
+    press(&mut harness, "Actual part · Not set ▼");
+    press(&mut harness, "Actual part: Not enrolled");
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    harness.get_by_label("NOK");
+    harness.get_by_label("Reported as wrong");
+    harness.get_by_label("Do not start the robot: tell the engineer");
+}
+
+#[test]
+fn wrong_part_is_about_the_part_on_the_screen_and_waits_for_its_verdict() {
+    let (options, wire) = wired_options();
+    let mut harness = open_operators(options);
+    let is_disabled = |harness: &WindowHarness| {
+        let button = harness.get_by_label("Wrong part?");
+        button.accesskit_node().is_disabled()
+    };
+    assert!(!is_disabled(&harness), "the first frame of the window");
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 4]);
+    assert!(is_disabled(&harness), "only looked at so far");
+    sees(&mut harness, &wire, [0.0; 18]);
+    assert!(!is_disabled(&harness));
+    sees(&mut harness, &wire, [0.03, 0.06]);
+    harness.get_by_label("Moving");
+    assert!(is_disabled(&harness), "it may be another part");
+}
+
+#[test]
+fn an_empty_cell_is_said_in_plain_words_without_figures() {
+    let mut harness = open_operators(plain_options());
+    act(&mut harness, Action::UseCell(CellChoice::Empty));
+    harness.get_by_label("No part hangs in front of the camera");
+    assert!(shows(&harness, "Then press Capture") && !shows(&harness, "m²"));
+}
+
+#[test]
+fn a_file_of_a_watched_folder_that_cannot_be_read_is_named_and_advice_fits_the_folder() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_operators(plain_options());
+    let context = harness.ctx.clone();
+    let watched = Action::Chosen(DialogRequest::WatchedFolder, folder.path().to_owned());
+    harness.state_mut().act(watched, &context);
+    // What lies there before is no capture.
+    wait_until(&mut harness, |state| {
+        let status = state.session.live.status.as_ref();
+        status.is_some_and(|status| status.source == SourceState::Running)
+    });
+    std::fs::write(folder.path().join("text.png"), "no picture").expect("written");
+    wait_until(&mut harness, |state| state.session.failed.is_some());
+    harness.run_steps(2);
+    harness.get_by_label("No result");
+    harness.get_by_label("text.png cannot be read");
+    assert!(shows(&harness, "Save the capture to the folder again"));
+    let mut empty = CellSetup::new(SimulatedObject::Nothing, 3);
+    empty.noise = SensorNoise::kinect(5);
+    let empty = scene_of(&empty);
+    save_cloud(&folder.path().join("empty.pcd"), &empty.cloud).expect("written");
+    wait_until(&mut harness, |state| state.session.failed.is_none());
+    harness.run_steps(2);
+    harness.get_by_label("No part hangs in front of the camera");
+    assert!(shows(&harness, "The next file is inspected by itself"));
+    assert!(!shows(&harness, "press Capture"));
+    // The part of the other file still has no verdict.
+    assert!(shows(&harness, "text.png: found"));
 }
 
 #[test]
@@ -509,18 +666,18 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
         harness.key_press(Key::Enter);
         harness.run_steps(4);
     }
+    press(&mut harness, "Capture");
     // No field has the focus. T, L and the digits are shortcuts, but the scanner's input must trigger none.
     let before = harness.state().state().session.theme;
     scan(&mut harness, "TL471");
     let state = harness.state().state();
-    assert_eq!(state.session.trace.get().serial, "TL471");
+    assert_eq!(state.session.trace.get().serial, "");
     assert!(state.session.theme == before && !state.session.is_live());
     assert_eq!(state.session.workspace, WorkspaceKind::Inspect);
-    press(&mut harness, "Capture");
-    assert_eq!(harness.state().state().session.trace.get().serial, "");
     // The operator sees the serial number that the part was traced by.
-    assert!(shows(&harness, "TL471"));
+    assert!(shows(&harness, "· TL471"));
     press(&mut harness, "Capture");
+    wait_for_serial(&mut harness, 1, "TL471");
     settle(&mut harness);
     let traces: Vec<_> = (0..2)
         .map(|place| {

@@ -336,6 +336,15 @@ fn the_base_of_the_arm_is_entered_a_better_one_applied_and_both_are_undone() {
     press(&mut harness, "Undo");
     assert!(base(&harness).abs() < 1e-9);
     harness.get_by_label_contains("reaches all");
+
+    // Where the arm reaches nothing, no collision is looked for.
+    act_in(&mut harness, |paint: &mut PaintWorkspace, cx| {
+        let mut setup = cx.session.program.clone();
+        setup.base[0] = -8000.0;
+        paint.state_mut().apply(PaintAction::SetUp(setup), cx);
+    });
+    assert_eq!(num_reached(&harness), 0);
+    harness.get_by_label("not checked");
 }
 
 #[test]

@@ -353,6 +353,28 @@ fn in_enrol(harness: &mut WindowHarness, action: EnrolAction) {
     });
 }
 
+/// Whatever the arm; leaves the stored path as it was.
+fn no_program_is_written_for_a_path_off_the_part(
+    harness: &mut WindowHarness,
+    folder: &Path,
+    program: &Path,
+) {
+    act_in(harness, |paint: &mut PaintWorkspace, cx| {
+        let setup = PaintAction::SetUp(ProgramSetup::default());
+        paint.state_mut().apply(setup, cx);
+    });
+    let far = folder.join("far.csv");
+    let text = "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z\n5000,5000,9000,0,0,-1\n";
+    fs::write(&far, text).expect("written");
+    act(harness, Action::GoTo(WorkspaceKind::Enrol));
+    in_enrol(harness, EnrolAction::Chosen(EnrolFile::SprayPath, far));
+    act(harness, Action::GoTo(WorkspaceKind::Inspect));
+    choose_in_inspect(harness, InspectFile::SprayPath, program.to_owned());
+    assert!(!program.exists());
+    harness.get_by_label_contains("No program was written: the spray path does not aim");
+    in_enrol(harness, EnrolAction::Undo);
+}
+
 #[test]
 fn a_spray_path_is_stored_carried_shown_and_exported() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -452,6 +474,8 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     choose_in_inspect(&mut harness, InspectFile::SprayPath, program.clone());
     assert!(!program.exists());
     harness.get_by_label_contains("No program was written: KUKA KR 6 R900-2 misses");
+
+    no_program_is_written_for_a_path_off_the_part(&mut harness, folder.path(), &program);
 
     // Undo works as for any change of the library.
     in_enrol(&mut harness, EnrolAction::Undo);

@@ -13,6 +13,7 @@ use partsight::app::{
     },
 };
 
+use super::operator::scan;
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, open, open_with, plain_options, press, settle,
 };
@@ -64,6 +65,19 @@ fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
         harness.state().state().session.workspace,
         WorkspaceKind::Compare
     );
+}
+
+#[test]
+fn a_pin_may_be_typed_as_quickly_as_a_scan_and_a_longer_code_is_none() {
+    let mut harness = open();
+    set_pin(&mut harness, "2580");
+    act(&mut harness, Action::Role(RoleAction::Lock));
+    press(&mut harness, "Engineer's view");
+    scan(&mut harness, "9900123456");
+    assert!(harness.query_by_label("Wrong PIN").is_none());
+    assert_eq!(role(&harness), UserRole::Operator);
+    scan(&mut harness, "2580");
+    assert_eq!(role(&harness), UserRole::Engineer);
 }
 
 #[test]

@@ -64,6 +64,14 @@ fn can_draw() -> bool {
 #[test]
 fn the_card_shows_the_stand_off_in_the_chosen_units() {
     let mut harness = open();
+    // No path is stored: whoever wants to see the assumed one shows its nozzle.
+    assert!(
+        harness
+            .query_by_label("Stand-off of an assumed path")
+            .is_none()
+    );
+    harness.key_press(Key::N);
+    harness.run_steps(2);
     harness.get_by_label("Stand-off of an assumed path");
     harness.get_by_label("inside the band");
     let state = harness.state().state();

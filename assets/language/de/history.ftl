@@ -86,7 +86,7 @@ history-open = Öffnen
 history-open-hint = Mit allen Stufen öffnen, mit dem eigenen Rezept der Prüfung
 history-again = Erneut prüfen
 history-again-hint = Mit dem aktuellen Rezept und der aktuellen Bibliothek; Änderungen werden hier angezeigt
-history-frame-gone = Das Bild von { $scene } wurde nicht aufbewahrt
+history-frame-gone = Das Bild zu „{ $scene }“ wurde nicht aufbewahrt
 history-frame-gone-advice = Künftig mehr Bilder aufbewahren: „Bilder…“ über der Liste
 history-actual-part = Tatsächliches Teil
 history-remark = Bemerkung
@@ -109,7 +109,7 @@ history-key-again = Mit aktuellem Rezept und aktueller Bibliothek erneut prüfen
 
 ## Frames to keep
 history-keep-title = Aufbewahrte Bilder
-history-keep-why = Mit ihrem Bild lässt sich eine Prüfung später mit allen Stufen öffnen. Die Prüfungen selbst bleiben dauerhaft erhalten.
+history-keep-why = Mit ihrem Bild lässt sich eine Prüfung später mit allen Stufen öffnen. Die Prüfungen selbst bleiben dauerhaft erhalten. „Nicht akzeptierte“ behält auch die Bilder der letzten { $num } akzeptierten Teile, damit ein falsches später gekennzeichnet werden kann.
 history-keep-which = Von welchen Prüfungen
 history-keep-days = Höchstens, Tage
 history-keep-gigabytes = Höchstens, Gigabyte
@@ -145,6 +145,7 @@ history-no-part-left-out =
        *[other] { $count } Einträge ohne Teil sind nicht mitgezählt
     }
 history-drift = Verlauf der Messwerte: { $part }
+history-drift-needs = Der Verlauf der Messwerte wird für ein Teil gezeigt, das mindestens { $count }-mal akzeptiert wurde
 history-drift-score = Score
 history-drift-fit = Abweichung von der Referenz, rms
 history-drift-ends = erstes Fünftel { $first }, letztes Fünftel { $last } (Mediane)

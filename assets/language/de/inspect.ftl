@@ -24,6 +24,7 @@ inspect-nearest = Am nächsten: { $part }
 ## The card
 
 inspect-previous-result = Vorheriges Ergebnis: Eine neue Prüfung läuft
+inspect-outdated = Vorheriges Ergebnis: Von der Quelle kam seitdem nichts
 inspect-from-history = Aus dem Verlauf, nicht das aktuelle Teil
 inspect-touches-edge = Das Teil reicht bis an den Bildrand: Etwas davon kann fehlen
 inspect-approximate = Die Pose ist ungefähr: Dies kann ein anderes Modell des Teils sein

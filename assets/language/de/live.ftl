@@ -16,7 +16,7 @@ live-watching = Ordner
 live-is = { $name } · { $what }
 live-lost = getrennt, neuer Versuch
 live-opening = wird geöffnet
-live-each-counts = jede Aufnahme zählt
+live-file-is-part = jede Datei ist ein Teil
 live-looking = sucht
 live-moving = Bewegung
 live-steady-for = ruhig seit { $seconds } s
@@ -40,6 +40,8 @@ live-closing = Kamera wird geschlossen
 live-no-more-frames = { $source } hat keine weiteren Bilder
 live-inspects-each = Jede Aufnahme im Ordner wird geprüft, sobald sie gespeichert ist
 live-ended = Live ist beendet: es wurde ein Bild aufgenommen
+live-ended-past = Live ist beendet: eine frühere Prüfung wurde geöffnet oder wiederholt
+live-ended-saved = Live ist beendet: die eingelernte Aufnahme wird geprüft
 live-ended-advice = L drücken, um Live wieder einzuschalten
 live-source-back = Die Quelle ist wieder da
 

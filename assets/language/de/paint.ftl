@@ -82,6 +82,8 @@ paint-drag-to-move = Ziehen bewegt die Pistole
 
 ## The path
 paint-planning = Bahn wird geplant
+paint-not-planned = Nicht geplant: Teil noch einmal wählen
+paint-previous-path = Werte der vorherigen Bahn
 paint-proposing = Bahnabstand und Geschwindigkeit werden gesucht
 paint-storing = Bahn wird gespeichert
 paint-propose = Vorschlagen
@@ -155,6 +157,7 @@ paint-unchecked-accelerations =
     }
 paint-arm-folds-over = der Arm müsste umschlagen
 paint-collisions = Kollisionen
+paint-collisions-not-checked = nicht geprüft
 paint-no-collisions-reached = keine, wo er hinreicht
 paint-num-collisions =
     { $count ->

@@ -11,7 +11,7 @@ results-title-refused = { $part } · nicht akzeptiert
 results-title-unknown = Unbekannt · am nächsten { $part }
 results-title-mirrored = Spiegelbild von { $part }
 results-keep-all = Alle
-results-keep-not-accepted = Nur nicht akzeptierte
+results-keep-not-accepted = Nicht akzeptierte
 results-keep-none = Keine
 
 ## Why a part is not accepted

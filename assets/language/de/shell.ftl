@@ -135,6 +135,7 @@ shell-library-reloaded = { $num ->
         [one] Bibliothek neu geladen, ein anderes Programm hat sie geändert: { $num } Teil
        *[other] Bibliothek neu geladen, ein anderes Programm hat sie geändert: { $num } Teile
     }
+shell-path-off-part = { $part }: Die gespeicherte Lackierbahn zielt nicht auf das Teil; Roboter bekommen sie nicht
 shell-counting-parts = Teile werden gezählt
 shell-writing-settings = Einstellungen werden gespeichert
 

@@ -24,6 +24,7 @@ inspect-nearest = Nearest: { $part }
 ## The card
 
 inspect-previous-result = Previous result: a new inspection is running
+inspect-outdated = Previous result: nothing has come from the source since
 inspect-from-history = From the history, not the current part
 inspect-touches-edge = The part reaches the edge of the picture: some of it may be missing
 inspect-approximate = The pose is approximate: this may be another model of the part

@@ -16,7 +16,7 @@ live-watching = Watching
 live-is = { $name } · { $what }
 live-lost = lost, reconnecting
 live-opening = opening
-live-each-counts = each capture counts
+live-file-is-part = each file is a part
 live-looking = looking
 live-moving = moving
 live-steady-for = steady for { $seconds } s
@@ -40,6 +40,8 @@ live-closing = Closing the camera
 live-no-more-frames = { $source } has no more frames
 live-inspects-each = Each capture in the folder is inspected as soon as it is saved
 live-ended = Live stopped: one frame was captured
+live-ended-past = Live stopped: a past inspection was opened or repeated
+live-ended-saved = Live stopped: the enrolled capture is inspected
 live-ended-advice = Press L for Live again
 live-source-back = The source is back
 

@@ -82,6 +82,8 @@ paint-drag-to-move = Drag to move the gun
 
 ## The path
 paint-planning = Planning the path
+paint-not-planned = Not planned: choose the part again
+paint-previous-path = Figures of the previous path
 paint-proposing = Finding spacing and speed
 paint-storing = Storing the path
 paint-propose = Propose
@@ -155,6 +157,7 @@ paint-unchecked-accelerations =
     }
 paint-arm-folds-over = the arm would fold over
 paint-collisions = Collisions
+paint-collisions-not-checked = not checked
 paint-no-collisions-reached = none where it reaches
 paint-num-collisions =
     { $count ->

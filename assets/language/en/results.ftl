@@ -11,7 +11,7 @@ results-title-refused = { $part } · not accepted
 results-title-unknown = Unknown · nearest { $part }
 results-title-mirrored = Mirror image of { $part }
 results-keep-all = All
-results-keep-not-accepted = Only not accepted
+results-keep-not-accepted = Not accepted
 results-keep-none = None
 
 ## Why a part is not accepted

@@ -135,6 +135,7 @@ shell-library-reloaded = { $num ->
         [one] Library reloaded, another program has changed it: { $num } part
        *[other] Library reloaded, another program has changed it: { $num } parts
     }
+shell-path-off-part = { $part }: the stored spray path does not aim at the part; robots do not get it
 shell-counting-parts = Counting parts
 shell-writing-settings = Writing the settings
 

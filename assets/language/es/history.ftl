@@ -86,7 +86,7 @@ history-open = Abrir
 history-open-hint = Abrir con todas las etapas y con su propia receta
 history-again = Repetir inspección
 history-again-hint = Con la receta y la biblioteca actuales; los cambios se muestran aquí
-history-frame-gone = La imagen de { $scene } no se ha conservado
+history-frame-gone = La imagen de «{ $scene }» no se ha conservado
 history-frame-gone-advice = Conservar más imágenes en adelante: Imágenes… encima de la lista
 history-actual-part = Pieza real
 history-remark = Observación
@@ -109,7 +109,7 @@ history-key-again = Volver a inspeccionarla con la receta y la biblioteca actual
 
 ## Frames to keep
 history-keep-title = Imágenes que se conservan
-history-keep-why = Con su imagen, una inspección puede volver a abrirse con todas las etapas. Las inspecciones en sí se conservan siempre.
+history-keep-why = Con su imagen, una inspección puede volver a abrirse con todas las etapas. Las inspecciones en sí se conservan siempre. «Las no aceptadas» conserva también las imágenes de las últimas { $num } piezas aceptadas, para poder etiquetar después una equivocada.
 history-keep-which = De qué inspecciones
 history-keep-days = Como máximo, días
 history-keep-gigabytes = Como máximo, gigabytes
@@ -145,6 +145,7 @@ history-no-part-left-out =
        *[other] { $count } entradas sin pieza no cuentan
     }
 history-drift = Deriva: { $part }
+history-drift-needs = La deriva se muestra de una pieza aceptada al menos { $count } veces
 history-drift-score = Puntuación
 history-drift-fit = Ajuste a la referencia, rms
 history-drift-ends = primer quinto { $first }, último quinto { $last } (medianas)

@@ -24,6 +24,7 @@ inspect-nearest = La más parecida: { $part }
 ## The card
 
 inspect-previous-result = Resultado anterior: hay una inspección en curso
+inspect-outdated = Resultado anterior: desde entonces no ha llegado nada de la fuente
 inspect-from-history = Del historial, no es la pieza actual
 inspect-touches-edge = La pieza llega al borde de la imagen: puede faltar una parte
 inspect-approximate = La pose es aproximada: puede ser otro modelo de la pieza

@@ -16,7 +16,7 @@ live-watching = Vigilando
 live-is = { $name } · { $what }
 live-lost = reconectando
 live-opening = abriendo
-live-each-counts = cada captura cuenta
+live-file-is-part = cada archivo es una pieza
 live-looking = buscando
 live-moving = en movimiento
 live-steady-for = inmóvil desde hace { $seconds } s
@@ -40,6 +40,8 @@ live-closing = Cerrando la cámara
 live-no-more-frames = { $source } no tiene más imágenes
 live-inspects-each = Cada captura de la carpeta se inspecciona en cuanto se guarda
 live-ended = En vivo ha terminado: se capturó una imagen
+live-ended-past = En vivo ha terminado: se abrió o repitió una inspección anterior
+live-ended-saved = En vivo ha terminado: se inspecciona la captura registrada
 live-ended-advice = Pulsar L para volver a «En vivo»
 live-source-back = La fuente ha vuelto
 

@@ -82,6 +82,8 @@ paint-drag-to-move = Arrastrar para mover la pistola
 
 ## The path
 paint-planning = Planificando la trayectoria
+paint-not-planned = Sin planificar: elegir la pieza de nuevo
+paint-previous-path = Datos de la trayectoria anterior
 paint-proposing = Buscando separación y velocidad
 paint-storing = Guardando la trayectoria
 paint-propose = Proponer
@@ -155,6 +157,7 @@ paint-unchecked-accelerations =
     }
 paint-arm-folds-over = el brazo tendría que voltearse
 paint-collisions = Colisiones
+paint-collisions-not-checked = no comprobadas
 paint-no-collisions-reached = ninguna donde alcanza
 paint-num-collisions =
     { $count ->

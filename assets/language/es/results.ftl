@@ -11,7 +11,7 @@ results-title-refused = { $part } · no aceptada
 results-title-unknown = Desconocida · la más parecida: { $part }
 results-title-mirrored = Imagen reflejada de { $part }
 results-keep-all = Todas
-results-keep-not-accepted = Solo las no aceptadas
+results-keep-not-accepted = Las no aceptadas
 results-keep-none = Ninguna
 
 ## Why a part is not accepted

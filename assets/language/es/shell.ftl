@@ -135,6 +135,7 @@ shell-library-reloaded = { $num ->
         [one] Biblioteca recargada, otro programa la ha cambiado: { $num } pieza
        *[other] Biblioteca recargada, otro programa la ha cambiado: { $num } piezas
     }
+shell-path-off-part = { $part }: la trayectoria guardada no apunta a la pieza; los robots no la reciben
 shell-counting-parts = Contando piezas
 shell-writing-settings = Guardando los ajustes
 

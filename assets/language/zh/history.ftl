@@ -85,7 +85,7 @@ history-open = 打开
 history-open-hint = 使用其自身的配方打开，并显示所有阶段
 history-again = 重新检测
 history-again-hint = 使用当前的配方和零件库；变化会显示在此处
-history-frame-gone = { $scene } 的深度帧未保留
+history-frame-gone = “{ $scene }”的深度帧未保留
 history-frame-gone-advice = 今后请保留更多深度帧：列表上方的“深度帧…”
 history-actual-part = 实际零件
 history-remark = 备注
@@ -108,7 +108,7 @@ history-key-again = 使用当前的配方和零件库重新检测
 
 ## Frames to keep
 history-keep-title = 深度帧保留设置
-history-keep-why = 保留深度帧后，可以重新打开该次检测并查看所有阶段。检测记录本身会永久保留。
+history-keep-why = 保留深度帧后，可以重新打开该次检测并查看所有阶段。检测记录本身会永久保留。“未接受的”还会保留最近 { $num } 个已接受零件的深度帧，以便之后标注误接受的零件。
 history-keep-which = 保留哪些检测的深度帧
 history-keep-days = 最多保留（天）
 history-keep-gigabytes = 最大占用（GB）
@@ -132,6 +132,7 @@ history-total = { $count } 个零件，{ $share } OK
 history-simulated-left-out = 未计入 { $count } 个仿真零件
 history-no-part-left-out = 未计入 { $count } 条无零件的记录
 history-drift = 漂移：{ $part }
+history-drift-needs = 零件至少被接受 { $count } 次后才显示漂移
 history-drift-score = 得分
 history-drift-fit = 与参考的偏差（rms）
 history-drift-ends = 前五分之一 { $first }，后五分之一 { $last }（中位数）

@@ -24,6 +24,7 @@ inspect-nearest = 最接近：{ $part }
 ## The card
 
 inspect-previous-result = 上次结果：正在进行新的检测
+inspect-outdated = 上次结果：此后来源未提供新数据
 inspect-from-history = 来自历史记录，不是当前零件
 inspect-touches-edge = 零件到达画面边缘：部分可能缺失
 inspect-approximate = 位姿为近似值：可能是该零件的其他型号

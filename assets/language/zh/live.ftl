@@ -10,7 +10,7 @@ live-watching = 监视文件夹
 live-is = { $name } · { $what }
 live-lost = 已断开，正在重连
 live-opening = 正在打开
-live-each-counts = 每次采集均计入
+live-file-is-part = 每个文件是一个零件
 live-looking = 正在查看
 live-moving = 移动中
 live-steady-for = 已静止 { $seconds } s
@@ -28,6 +28,8 @@ live-closing = 正在关闭相机
 live-no-more-frames = { $source } 没有更多帧
 live-inspects-each = 文件夹中的每次采集保存后立即检测
 live-ended = 实时检测已停止：采集了一帧
+live-ended-past = 实时检测已停止：打开或重复了历史检测
+live-ended-saved = 实时检测已停止：正在检测已注册的零件
 live-ended-advice = 按 L 重新开始实时检测
 live-source-back = 来源已恢复
 

@@ -82,6 +82,8 @@ paint-drag-to-move = 拖动可移动喷枪
 
 ## The path
 paint-planning = 正在规划轨迹
+paint-not-planned = 未规划：请重新选择零件
+paint-previous-path = 上一条轨迹的数值
 paint-proposing = 正在求取行距和速度
 paint-storing = 正在保存轨迹
 paint-propose = 推荐
@@ -155,6 +157,7 @@ paint-unchecked-accelerations =
     }
 paint-arm-folds-over = 机械臂需要翻转
 paint-collisions = 碰撞
+paint-collisions-not-checked = 未检查
 paint-no-collisions-reached = 可达处无
 paint-num-collisions =
     { $count ->

@@ -11,7 +11,7 @@ results-title-refused = { $part } · 未接受
 results-title-unknown = 未知 · 最接近 { $part }
 results-title-mirrored = “{ $part }”的镜像
 results-keep-all = 全部
-results-keep-not-accepted = 仅未接受的
+results-keep-not-accepted = 未接受的
 results-keep-none = 不保留
 
 ## Why a part is not accepted

@@ -123,6 +123,7 @@ shell-opening-library = 正在打开零件库
 shell-loading-library = 正在加载零件库
 shell-reloading-library = 正在重新加载零件库
 shell-library-reloaded = 零件库已重新加载（被其他程序更改）：{ $num } 个零件
+shell-path-off-part = { $part }：保存的喷涂轨迹未对准零件，机器人不会得到它
 shell-counting-parts = 正在统计零件
 shell-writing-settings = 正在保存设置
 

@@ -21,6 +21,7 @@ use crate::{
         Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, PartNumbers,
         SprayPath, open_library,
     },
+    robot::spray::off_the_part,
     stages::reference::ReferenceParams,
 };
 
@@ -38,6 +39,8 @@ struct Choice {
     /// The requested folder; without one [`open_library`] finds it.
     given: Option<PathBuf>,
     loaded: Option<Arc<LoadedLibrary>>,
+    /// The numbers that the window itself gave to the parts.
+    own_numbers: Option<PartNumbers>,
 }
 
 /// A loaded library.
@@ -107,6 +110,10 @@ pub struct Damaged {
 impl LibraryView {
     /// True if it is in the same folder and has the same parts, with the same titles, notes, numbers and spray paths.
     fn is_same(&self, other: &Self) -> bool {
+        self.is_same_but_numbers(other) && self.numbers == other.numbers
+    }
+
+    fn is_same_but_numbers(&self, other: &Self) -> bool {
         #[cfg(feature = "plant")]
         if self.version != other.version {
             return false;
@@ -114,7 +121,6 @@ impl LibraryView {
         self.path == other.path
             && self.identity == other.identity
             && self.parts == other.parts
-            && self.numbers == other.numbers
             && self.damaged == other.damaged
             && self.unloaded == other.unloaded
     }
@@ -148,9 +154,12 @@ impl Default for LibraryCache {
 impl LibraryCache {
     /// Makes a cache for the library in this folder, else for the one that [`open_library`] finds.
     pub fn new(given: Option<PathBuf>, camera: Camera) -> Self {
-        let loaded = None;
+        let choice = Choice {
+            given,
+            ..Choice::default()
+        };
         Self {
-            choice: Arc::new(Mutex::new(Choice { given, loaded })),
+            choice: Arc::new(Mutex::new(choice)),
             camera,
             recording: SharedRecording::default(),
             history: Arc::default(),
@@ -213,12 +222,22 @@ impl LibraryCache {
         Ok(Some(found))
     }
 
+    /// Notes that the window gave these numbers to the parts.
+    pub fn note_numbers(&self, numbers: &PartNumbers) {
+        self.lock().own_numbers = Some(numbers.clone());
+    }
+
+    /// Returns true if the library only differs from the former one by numbers that the window gave to its parts.
+    pub fn is_own_change(&self, former: &LibraryView, now: &LibraryView) -> bool {
+        now.is_same_but_numbers(former) && self.lock().own_numbers.as_ref() == Some(&now.numbers)
+    }
+
     /// Switches to the library in this folder, else to the one that [`open_library`] finds. If it cannot be loaded, the old
     /// one stays in use.
     pub fn choose(&self, given: Option<PathBuf>) -> Result<Arc<LoadedLibrary>, LibraryError> {
         let mut other = Choice {
             given,
-            loaded: None,
+            ..Choice::default()
         };
         let loaded = other.load()?;
         *self.lock() = other;
@@ -280,13 +299,21 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
     let troubles = problems.iter().map(UserError::of);
     let mut troubles: Vec<UserError> = troubles.chain(warnings.iter().map(UserError::of)).collect();
     let mut spray_paths = Vec::with_capacity(parts.len());
-    for part in &parts {
+    for (part, reference) in parts.iter().zip(&library.references) {
         let stored = part
             .spray
             .as_ref()
             .map(|_| place.spray_path(part.name.as_str()));
         spray_paths.push(match stored.transpose() {
-            Ok(path) => path.flatten(),
+            Ok(path) => {
+                let path = path.flatten();
+                let off = path.as_ref().and_then(|path| off_the_part(path, reference));
+                troubles.extend(off.map(|_| UserError {
+                    what: text!("shell-path-off-part", part = part.shown_title()),
+                    advice: text!("program-off-part-advice"),
+                }));
+                path
+            }
             Err(error) => {
                 troubles.push(UserError::of(&error));
                 None

@@ -18,6 +18,7 @@ use crate::{
     },
     files::{file_name, write_atomically},
     geometry::rigid::RigidTransform,
+    history::Traceability,
     report::{
         InspectionLine, ReportError, ReportFolder,
         pose_report::{
@@ -32,7 +33,7 @@ use crate::{
             Program, ProgramFormat, ProgramSettings, check_reach, is_stale, is_stale_file,
             program_points, remove_previous_program,
         },
-        spray::{CarriedPath, SprayExport},
+        spray::{CarriedPath, OffThePart, SprayExport},
     },
 };
 
@@ -79,6 +80,7 @@ pub(in crate::app) fn spray_path(
         let subject = ProgramSubject {
             part: part.name.as_str(),
             part_points: &inspected.part_points,
+            off: inspected.off_the_part,
             scene: Some(&scene_name(&inspected.origin).display().to_string()),
             camera_from_part: pose.camera_from_part(),
             is_simulated,
@@ -138,6 +140,8 @@ pub(in crate::app) struct ProgramSubject<'a> {
     pub part: &'a str,
     /// Points that it was enrolled with, part frame.
     pub part_points: &'a [Point3<f32>],
+    /// Whether its path does not aim at it.
+    pub off: Option<OffThePart>,
     /// Name of the scene; `None` for the standard position.
     pub scene: Option<&'a str>,
     pub camera_from_part: RigidTransform,
@@ -145,8 +149,8 @@ pub(in crate::app) struct ProgramSubject<'a> {
 }
 
 /// Writes a carried path as a program for the robot's controller, in the language given by the file's ending; returns a
-/// message about it. First removes an earlier program of that name; writes nothing if the arm cannot run the path without a
-/// collision.
+/// message about it. First removes an earlier program of that name; writes nothing if the path does not aim at the part, or if the
+/// arm cannot run it without a collision.
 pub(in crate::app) fn program(
     path: &Path,
     carried: &CarriedPath,
@@ -156,6 +160,16 @@ pub(in crate::app) fn program(
 ) -> Result<String, UserError> {
     let format = ProgramFormat::of(path).map_err(|error| UserError::of(&error))?;
     remove_previous_program(path).map_err(|error| UserError::of(&error))?;
+    if let Some(off) = subject.off {
+        return Err(UserError {
+            what: text!(
+                "program-off-part",
+                aiming = off.num_aiming,
+                all = off.num_spraying
+            ),
+            advice: text!("program-off-part-advice"),
+        });
+    }
     let ProgramTarget { settings, arm } = target;
     let robot_from_part = robot.robot_from_part(&subject.camera_from_part);
     let reach = match arm.clone() {
@@ -221,6 +235,7 @@ pub(in crate::app) fn not_reached(arm: &str, check: &PathCheck) -> Option<UserEr
 /// Makes the pose report of the shown inspection.
 pub(in crate::app) fn report_of(
     inspected: &Inspected,
+    trace: &Traceability,
     robot: Option<&RobotFrame>,
     convention: Convention,
 ) -> PoseReport {
@@ -234,7 +249,7 @@ pub(in crate::app) fn report_of(
         scene: &scene_name(&inspected.origin).display().to_string(),
         source: Some(&inspected.entry.record.summary.source),
         seen_by,
-        trace: inspected.trace(),
+        trace,
         inspection: &inspected.inspection,
         middle: inspected.middle,
         stand_off: inspected.stand_off.as_ref(),
@@ -280,7 +295,7 @@ pub(in crate::app) fn report(
         stages: &stages,
         title: title.map(|best| best.title.as_str()),
     };
-    let pdf = pose_pdf(report, &pictures).map_err(|error| UserError::of(&error))?;
+    let pdf = pose_pdf(report, &pictures);
     let files = [("json", report.to_json().into_bytes()), ("pdf", pdf)];
     let written = out.write_pose(&name, &files).map_err(trouble)?;
     let table = out.csv(report.robot.convention);
@@ -373,7 +388,7 @@ mod tests {
             let library = LibraryCache::default();
             let inspected = inspect(&request, &library, &Unwatched).expect("inspected");
             assert_eq!(inspected.entry.record.summary.source, source);
-            let report = report_of(&inspected, None, Convention::Kuka);
+            let report = report_of(&inspected, inspected.trace(), None, Convention::Kuka);
             assert_eq!(report.source.as_deref(), Some(source));
         }
     }

@@ -14,8 +14,10 @@ const FRAME: &str = "Simulated frame ";
 const SIMULATED: &str = ", simulated";
 /// Suffix of the title of a scan, after the number of its shots.
 const SHOTS: &str = " shots";
-/// Source of the frames of the simulated cell.
+/// Source of the single frames of the simulated cell.
 const CELL: &str = "simulated cell";
+/// Source of the frames of the simulated cell that is followed, before its settings.
+const FOLLOWED_CELL: &str = "simulated";
 
 /// Translates the title of an inspection.
 pub(in crate::app) fn stored_title(past: &Summary) -> String {
@@ -67,6 +69,15 @@ pub(in crate::app) fn stored_scene(title: &str, is_simulated: bool) -> String {
     if title == CELL {
         return text!("shell-simulated-cell");
     }
+    if let Some(settings) = title.strip_prefix(FOLLOWED_CELL)
+        && (settings.is_empty() || settings.starts_with([',', ':']))
+    {
+        let cell = text!("shell-simulated-cell");
+        return match settings.trim_start_matches([',', ':']) {
+            "" => cell,
+            settings => format!("{cell} · {settings}"),
+        };
+    }
     if let Some(number) = title.strip_prefix(FRAME)
         && let Ok(number) = number.parse::<u64>()
     {
@@ -91,11 +102,14 @@ fn stored_scan(title: &str) -> String {
 
 /// Returns what [`stored_scene`] shows beside what the history stores for it, in lower case, so that a search finds both.
 pub(in crate::app) fn shown_for_stored() -> Vec<[String; 2]> {
+    // The texts that are searched begin on lines of their own.
+    let followed_cell = format!("\n{FOLLOWED_CELL}");
     let both = [
         (text!("shell-simulated-frame", number = ""), FRAME),
         (text!("shell-of-simulator", name = ""), SIMULATED),
         (text!("shots-all-used", num = ""), SHOTS),
         (text!("shell-simulated-cell"), CELL),
+        (text!("shell-simulated-cell"), followed_cell.as_str()),
     ];
     both.map(|(shown, stored)| [shown.to_lowercase(), stored.to_lowercase()])
         .into()
@@ -163,7 +177,8 @@ mod tests {
     use super::*;
     use crate::{
         app::language::Language,
-        history::StoredRefusal,
+        capture::{SimulatedSpec, SourceSpec},
+        history::{Filter, StoredRefusal},
         kit::{history_entry, rejections},
         pipeline::Rejection,
     };
@@ -263,6 +278,34 @@ mod tests {
         let shown = titles.map(|(title, is_simulated, _)| stored_scene(title, is_simulated));
         Language::English.make_current();
         assert_eq!(shown, titles.map(|(.., expected)| expected));
+    }
+
+    #[test]
+    fn the_simulated_cell_has_one_name_whether_it_is_followed_or_captured() {
+        let followed = SourceSpec::Simulated(SimulatedSpec::default());
+        assert_eq!(followed.to_string(), FOLLOWED_CELL);
+        Language::German.make_current();
+        let shown = ["simulated cell", "simulated", "simulated,side=right:fender"]
+            .map(|source| stored_scene(source, true));
+        let both = shown_for_stored();
+        Language::English.make_current();
+        let [single, followed, set_up] = shown;
+        assert_eq!(
+            (&*single, &*followed),
+            ("Simulierte Zelle", "Simulierte Zelle")
+        );
+        assert_eq!(set_up, "Simulierte Zelle · side=right:fender");
+        let mut row = history_entry(1, StoredVerdict::Accepted, "fender")
+            .record
+            .summary;
+        row.scene = "Frame 12".into();
+        row.source = FOLLOWED_CELL.into();
+        let filter = Filter {
+            text: "Zelle".into(),
+            shown: both,
+            ..Filter::default()
+        };
+        assert!(filter.passes(&row));
     }
 
     #[test]

@@ -125,7 +125,7 @@ pub(in crate::app) fn rejection(why: &Rejection) -> String {
             shift = shift.to_string(),
             limit = limit.to_string()
         ),
-        // Nothing is said of a part that it is next to certainly not.
+        // Do not name a part that it almost certainly is not.
         Rejection::Unknown { score, .. } if !is_like(*score) => text!("results-unknown-alone"),
         Rejection::Unknown { nearest, score } => text!(
             "results-unknown-nearest",

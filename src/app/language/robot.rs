@@ -1,7 +1,7 @@
 //! Texts about the poses of a robot in the language of the window. In English they equal those of the library itself.
 
 use crate::robot::{
-    Convention, ConventionError, NOZZLE_DISTANCE, WrittenPoseError, calibration::UNNAMED,
+    Convention, ConventionError, FARTHEST, NOZZLE_DISTANCE, WrittenPoseError, calibration::UNNAMED,
 };
 
 /// Returns the name of a convention.
@@ -61,6 +61,21 @@ pub(in crate::app) fn written_pose_error(error: &WrittenPoseError) -> [String; 2
             text!("robot-no-number-advice"),
         ],
         WrittenPoseError::Numbers(error) => convention_error(error),
+        WrittenPoseError::TooFar {
+            distance,
+            convention,
+        } => [
+            text!(
+                "robot-pose-too-far",
+                distance = format!("{:.0}", distance.0),
+                most = format!("{FARTHEST}")
+            ),
+            text!(
+                "robot-pose-too-far-advice",
+                unit = convention.length_unit().symbol(),
+                convention = convention.name()
+            ),
+        ],
         WrittenPoseError::Nozzle {
             distance,
             convention,

@@ -245,3 +245,14 @@ fn a_part_that_certainly_does_not_hang_there_is_not_named() {
     assert!(!says(0.004).contains("Fender"));
     assert!(says(0.3).contains("Fender"));
 }
+
+#[test]
+fn a_percent_sign_stays_with_its_number() {
+    for language in Language::ALL {
+        language.make_current();
+        let said = text!("enrol-most-similar", part = "Fender", percent = 2);
+        assert!(said.contains("2\u{a0}%"), "{said}");
+        let said = text!("enrol-most-similar-mirrored", part = "Fender", percent = 2);
+        assert!(said.contains("2\u{a0}%"), "{said}");
+    }
+}

@@ -1,18 +1,29 @@
-//! Traceability of the next inspection: serial number, production order and operator, typed in the operator's view or sent by
-//! a scanner.
+//! Traceability of the inspections: serial number, production order and operator, typed in the operator's view or sent by a
+//! scanner.
+//!
+//! A serial number is of the part on the screen if its verdict counts and it has no number yet, else of the part that is
+//! inspected next. That is right for whoever scans each label after the verdict, and for whoever scans each before it. A number
+//! that came after the verdict can be moved to the next part until it is written.
 
 use std::sync::{Arc, Mutex};
 
-use egui::{Align2, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Align2, Context, RichText, TextEdit, Ui, WidgetInfo, vec2};
 
+use super::{message::Event, notice::Notice, session::Session};
 use crate::{
-    app::{language::text, shell::session::Session, ui::theme::space},
+    app::{
+        inspection::inspected::Inspected,
+        language::{history::stored_title, text},
+        ui::{theme::space, widgets::text_button},
+    },
     error::lock,
-    history::Traceability,
+    history::{HungId, StoredVerdict, Summary, Traceability},
 };
 
 /// Width of the label before a field, logical pixels.
 const NAME: f32 = 76.0;
+/// How long a serial number that came after the verdict can be moved to the next part, seconds: until then it is not written.
+const MOVABLE: f64 = 30.0;
 
 /// Traceability of the next inspection. Clones share it; whoever inspects takes it when the verdict counts.
 #[derive(Clone, Debug, Default)]
@@ -23,13 +34,29 @@ struct EnteredTrace {
     trace: Traceability,
     /// True unless the serial number is still being typed.
     is_complete: bool,
+    /// The last serial number that came after the verdict on its part.
+    late: Option<LateSerial>,
+}
+
+/// A serial number that came after the verdict on its part.
+#[derive(Debug)]
+struct LateSerial {
+    hung: HungId,
+    /// Traceability of the part, with the number.
+    trace: Traceability,
+    /// Names number and part to the user.
+    says: String,
+    /// Until when the number can be moved to the next part, seconds of egui's clock; `None` once it is written.
+    until: Option<f64>,
 }
 
 impl CurrentTrace {
     /// Starts with these values.
     pub fn starting(trace: Traceability) -> Self {
-        let is_complete = false;
-        Self(Arc::new(Mutex::new(EnteredTrace { trace, is_complete })))
+        Self(Arc::new(Mutex::new(EnteredTrace {
+            trace,
+            ..EnteredTrace::default()
+        })))
     }
 
     /// The current values.
@@ -45,16 +72,24 @@ impl CurrentTrace {
         }
     }
 
-    /// Sets the serial number of the part that hangs there, from a scanner or typed.
+    /// Sets the serial number of the next part.
     pub fn set_serial(&self, serial: &str) {
         let mut entered = lock(&self.0);
         entered.trace.serial = Traceability::cleaned(serial);
         entered.is_complete = true;
     }
 
-    /// The user has left the field of the serial number.
-    fn complete(&self) {
-        lock(&self.0).is_complete = true;
+    /// Returns the serial number that the user has just typed; leaves one that was complete before.
+    fn take_typed(&self) -> Option<String> {
+        let mut entered = lock(&self.0);
+        let was_complete = std::mem::replace(&mut entered.is_complete, true);
+        let is_typed = !was_complete && !entered.trace.serial.trim().is_empty();
+        is_typed.then(|| std::mem::take(&mut entered.trace.serial))
+    }
+
+    /// Returns the serial number that waits for the next part, which then has none.
+    fn take_waiting(&self) -> String {
+        Traceability::cleaned(&std::mem::take(&mut lock(&self.0).trace.serial))
     }
 
     /// True if a complete serial number waits for its part.
@@ -63,13 +98,61 @@ impl CurrentTrace {
         entered.is_complete && !Traceability::cleaned(&entered.trace.serial).is_empty()
     }
 
-    /// Takes a complete serial number for a part whose verdict has already counted; empty if there is none.
-    pub(in crate::app) fn take_late_serial(&self) -> String {
+    /// Gives this part a serial number after its verdict.
+    fn give(&self, part: &Inspected, serial: &str, now: f64) {
+        let serial = Traceability::cleaned(serial);
         let mut entered = lock(&self.0);
-        if !entered.is_complete {
-            return String::new();
+        entered.late = Some(LateSerial {
+            hung: part.hung().clone(),
+            says: names_part(&serial, &part.entry.record.summary),
+            trace: Traceability {
+                serial,
+                ..part.trace().clone()
+            },
+            until: Some(now + MOVABLE),
+        });
+    }
+
+    /// Moves the serial number that came last after a verdict to the next part, unless it is written.
+    fn move_to_next(&self) {
+        let entered = &mut *lock(&self.0);
+        if let Some(late) = entered.late.take_if(|late| late.until.is_some()) {
+            entered.trace.serial = late.trace.serial;
+            entered.is_complete = true;
         }
-        Traceability::cleaned(&std::mem::take(&mut entered.trace.serial))
+    }
+
+    /// True if this part's serial number came after its verdict.
+    pub(in crate::app) fn is_late_of(&self, part: &HungId) -> bool {
+        let entered = lock(&self.0);
+        entered.late.as_ref().is_some_and(|late| late.hung == *part)
+    }
+
+    /// Traceability of a part, with its serial number also if that came after the verdict.
+    pub(in crate::app) fn of_part(&self, part: &Inspected) -> Traceability {
+        let own = part.trace().clone();
+        match &lock(&self.0).late {
+            Some(late) if late.hung == *part.hung() => own.or(&late.trace),
+            _ => own,
+        }
+    }
+
+    /// Time until the serial number that came last after a verdict can be moved, seconds of egui's clock.
+    fn movable_until(&self) -> Option<f64> {
+        lock(&self.0).late.as_ref()?.until
+    }
+
+    /// Returns a serial number that came after the verdict on its part, to be written: once it can no longer be moved because
+    /// its time is over or another part is on the screen.
+    fn settle(&self, shown: Option<&HungId>, now: f64) -> Option<(HungId, Traceability)> {
+        let entered = &mut *lock(&self.0);
+        let late = entered.late.as_mut()?;
+        let until = late.until?;
+        if now < until && shown == Some(&late.hung) {
+            return None;
+        }
+        late.until = None;
+        Some((late.hung.clone(), late.trace.clone()))
     }
 
     /// Replaces an entry by an edited text, unless it has changed since the user saw it as `before`: a serial number that was
@@ -103,18 +186,123 @@ impl CurrentTrace {
     }
 }
 
+/// Names a serial number and the part that it went to.
+fn names_part(serial: &str, part: &Summary) -> String {
+    let at = part.at.to_zoned(jiff::tz::TimeZone::system());
+    text!(
+        "operator-serial-of-part",
+        serial = serial,
+        part = stored_title(part),
+        time = at.strftime("%H:%M").to_string()
+    )
+}
+
+impl Session {
+    /// The part on the screen if it takes the serial number that is entered now; otherwise the number is of the next part.
+    fn takes_serial(&self) -> Option<&Inspected> {
+        let part = self.current_result()?;
+        let is_part = part.entry.record.summary.verdict != StoredVerdict::NoPart;
+        let takes = is_part
+            && self.trace.of_part(part).serial.is_empty()
+            && self.trace.movable_until().is_none();
+        takes.then_some(part)
+    }
+
+    /// Names the serial number of the part on the screen, if it has one, and says whether the number can be moved.
+    fn serial_on_screen(&self) -> Option<(String, bool)> {
+        let shown = self.shown.as_ref().filter(|shown| !shown.is_past)?;
+        if let Some(late) = &lock(&self.trace.0).late
+            && late.hung == *shown.inspected.hung()
+        {
+            return Some((late.says.clone(), late.until.is_some()));
+        }
+        let part = self.current_result()?;
+        let serial = &part.trace().serial;
+        (!serial.is_empty()).then(|| (names_part(serial, &part.entry.record.summary), false))
+    }
+
+    /// Gives a complete serial number to its part, or keeps it for the next one.
+    fn enter_serial(&self, serial: &str, now: f64) {
+        match self.takes_serial() {
+            Some(part) => self.trace.give(part, serial, now),
+            None => self.trace.set_serial(serial),
+        }
+    }
+
+    /// Enters a scanned serial number, unless the part on the screen has it already. Returns what to tell the user.
+    pub(in crate::app) fn enter_scanned(&self, code: &str, now: f64) -> Option<Notice> {
+        let serial = Traceability::cleaned(code);
+        let shown = self.shown.as_ref().filter(|shown| !shown.is_past);
+        if shown.is_some_and(|shown| self.trace.of_part(&shown.inspected).serial == serial) {
+            return Some(Notice::done(text!(
+                "operator-serial-known",
+                serial = serial
+            )));
+        }
+        let former = Traceability::cleaned(&self.trace.get().serial);
+        let part = self.takes_serial();
+        if former == serial {
+            // It waited for the next part, and is entered anew.
+            self.trace.take_waiting();
+        }
+        self.enter_serial(&serial, now);
+        let mut rows = self.shift.last.iter();
+        if rows.any(|row| row.trace.serial == serial) {
+            let what = text!("operator-serial-in-shift", serial = serial);
+            return Some(Notice::look(what, text!("operator-serial-in-shift-next")));
+        }
+        if part.is_none() && !former.is_empty() && former != serial {
+            let what = text!(
+                "operator-serial-replaced",
+                serial = serial,
+                former = former.clone()
+            );
+            let next = text!("operator-serial-replaced-next", former = former);
+            return Some(Notice::look(what, next));
+        }
+        // Other pages do not show to which part it goes.
+        let is_seen = self.is_operator_view();
+        (!is_seen).then(|| {
+            Notice::done(match part {
+                Some(part) => names_part(&serial, &part.entry.record.summary),
+                None => text!("operator-serial-entered", serial = serial),
+            })
+        })
+    }
+}
+
+/// Returns the event that writes a serial number which came after the verdict on its part, once it can no longer be moved.
+pub(in crate::app) fn settle(session: &Session, now: f64) -> Option<Event> {
+    let shown = session.shown.as_ref();
+    let shown = shown.map(|shown| shown.inspected.hung());
+    let (hung, trace) = session.trace.settle(shown, now)?;
+    // Live's next frames of this part have it.
+    lock(&session.live.parts).traced(&hung, &trace);
+    Some(Event::TracedLate(hung, trace))
+}
+
+/// As [`settle`], in each frame of the window.
+pub(in crate::app) fn update(session: &Session, ctx: &Context) -> Option<Event> {
+    let now = ctx.input(|input| input.time);
+    let event = settle(session, now);
+    if let Some(until) = session.trace.movable_until() {
+        ctx.request_repaint_after_secs((until - now).max(0.0) as f32);
+    }
+    event
+}
+
 /// One of the entries.
 type TraceEntry = fn(&mut Traceability) -> &mut String;
 
-/// Draws the input fields.
+/// Draws the input fields, and to which part the serial number goes.
 pub(in crate::app) fn fields(ui: &mut Ui, session: &Session) {
     let trace = &session.trace;
+    let hint = match session.takes_serial() {
+        Some(_) => text!("operator-serial-hint-this"),
+        None => text!("operator-serial-hint-next"),
+    };
     let entries: [(String, String, TraceEntry); 3] = [
-        (
-            text!("operator-serial"),
-            text!("operator-serial-hint"),
-            |trace| &mut trace.serial,
-        ),
+        (text!("operator-serial"), hint, |trace| &mut trace.serial),
         (text!("operator-order"), String::new(), |trace| {
             &mut trace.order
         }),
@@ -122,13 +310,13 @@ pub(in crate::app) fn fields(ui: &mut Ui, session: &Session) {
             &mut trace.operator
         }),
     ];
-    for (name, says, entry) in entries {
+    for (place, (name, says, entry)) in entries.into_iter().enumerate() {
         let before = std::mem::take(entry(&mut trace.get()));
         let mut text = before.clone();
         let field = ui.horizontal(|ui| {
             ui.set_min_height(space::TARGET);
             let from = ui.cursor().left();
-            let label = ui.label(egui::RichText::new(&name).weak());
+            let label = ui.label(RichText::new(&name).weak());
             ui.add_space((from + NAME - ui.cursor().left()).max(0.0));
             let field = TextEdit::singleline(&mut text)
                 .hint_text(says)
@@ -143,19 +331,139 @@ pub(in crate::app) fn fields(ui: &mut Ui, session: &Session) {
         if text != before {
             trace.edit(entry, &before, text);
         }
-        if field.inner.lost_focus() {
-            trace.complete();
+        if field.inner.lost_focus()
+            && let Some(typed) = trace.take_typed()
+        {
+            session.enter_serial(&typed, ui.input(|input| input.time));
+        }
+        if place == 0 {
+            serial_goes_to(ui, session);
         }
     }
-    if !trace.get().serial.trim().is_empty() && session.serial_is_for_next() {
-        let says = egui::RichText::new(text!("operator-serial-for-next"));
-        ui.label(says.small().weak());
+}
+
+/// Draws to which part the serial number goes or went, with a button that moves it to the other one.
+fn serial_goes_to(ui: &mut Ui, session: &Session) {
+    let trace = &session.trace;
+    let is_free = trace.get().serial.trim().is_empty();
+    if let Some((says, is_movable)) = session.serial_on_screen() {
+        ui.label(RichText::new(says).small().weak());
+        // Only one number can wait for the next part.
+        if is_movable && is_free && text_button(ui, &text!("operator-serial-move-next")).clicked() {
+            trace.move_to_next();
+        }
+    }
+    if trace.has_complete_serial() {
+        ui.label(
+            RichText::new(text!("operator-serial-for-next"))
+                .small()
+                .weak(),
+        );
+        let can_move = session.takes_serial().is_some();
+        if can_move && text_button(ui, &text!("operator-serial-move-this")).clicked() {
+            let now = ui.input(|input| input.time);
+            session.enter_serial(&trace.take_waiting(), now);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::{
+        inspection::{inspected::inspected_cell, source::CellChoice},
+        shell::session::Shown,
+    };
+
+    /// A session that shows a new inspection.
+    fn showing(session: Session, choice: CellChoice) -> Session {
+        let generation = session
+            .shown
+            .as_ref()
+            .map_or(1, |shown| shown.generation + 1);
+        Session {
+            shown: Some(Shown {
+                generation,
+                inspected: Arc::new(inspected_cell(choice, 1)),
+                is_past: false,
+                session: None,
+                is_outdated: false,
+            }),
+            ..session
+        }
+    }
+
+    fn hung(session: &Session) -> HungId {
+        let shown = session.shown.as_ref().expect("shown");
+        shown.inspected.hung().clone()
+    }
+
+    #[test]
+    fn a_serial_number_is_of_the_part_on_the_screen_unless_that_has_one() {
+        let session = showing(Session::default(), CellChoice::InTurn);
+        session.enter_scanned("4711", 0.0);
+        assert_eq!(session.trace.get().serial, "");
+        let known = session.enter_scanned("4711", 1.0).expect("said");
+        assert!(known.what.contains("already"), "{known:?}");
+        session.enter_scanned("4712", 2.0);
+        assert_eq!(session.trace.get().serial, "4712");
+        // It is written when another part is on the screen.
+        assert!(settle(&session, 3.0).is_none());
+        let first = hung(&session);
+        let session = showing(session, CellChoice::InTurn);
+        let Some(Event::TracedLate(part, trace)) = settle(&session, 4.0) else {
+            panic!("not written");
+        };
+        assert_eq!((part, &*trace.serial), (first, "4711"));
+        assert!(settle(&session, 99.0).is_none(), "once");
+        // An empty cell, or a result that does not count any more, takes none.
+        let empty = showing(Session::default(), CellChoice::Empty);
+        let mut past = showing(Session::default(), CellChoice::InTurn);
+        past.shown.as_mut().expect("shown").is_past = true;
+        let mut failed = showing(Session::default(), CellChoice::InTurn);
+        failed.failed = Some(crate::app::user_error::UserError {
+            what: "no frame".into(),
+            advice: String::new(),
+        });
+        for session in [empty, past, failed] {
+            session.enter_scanned("4713", 0.0);
+            assert_eq!(session.trace.get().serial, "4713");
+        }
+    }
+
+    #[test]
+    fn a_late_serial_number_moves_to_the_next_part_and_back_until_it_is_written() {
+        let session = showing(Session::default(), CellChoice::InTurn);
+        session.enter_scanned("4711", 0.0);
+        let (says, is_movable) = session.serial_on_screen().expect("given");
+        assert!(
+            says.contains("4711") && says.contains("Front door"),
+            "{says}"
+        );
+        assert!(is_movable);
+        session.trace.move_to_next();
+        assert!(session.serial_on_screen().is_none());
+        assert_eq!(session.trace.get().serial, "4711");
+        session.enter_serial(&session.trace.take_waiting(), 1.0);
+        assert!(session.trace.is_late_of(&hung(&session)));
+        assert!(settle(&session, 1.0 + MOVABLE).is_some());
+        session.trace.move_to_next();
+        assert_eq!(session.trace.get().serial, "", "it is written");
+        assert!(
+            session
+                .serial_on_screen()
+                .is_some_and(|(_, is_movable)| !is_movable)
+        );
+    }
+
+    #[test]
+    fn a_typed_serial_number_is_entered_when_its_field_is_left() {
+        let trace = CurrentTrace::default();
+        trace.edit(|trace| &mut trace.serial, "", "47".into());
+        assert_eq!(trace.take_typed().as_deref(), Some("47"));
+        trace.set_serial("4712");
+        assert_eq!(trace.take_typed(), None, "it waits for the next part");
+    }
 
     #[test]
     fn a_serial_number_that_is_taken_while_a_field_is_edited_does_not_come_back() {

@@ -138,15 +138,23 @@ impl State {
             }
         };
         if self.session.workspace == WorkspaceKind::Enrol {
+            // A file of the folder goes either to Live or to Enrol.
+            if self.session.is_watching() {
+                live::give_way(self);
+                let stopped = Notice::look(
+                    text!("enrol-live-stopped"),
+                    text!("enrol-live-stopped-advice"),
+                );
+                notify(self, stopped.about(NoticeTopic::Following));
+            }
             return Some(Effect::Take(source, title));
         }
         if self.session.is_watching() {
             notify(self, Notice::done(text!("live-inspects-each")));
             return None;
         }
-        if self.session.is_live() && self.session.role == UserRole::Operator {
-            let ended = Notice::look(text!("live-ended"), text!("live-ended-advice"));
-            notify(self, ended.about(NoticeTopic::Following));
+        if self.session.role == UserRole::Operator {
+            self.tell_what_ends_live(text!("live-ended"));
         }
         let source = match (source, &self.session.empty_cell) {
             (SceneOrScan::Scene(source), Some(cell)) => {
@@ -158,6 +166,14 @@ impl State {
         let job = self.session.inspect_job(source);
         self.inspect(title, job);
         None
+    }
+
+    /// Says what ends Live, if a source is followed.
+    fn tell_what_ends_live(&mut self, what: String) {
+        if self.session.is_live() {
+            let ended = Notice::look(what, text!("live-ended-advice"));
+            notify(self, ended.about(NoticeTopic::LiveEnded));
+        }
     }
 
     /// Inspects a scene or a scan, as the part that Live sees if it follows the same source, else as a hung part of its own;
@@ -184,6 +200,9 @@ impl State {
         hung: Option<HungId>,
         trace: Traceability,
     ) {
+        if purpose == ReinspectionPurpose::Past {
+            self.tell_what_ends_live(text!("live-ended-past"));
+        }
         let part = match hung {
             Some(hung) => PartAtHand::Known(hung, trace),
             None => PartAtHand::Past(trace),
@@ -206,10 +225,14 @@ impl State {
         });
     }
 
-    /// Cancels the running inspection.
+    /// Cancels the running inspection. A file or a scan that was being opened does not become the source: the result in front is
+    /// of the former one.
     pub(in crate::app) fn cancel_inspection(&mut self) {
         self.inspector.task.cancel();
         self.session.inspecting = None;
+        if let Some(former) = self.inspector.former_source.take() {
+            self.session.source = former;
+        }
     }
 
     /// Repeats the inspection of the scene in front because something that it depends on has changed.
@@ -268,11 +291,14 @@ impl State {
         self.use_library(library);
         let (title, purpose) = (text!("shell-inspecting-again"), ReinspectionPurpose::New);
         if let Some(saved) = saved {
+            self.tell_what_ends_live(text!("live-ended-saved"));
             let part = self.part_in(&saved);
             // An enrolled part does not belong to an order.
             let part = part.unwrap_or_else(|| PartAtHand::Past(Traceability::default()));
             let job = self.session.inspect_job(saved);
             self.inspect_part(title, job, purpose, part);
+        } else if self.session.is_live() {
+            live::restart_consensus(self);
         } else if self.inspector.running().is_none() {
             self.inspect_shown(&title, purpose);
         }
@@ -307,12 +333,14 @@ impl State {
 
     /// Shows a past inspection that is still in memory.
     pub(in crate::app) fn show_past(&mut self, inspected: Arc<Inspected>) {
+        self.tell_what_ends_live(text!("live-ended-past"));
         self.generation += 1;
         self.session.shown = Some(Shown {
             generation: self.generation,
             inspected,
             is_past: true,
             session: None,
+            is_outdated: false,
         });
         self.session.workspace = WorkspaceKind::Inspect;
         self.session.failed = None;
@@ -517,6 +545,7 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         inspected: Arc::clone(&inspected),
         is_past,
         session: None,
+        is_outdated: false,
     });
     Event::Inspected { inspected, purpose }
 }
@@ -566,6 +595,9 @@ mod tests {
      {
         let mut state = State::default();
         let former = state.session.source.clone();
+        apply(&mut state, Action::Open("a.pcd".into()));
+        apply(&mut state, Action::CancelInspection);
+        assert_eq!(state.session.source, former, "given up");
         apply(&mut state, Action::Open("a.pcd".into()));
         apply(&mut state, Action::Open("b.pcd".into()));
         assert!(state.inspector.run_waiting());

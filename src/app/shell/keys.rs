@@ -115,7 +115,7 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
     },
 ];
 
-/// Keys of the 3-D view and of the focus, only for the list.
+/// Keys of the 3-D view and of the focus, only for the list; the last one is only the engineer's.
 fn other_keys() -> [[String; 2]; 8] {
     [
         [keys("Ctrl + − 0"), text!("shell-does-size")],
@@ -286,7 +286,9 @@ pub(in crate::app) fn help(
                 let of_rail = of_rail.map(|((_, rail), workspace)| [keys(rail), workspace.title()]);
                 let is_enrolling = state.session.workspace == WorkspaceKind::Enrol;
                 let of_picture = is_enrolling.then(picture_keys).into_iter().flatten();
-                let others = of_picture.chain(other_keys());
+                // Only the engineer measures.
+                let num = other_keys().len() - usize::from(is_operator);
+                let others = of_picture.chain(other_keys().into_iter().take(num));
                 for [keys, does] in named.chain(own).chain(of_rail).chain(others) {
                     ui.label(RichText::new(keys).font(font::body_strong()));
                     ui.weak(does);

@@ -134,8 +134,10 @@ pub(super) fn update(state: &mut State) {
         && known.path == library.path
     {
         let num = library.parts.len();
+        let cache = &state.inspector.loader.library_cache;
+        let is_own = cache.is_own_change(known, &library);
         state.use_library(&library);
-        if state.session.role == UserRole::Engineer {
+        if state.session.role == UserRole::Engineer && !is_own {
             let what = text!("shell-library-reloaded", num = num);
             notify(state, Notice::done(what));
         }
@@ -144,7 +146,7 @@ pub(super) fn update(state: &mut State) {
             .shown
             .as_ref()
             .is_some_and(|shown| shown.is_past);
-        if state.session.is_live() || !is_past {
+        if (state.session.is_live() || !is_past) && !is_own {
             state.inspect_again();
         }
     }

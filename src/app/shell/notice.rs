@@ -32,12 +32,16 @@ pub enum NoticeTopic {
     Scene,
     /// Whether the source can be followed: removed once a source is followed or another one is shown.
     Following,
+    /// What ended Live: removed once a source is followed again.
+    LiveEnded,
     /// Whether the library can be loaded again: removed once it is.
     Library,
     /// Whether robots are answered: removed once they are, or are not to be.
     Answering,
     /// The name entered for a coat: removed once it is changed or the coat is saved.
     CoatName,
+    /// Why a case cannot be kept: removed once one is kept, its truth is chosen, or another case is in front.
+    Case,
     /// Why no robot program can be written: removed once arm, nozzle or gun are changed.
     Program,
 }
@@ -47,7 +51,12 @@ impl NoticeTopic {
     fn has_one_notice(self) -> bool {
         matches!(
             self,
-            Self::Following | Self::Answering | Self::CoatName | Self::Program
+            Self::Following
+                | Self::LiveEnded
+                | Self::Answering
+                | Self::CoatName
+                | Self::Case
+                | Self::Program
         )
     }
 }
@@ -131,7 +140,7 @@ impl Notice {
         self == newer || are_successes || is_replaced || self.is_like(newer)
     }
 
-    /// True for two troubles, such as two files that cannot be read, with the same way out.
+    /// True for two problems with the same advice, such as two files that cannot be read.
     fn is_like(&self, other: &Self) -> bool {
         let are_troubles = self.kind == NoticeKind::Look && other.kind == NoticeKind::Look;
         are_troubles

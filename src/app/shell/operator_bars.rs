@@ -17,7 +17,7 @@ use crate::app::{
     language::{keys, text},
     ui::{
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, labelled, line_mark, text_button},
+        widgets::{Mark, labelled, line_mark, shortened, text_button},
     },
 };
 
@@ -109,17 +109,19 @@ fn not_recorded(ui: &mut Ui, session: &Session) {
     }
 }
 
-/// Draws the number of parts of this shift, and how many were accepted.
+/// Draws the number of parts of this shift before its source, and how many were accepted.
 fn counts(ui: &mut Ui, shift: &ShiftParts) {
     let theme = Theme::of(ui);
-    let Some(since) = &shift.since else {
+    let (Some(since), Some(source)) = (&shift.since, &shift.source) else {
         return;
     };
     let since = text!(
         "operator-shift-since",
         time = since.strftime("%H:%M").to_string()
     );
-    ui.weak(since);
+    let source = shortened(&source_menu::now(source), 20);
+    let label = RichText::new(format!("{since}\n{source}")).small().weak();
+    ui.label(label).on_hover_text(text!("operator-shift-says"));
     let num = shift.num_ok + shift.num_not_ok;
     let chips = [
         (None, text!("operator-num-parts", num = num)),
@@ -188,8 +190,13 @@ fn lower(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     }
     let name = text!("operator-wrong-part");
     let wrong = Button::new(text(&name)).min_size(vec2(150.0, BUTTON));
-    if labelled_large(ui, wrong, &name)
+    // It opens the newest inspection, which while the part moves is that of another one.
+    let is_current = state.session.current_result().is_some();
+    let wrong = ui.add_enabled(is_current, wrong);
+    wrong.widget_info(|| WidgetInfo::labeled(egui::Role::Button, is_current, &name));
+    if wrong
         .on_hover_text(text!("operator-wrong-part-says"))
+        .on_disabled_hover_text(text!("operator-wrong-part-not-now"))
         .clicked()
     {
         actions.push(Action::WrongPart);

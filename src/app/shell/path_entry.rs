@@ -5,7 +5,7 @@ use std::{
     task::Poll,
 };
 
-use egui::{Context, Key, RichText, TextEdit};
+use egui::{Context, Key, RichText, TextEdit, text_edit::TextEditState};
 
 use super::file_dialog::{DialogLock, FileChoice, FileRequest};
 use crate::{
@@ -137,6 +137,8 @@ pub(in crate::app) fn ui(ctx: &Context, lock: &DialogLock) {
             entry.write(&text);
         }
         if std::mem::take(&mut entry.is_new) {
+            // The cursor of the former path; without one, it is at the end.
+            TextEditState::default().store(ui.ctx(), field.id);
             field.request_focus();
         }
         let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
@@ -249,6 +251,14 @@ mod tests {
         harness.run_steps(4);
         let outcome = lock.typed().as_ref().map(|entry| entry.outcome.clone());
         assert_eq!(outcome, Some(Poll::Ready(Some(path))));
+        // A longer path in the next dialog: the cursor is at its end, not where it was.
+        let choice = FileChoice::NewFile("a-much-longer-name-of-a-path".into());
+        *lock.typed() = Some(entry(choice, folder.path()));
+        harness.run_steps(4);
+        let input = harness.get_by_role_and_label(Role::TextInput, "Path");
+        input.type_text(".csv");
+        harness.run_steps(4);
+        assert!(field(&harness).ends_with("a-much-longer-name-of-a-path.csv"));
     }
 
     #[test]

@@ -70,7 +70,7 @@ pub(in crate::app) fn listen(ctx: &Context, target: KeyTarget) -> Option<String>
         ctx.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
     }
     if was_held && held.events.is_empty() {
-        // What the keys change is drawn in the next frame, for which egui knows no reason: they came earlier.
+        // Request a frame that shows the effect of the keys: egui saw them earlier and does not repaint by itself.
         ctx.request_repaint();
     }
     if !held.events.is_empty() {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     current_trace::CurrentTrace,
-    live::LiveState,
+    live::{LiveState, SourceState},
     message::ReinspectionPurpose,
     program_setup::ProgramSetup,
     robot::AnswerSetup,
@@ -26,6 +26,7 @@ use crate::{
         user_error::UserError,
     },
     capture::SourceSpec,
+    history::StoredVerdict,
     pipeline::NamedRecipe,
     robot::{Convention, RobotFrame},
     stages::scene::EmptyCell,
@@ -114,9 +115,28 @@ impl Session {
         self.role == UserRole::Operator && self.workspace == WorkspaceKind::Inspect
     }
 
-    /// True while a newer result than the one shown is on its way.
+    /// True while a newer result than the one shown is on its way or awaited.
     pub fn is_old(&self) -> bool {
-        self.inspecting.is_some() && self.shown.is_some()
+        let shown = self.shown.as_ref();
+        shown.is_some_and(|shown| self.inspecting.is_some() || shown.is_outdated)
+    }
+
+    /// The result in front while its verdict counts: not while the part moves or is only looked at, nor for a past inspection,
+    /// nor once it is outdated, nor while another inspection runs or after one has failed. In the history it is the newest one.
+    pub(in crate::app) fn current_result(&self) -> Option<&Inspected> {
+        let shown = self.shown.as_ref();
+        let shown = shown.filter(|shown| !shown.is_past && !shown.is_outdated)?;
+        let inspected = &*shown.inspected;
+        let has_come = !self.is_live()
+            || self.live.status.as_ref().is_some_and(|status| {
+                status.source == SourceState::Running && status.num_inspected > 0
+            });
+        // An empty cell that is followed is not recorded.
+        let is_recorded = inspected.followed.is_none()
+            || inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
+        let counts = !inspected.is_open() && is_recorded;
+        let is_newest = self.inspecting.is_none() && self.failed.is_none();
+        (has_come && counts && is_newest).then_some(inspected)
     }
 
     /// The robot frame of an inspection: from the scan itself, else from the calibration of the cell.
@@ -189,6 +209,8 @@ pub struct Shown {
     pub is_past: bool,
     /// The session of following that it belongs to, if it is a frame of a followed source.
     pub session: Option<u64>,
+    /// True once the source was changed, lost or followed anew: another part may hang there now.
+    pub is_outdated: bool,
 }
 
 /// The workspaces that the rail lists.

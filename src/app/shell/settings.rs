@@ -71,6 +71,8 @@ pub struct Settings {
     pub window: Option<[f32; 2]>,
     /// Where Capture takes a scene from.
     pub source: RememberedSource,
+    /// Whether the source was followed.
+    pub live: bool,
     /// Parameters of the inspection; `None` for the defaults of the running version.
     pub recipe: Option<Recipe>,
     /// The name of the recipe.
@@ -127,6 +129,7 @@ impl Default for Settings {
             recent: Vec::new(),
             window: None,
             source: RememberedSource::default(),
+            live: false,
             recipe: None,
             recipe_label: RecipeLabel::default(),
             average: 1,
@@ -161,6 +164,7 @@ impl Settings {
                 Source::Scan(files) => RememberedSource::Scan(files.clone()),
                 Source::Camera(spec) => RememberedSource::Camera((**spec).clone()),
             },
+            live: state.session.is_live(),
             recipe: (**state.session.recipe != Recipe::default())
                 .then(|| Recipe::clone(&state.session.recipe)),
             recipe_label: state.session.recipe.label.clone(),
@@ -190,6 +194,7 @@ impl Settings {
         } && self.recipe_label == state.session.recipe.label;
         has_source
             && has_recipe
+            && self.live == state.session.is_live()
             && self.theme == state.session.theme
             && self.units == state.session.units
             && self.language == state.session.chosen_language
@@ -377,7 +382,15 @@ fn read(path: &Path) -> Result<ReadSettings, BadSettings> {
     }
     let table: Table = toml::from_str(&text).map_err(garbled)?;
     let (table, bad_keys) = readable(table);
+    let has_live = table.contains_key("live");
     let mut settings: Settings = table.try_into().map_err(garbled)?;
+    if !has_live {
+        // Formerly, the window always started to follow a watched folder.
+        settings.live = matches!(
+            settings.source,
+            RememberedSource::Camera(SourceSpec::Watched(_))
+        );
+    }
     let is_sensible = |size: &[f32; 2]| size.iter().all(|side| SIDES.contains(side));
     settings.window = settings.window.filter(is_sensible);
     settings.program = settings.program.checked();

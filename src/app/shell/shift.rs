@@ -1,21 +1,25 @@
 //! The parts of this shift, counted in the history for the operator's view.
 //!
-//! They are the parts of the source that the view follows. Opened files and scans, single frames of the simulated cell and
-//! what is inspected for an enrolment have other sources in the history.
+//! They are the parts of the source that the view follows, or followed before a file or a scan was opened. Opened files and
+//! scans, single frames of the simulated cell and enrolled captures that no longer hang there have other sources in the history.
 
 use std::{cmp::Reverse, sync::Arc, time::Duration};
 
 use jiff::{Timestamp, Zoned, civil};
 use serde::{Deserialize, Serialize};
 
-use super::{session::UserRole, state::State};
+use super::{
+    session::{Source, UserRole},
+    state::State,
+};
 use crate::{
     app::{
         language::text,
         task::{Task, TaskEvent, TaskRunner},
         user_error::UserError,
     },
-    history::{Filter, HistoryBuffer, HistoryError, StoredVerdict, Summary},
+    history::{Filter, HistoryBuffer, HistoryError, HungId, StoredVerdict, Summary},
+    library::Truth,
 };
 
 /// Seconds after which a failed count is repeated.
@@ -83,12 +87,16 @@ impl ShiftStarts {
 pub struct ShiftParts {
     /// Start of the shift; `None` until the parts were counted.
     pub since: Option<Zoned>,
+    /// The source that they hung in front of; `None` while there was only a file or a scan.
+    pub source: Option<Source>,
     /// Accepted parts.
     pub num_ok: usize,
     /// Parts that were not accepted.
     pub num_not_ok: usize,
     /// The last parts, accepted or not, newest first.
     pub last: Vec<Summary>,
+    /// The part on the screen with its true label, if it had one when the parts were counted.
+    pub labelled: Option<(HungId, Truth)>,
 }
 
 /// Counts the parts whenever the history has changed.
@@ -96,7 +104,9 @@ pub struct ShiftParts {
 pub struct ShiftWatch {
     counting: Task<ShiftParts>,
     /// The revision of the history, the shift and the source of the last count.
-    counted: Option<(u64, Timestamp, String)>,
+    counted: Option<(u64, Timestamp, Option<Source>)>,
+    /// The source in use, or the one before, if that in use is a file or a scan.
+    source: Option<Source>,
     /// When to repeat a failed count, seconds of egui's clock.
     retry_at: Option<f64>,
 }
@@ -107,6 +117,7 @@ impl ShiftWatch {
         Self {
             counting: Task::new("shift", runner),
             counted: None,
+            source: None,
             retry_at: None,
         }
     }
@@ -126,6 +137,9 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
         Some(TaskEvent::Failed(_)) => state.shift_watch.retry_at = Some(time + RETRY),
         None => {}
     }
+    if state.session.source.followed().is_some() {
+        state.shift_watch.source = Some(state.session.source.clone());
+    }
     if state.session.role != UserRole::Operator {
         return;
     }
@@ -140,22 +154,41 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
         ctx.request_repaint_after_secs((at - time).max(0.0) as f32);
     }
     let is_retry = state.shift_watch.retry_at.is_some_and(|at| at <= time);
-    // What cannot be followed is not named: no part comes from there.
-    let source = state.session.source.followed();
-    let source = source.map_or_else(String::new, |source| source.to_string());
+    let source = state.shift_watch.source.clone();
     let wanted = Some((history.num_events(), since.timestamp(), source.clone()));
     if is_retry || state.shift_watch.counted != wanted {
         state.shift_watch.counted = wanted;
         state.shift_watch.retry_at = None;
         let history = Arc::clone(history);
+        let shown = state.session.shown.as_ref();
+        let shown = shown.map(|shown| shown.inspected.hung().clone());
         let count = move |_: &_| {
-            count(&history, since.clone(), &source).map_err(|error| UserError::of(&error).into())
+            let followed = source.as_ref().and_then(Source::followed);
+            let followed = followed.map_or_else(String::new, |spec| spec.to_string());
+            let labelled = shown.map_or(Ok(None), |hung| label_of(&history, hung));
+            let parts = count(&history, since.clone(), &followed).and_then(|parts| {
+                Ok(ShiftParts {
+                    source,
+                    labelled: labelled?,
+                    ..parts
+                })
+            });
+            parts.map_err(|error| UserError::of(&error).into())
         };
         state
             .shift_watch
             .counting
             .start(text!("shell-counting-parts"), count);
     }
+}
+
+/// Returns a part with its true label, if it has one.
+fn label_of(
+    history: &HistoryBuffer,
+    hung: HungId,
+) -> Result<Option<(HungId, Truth)>, HistoryError> {
+    let label = history.part(&hung)?.and_then(|row| row.label);
+    Ok(label.map(|label| (hung, label)))
 }
 
 /// Counts the parts of a source since a moment: all inspections of a hung part are one part, and an empty cell is none.
@@ -213,6 +246,25 @@ mod tests {
             parts.num_ok
         };
         assert_eq!(["kinect", "simulated", ""].map(counted), [2, 0, 0]);
+    }
+
+    #[test]
+    fn an_opened_file_does_not_change_what_is_counted_and_the_source_is_named() {
+        let mut state = State::default();
+        state.session.role = UserRole::Operator;
+        let (history, ctx) = (Arc::new(HistoryBuffer::new(None)), egui::Context::default());
+        let mut entry = history_entry(1, StoredVerdict::Accepted, "fender");
+        entry.record.summary.at = Timestamp::now();
+        history.add(1, entry, Instant::now());
+        let cell = state.session.source.clone();
+        for source in [cell.clone(), Source::File("/data/door.pcd".into())] {
+            state.session.source = source;
+            update(&mut state, &history, &ctx);
+            state.shift_watch.counting.run_waiting();
+            update(&mut state, &history, &ctx);
+            let shift = &state.session.shift;
+            assert_eq!((shift.num_ok, shift.source.as_ref()), (1, Some(&cell)));
+        }
     }
 
     fn around(starts: &[&str], now: &str) -> [String; 2] {

@@ -26,6 +26,8 @@ pub(in crate::app) enum Mark {
     Look,
     /// Three dots: not known yet.
     Open,
+    /// A plain dot: something runs, and nothing is said about a part.
+    Runs,
 }
 
 /// Draws a filled disc with a sign in it.
@@ -40,7 +42,7 @@ pub(in crate::app) fn mark(
         Mark::Good => theme.accepted,
         Mark::Bad => theme.rejected,
         Mark::Look => theme.warning,
-        Mark::Open => theme.weak_text,
+        Mark::Open | Mark::Runs => theme.weak_text,
     };
     painter.circle_filled(centre, radius, fill);
     let at = |x: f32, y: f32| centre + vec2(x, y) * radius;
@@ -65,6 +67,7 @@ pub(in crate::app) fn mark(
                 painter.circle_filled(at(x, 0.0), radius * 0.13, theme.panel);
             }
         }
+        Mark::Runs => {}
     }
 }
 
@@ -338,7 +341,7 @@ fn bar_of_menu() -> ScrollStyle {
     }
 }
 
-/// Shows the scroll bar of a menu without the pointer, too: otherwise nothing tells that there are more entries.
+/// Shows the scroll bar of a menu even without the pointer: it is the only sign of further entries.
 pub(in crate::app) fn show_scroll_bar(ui: &mut Ui) {
     ui.spacing_mut().scroll = bar_of_menu();
 }

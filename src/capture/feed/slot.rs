@@ -107,7 +107,7 @@ impl Slot {
         let tap = Arc::new(Self::new(BackpressurePolicy::Newest, Box::new(|| ())));
         let mut inner = self.lock();
         {
-            // This lock cannot block: nobody else knows the tap yet.
+            // This lock cannot block: nobody else has the tap yet.
             let mut theirs = tap.lock();
             theirs.status.state = inner.status.state.clone();
             theirs.status.title.clone_from(&inner.status.title);
@@ -196,7 +196,7 @@ impl Slot {
         self.tell();
     }
 
-    /// Waits for a time; being told to stop ends the wait.
+    /// Waits for a time, or until a stop is requested.
     pub(super) fn sleep(&self, time: Duration) {
         let inner = self.lock();
         drop(

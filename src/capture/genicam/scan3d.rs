@@ -357,12 +357,12 @@ impl Axis {
 }
 
 impl Decoder {
-    /// True if the file says that the camera is simulated.
+    /// True if the file marks the camera as simulated.
     pub(super) fn is_simulated(&self) -> bool {
         matches!(self, Self::Depth { camera, .. } if camera.is_simulated)
     }
 
-    /// Decodes an image in this format; the error says what is wrong with it.
+    /// Decodes an image in this format; the error describes what is wrong with it.
     pub(super) fn image(&self, part: Part<'_>) -> Result<Image, String> {
         match self {
             Self::Depth { camera, units, .. } => {

@@ -37,7 +37,7 @@ pub(super) fn check(path: &Path) -> Result<(), CaptureError> {
     }
 }
 
-/// Follows the records; the inner error says where they break off.
+/// Follows the records; the inner error gives the place where they break off.
 fn end_of_whole(path: &Path) -> io::Result<Result<(), String>> {
     let file = open_regular(path)?;
     let num_bytes = file.metadata()?.len();

@@ -144,8 +144,8 @@ impl WatchedFolder {
             Err(error) => error,
         };
         match &error {
-            // A preview image beside a cloud.
-            CaptureError::File(FileError::WrongPngKind { .. }) => {
+            // A preview image beside a cloud, if the folder has delivered clouds.
+            CaptureError::File(FileError::WrongPngKind { .. }) if self.number > 0 => {
                 file.state = Progress::Done;
                 None
             }

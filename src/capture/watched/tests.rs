@@ -146,6 +146,15 @@ fn what_is_no_capture_is_left_alone_and_what_cannot_be_read_is_named_once() {
 }
 
 #[test]
+fn a_picture_without_depth_is_named_where_no_capture_has_come() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    let picture = image::GrayImage::new(2, 2);
+    picture.save(bench.path("photo.png")).unwrap();
+    assert_eq!(bench.looks(2 * PATIENCE), ["!photo.png"]);
+}
+
+#[test]
 fn a_depth_image_waits_for_its_camera() {
     let mut bench = Bench::new(WatchedFrom::Now);
     bench.look();

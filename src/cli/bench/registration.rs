@@ -1,6 +1,6 @@
 //! `partsight bench registration`: poses of clouds that share no point.
 
-use clap::ValueEnum;
+use clap::{ValueEnum, builder::PossibleValue};
 use serde::Serialize;
 
 use super::{BenchArgs, NUM_POSES, bounds::opened, write_json};
@@ -52,45 +52,31 @@ struct Experiment {
     methods: Vec<(String, AlignParams)>,
 }
 
-/// A condition on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum ConditionChoice {
-    /// The whole part
-    Whole,
-    /// One view with a Kinect's noise
-    View,
-    /// 30 % hidden
-    Hidden,
-    /// Three times the noise
-    Noisy,
-    /// One point in ten anywhere
-    Stray,
-    /// From T1..T5 and random starts, with every method
-    Starts,
-    /// Both clouds at random places, few or many points
-    Resampled,
-    /// Seen from outside, drawn likewise
-    Outside,
-}
+impl ValueEnum for Condition {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
 
-impl From<ConditionChoice> for Condition {
-    fn from(choice: ConditionChoice) -> Self {
-        match choice {
-            ConditionChoice::Whole => Self::Whole,
-            ConditionChoice::View => Self::View,
-            ConditionChoice::Hidden => Self::Hidden,
-            ConditionChoice::Noisy => Self::Noisy,
-            ConditionChoice::Stray => Self::Stray,
-            ConditionChoice::Starts => Self::Starts,
-            ConditionChoice::Resampled => Self::Resampled,
-            ConditionChoice::Outside => Self::Outside,
-        }
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let (name, help) = match self {
+            Self::Whole => ("whole", "The whole part"),
+            Self::View => ("view", "One view with a Kinect's noise"),
+            Self::Hidden => ("hidden", "30 % hidden"),
+            Self::Noisy => ("noisy", "Three times the noise"),
+            Self::Stray => ("stray", "One point in ten anywhere"),
+            Self::Starts => ("starts", "From T1..T5 and random starts, with every method"),
+            Self::Resampled => (
+                "resampled",
+                "Both clouds sampled at random, few or many points",
+            ),
+            Self::Outside => ("outside", "Seen from outside, sampled likewise"),
+        };
+        Some(PossibleValue::new(name).help(help))
     }
 }
 
-fn studies(chosen: &[ConditionChoice]) -> Vec<Experiment> {
+fn studies(chosen: &[Condition]) -> Vec<Experiment> {
     let named = |method: PoseMethod| (method.name().to_owned(), AlignParams::from(method));
-    let chosen: Vec<Condition> = chosen.iter().map(|choice| (*choice).into()).collect();
     let mut studies: Vec<Experiment> = Condition::ALL
         .into_iter()
         .filter(|condition| chosen.is_empty() || chosen.contains(condition))

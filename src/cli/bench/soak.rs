@@ -69,7 +69,7 @@ struct SmallCell {
     num_frames: u64,
 }
 
-/// A part in the cell, and the cell without it.
+/// The cell with a part and without one.
 struct Pictures {
     with_part: DepthFrame,
     empty: DepthFrame,

@@ -7,7 +7,7 @@ use crate::{
     cli::console::{Advised as _, Console, Table, advised_error},
     history::{Differences, History, InspectionSummary, ParameterChange, Record},
     pipeline::{self, Unwatched, scan::run_scan},
-    scan::{self, ScanParams, assemble},
+    scan::{ScanParams, assemble},
     units::{Metres, Radians},
 };
 
@@ -35,7 +35,7 @@ pub(super) fn run(
                 segment: recipe.segment.clone(),
                 ..ScanParams::default()
             };
-            let scan = assemble(&shots, &params, &scan::Unwatched).advised()?;
+            let scan = assemble(&shots, &params, &Unwatched).advised()?;
             run_scan(&scan, library, &recipe, &Unwatched)?.inspection
         }
     };

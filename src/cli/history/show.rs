@@ -102,11 +102,8 @@ struct RecordLine<'a> {
     reason_kind: Option<RefusalKind>,
     advice: Option<&'a str>,
     camera_from_part: Option<[f64; 16]>,
-    recipe: &'a str,
-    recipe_name: Option<&'a str>,
-    recipe_changed: bool,
-    library: &'a str,
-    program: &'a str,
+    #[serde(flatten)]
+    used: UsedLine<'a>,
     frame: Option<String>,
     /// Files of a scan's shots.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -125,12 +122,32 @@ struct RecordLine<'a> {
 struct BelowLine<'a> {
     #[serde(flatten)]
     row: RowLine<'a>,
+    #[serde(flatten)]
+    used: UsedLine<'a>,
+    differs: again::AgainLine,
+}
+
+/// Recipe, library and program of an inspection, as `--json` writes them.
+#[derive(Serialize)]
+struct UsedLine<'a> {
     recipe: &'a str,
     recipe_name: Option<&'a str>,
     recipe_changed: bool,
     library: &'a str,
     program: &'a str,
-    differs: again::AgainLine,
+}
+
+impl<'a> UsedLine<'a> {
+    fn of(detail: &'a InspectionDetail) -> Self {
+        let label = detail.recipe_label.as_ref();
+        Self {
+            recipe: &detail.recipe_identity,
+            recipe_name: label.map(|label| label.name.as_str()),
+            recipe_changed: label.is_some_and(|label| label.is_changed),
+            library: &detail.library_identity,
+            program: &detail.program,
+        }
+    }
 }
 
 /// Compares an inspection with another one of the same part.
@@ -194,11 +211,7 @@ pub(super) fn record_line(
 ) -> String {
     let below = below.iter().map(|other| BelowLine {
         row: RowLine::of(&other.summary),
-        recipe: &other.detail.recipe_identity,
-        recipe_name: recipe_name(&other.detail),
-        recipe_changed: recipe_changed(&other.detail),
-        library: &other.detail.library_identity,
-        program: &other.detail.program,
+        used: UsedLine::of(&other.detail),
         differs: again::AgainLine::of(&differences(record, other)),
     });
     let detail = &record.detail;
@@ -214,31 +227,13 @@ pub(super) fn record_line(
         reason_kind: refusal.and_then(StoredRefusal::kind),
         advice: refusal.map(|refusal| refusal.advice.as_str()),
         camera_from_part: record.matrix(),
-        recipe: &detail.recipe_identity,
-        recipe_name: recipe_name(detail),
-        recipe_changed: recipe_changed(detail),
-        library: &detail.library_identity,
-        program: &detail.program,
+        used: UsedLine::of(detail),
         frame: frame.and_then(|frame| from.path(frame)),
         shots: shot_paths(from, record),
         below: below.collect(),
         line: serde_json::from_str(&detail.line).ok(),
         again: again.map(again::AgainLine::of),
     })
-}
-
-fn recipe_name(detail: &InspectionDetail) -> Option<&str> {
-    detail
-        .recipe_label
-        .as_ref()
-        .map(|label| label.name.as_str())
-}
-
-fn recipe_changed(detail: &InspectionDetail) -> bool {
-    detail
-        .recipe_label
-        .as_ref()
-        .is_some_and(|label| label.is_changed)
 }
 
 fn shot_paths(from: ReadFrom<'_>, record: &Record) -> Vec<String> {

@@ -24,7 +24,8 @@ use crate::{
 pub(super) struct ProgramChoice {
     /// Write the part's stored spray path as a program for the robot's controller, named like the file: .src, .ls,
     /// .mod, .script, .jbi or .drl. Needs a calibration and one file. Nothing is written if the part is not accepted, if
-    /// another pose fits nearly as well, if the capture is older than 10 minutes, or if --arm does not reach every point
+    /// another pose fits nearly as well, if the capture is older than 10 minutes, if the path does not aim at the part, or
+    /// if --arm does not reach every point
     #[arg(long, value_name = "FILE", conflicts_with = "spray")]
     program: Option<PathBuf>,
     /// Language of the program, if the file's ending does not give it: krl, ls, rapid, urscript, jbi or drl
@@ -113,7 +114,8 @@ impl CapturedProgram {
         }
         let subject = ProgramSubject {
             part: name,
-            part_points: &seen.library.references[first.reference].cloud.points,
+            reference: &seen.library.references[first.reference],
+            path: &path,
             scene: Some(seen.scene),
             camera_from_part,
             is_simulated: *is_simulated || is_scene_simulated,

@@ -16,9 +16,10 @@ use crate::{
     pipeline::Inspection,
     robot::{
         Convention, RobotFrame,
-        spray::{SprayExport, carry, default_path, remove_previous_export},
+        spray::{SprayExport, carry, default_path, off_the_part, remove_previous_export},
     },
     stages::stand_off::StandOffParams,
+    units::counted,
 };
 
 /// Whether and how the spray path is written.
@@ -164,12 +165,15 @@ impl SprayFile {
         };
         export.save(&self.file).advised()?;
         console.note(&format_args!(
-            "{}: {} points as {}; {}",
+            "{}: {} as {}; {}",
             self.file.display(),
-            carried.points.len(),
+            counted(carried.points.len(), "point", "points"),
             self.convention.title(),
             against_seen(&carried)
         ));
+        if let Some(off) = off_the_part(&path, reference) {
+            console.warn(&off, &off);
+        }
         if !is_stored {
             console.note(&format_args!(
                 "note: {name} has no spray path: the only point is a start in front of its middle. {}",

@@ -7,13 +7,13 @@ use clap::Args;
 use super::{Console, LibraryChoice, Outcome};
 use crate::{
     cli::console::Advised as _,
-    error::Advice,
     library::{PartName, SprayPath},
-    robot::spray::{BandStatus, against_reference},
+    robot::spray::{BandStatus, against_reference, off_the_part},
     stages::{
         reference::{Reference, ReferenceParams},
         stand_off::StandOffParams,
     },
+    units::counted,
 };
 
 /// Store the nozzle's path over a part, or show what is stored
@@ -33,7 +33,7 @@ enrolled (x right, y down, z forward). Its heading names columns and units, in o
   x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm
   12.0,-40.5,1291.0,0,0,-1,150                 a point of the surface, its normal towards the nozzle, the distance
 
-Exit code 1 if fewer than half of the points have the part in front of them: the path is stored nevertheless.")]
+Exit code 1 if the path does not aim at the part: it is stored nevertheless, but no robot gets it.")]
 pub(super) struct PathArgs {
     /// Name of the part
     name: PartName,
@@ -64,7 +64,9 @@ pub(super) fn run(
     let reference = part.advised()?.advised()?.reference;
     let Some(file) = file else {
         match place.spray_path(name.as_str()).advised()? {
-            Some(path) => drop(tell(name, &path, &reference, console)),
+            Some(path) => {
+                tell(name, &path, &reference, console);
+            }
             None => console.line(&format_args!("{name} has no spray path")),
         }
         return Ok(Outcome::Accepted);
@@ -75,17 +77,16 @@ pub(super) fn run(
         .set_spray_path(name, Some(&path))
         .advised()?;
     console.line(&format_args!("Stored {} with {name}", file.display()));
-    let num_before = tell(name, &path, &reference, console);
-    if 2 * num_before < path.points().len() {
-        console.warn(&OffThePart, &OffThePart);
-        return Ok(Outcome::NotAccepted);
-    }
-    Ok(Outcome::Accepted)
+    let is_off = tell(name, &path, &reference, console);
+    Ok(if is_off {
+        Outcome::NotAccepted
+    } else {
+        Outcome::Accepted
+    })
 }
 
-/// Shows how the path lies over the part as it was enrolled, and returns how many points have a surface in front of
-/// them.
-fn tell(name: &PartName, path: &SprayPath, reference: &Reference, console: &mut Console) -> usize {
+/// Shows how the path lies over the part as it was enrolled; returns true, and warns, if it does not aim at it.
+fn tell(name: &PartName, path: &SprayPath, reference: &Reference, console: &mut Console) -> bool {
     let params = StandOffParams::default();
     let bands = against_reference(path, reference, &params);
     let count = |wanted: BandStatus| bands.iter().filter(|band| **band == wanted).count();
@@ -95,20 +96,16 @@ fn tell(name: &PartName, path: &SprayPath, reference: &Reference, console: &mut 
         count(BandStatus::NotSeen),
     );
     console.line(&format_args!(
-        "  {num} points over {name} as it was enrolled: {inside} within {:.0} to {:.0} mm and square on, {} not, {missed} with no surface before them",
+        "  {} over {name} as it was enrolled: {inside} within {:.0} to {:.0} mm and square on, {} not, {missed} with no surface before {}",
+        counted(num, "point", "points"),
         params.nearest.mm(),
         params.farthest.mm(),
-        num - inside - missed
+        num - inside - missed,
+        if missed == 1 { "it" } else { "them" }
     ));
-    num - missed
-}
-
-#[derive(Debug, thiserror::Error)]
-#[error("most of the path has no part before it")]
-struct OffThePart;
-
-impl Advice for OffThePart {
-    fn advice(&self) -> String {
-        "Check that the path is in the part's frame, in the unit that its heading says, and points towards the part".into()
+    let off = off_the_part(path, reference);
+    if let Some(off) = &off {
+        console.warn(off, off);
     }
+    off.is_some()
 }

@@ -26,7 +26,7 @@ use crate::{
         spray::carry,
     },
     stages::{reference::ReferenceParams, stand_off::StandOffParams},
-    units::Metres,
+    units::{Metres, counted},
 };
 
 /// Check that an arm reaches the stored path of a part in its standard position without collisions
@@ -157,8 +157,9 @@ pub(super) fn run(
 fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
     let (num, all) = (found.num_reached(), found.points.len());
     console.line(&format_args!(
-        "{} reaches {num} of {all} points",
-        placed.arm.name
+        "{} reaches {num} of {}",
+        placed.arm.name,
+        counted(all, "point", "points")
     ));
     if placed.arm.moving_rail().is_some() {
         let [low, high] = found.rail_range().map(|at| 1000.0 * at);
@@ -172,11 +173,8 @@ fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
             most.to_degrees()
         ));
     }
-    let [num_slower, num_by_joints] = found.changed_moves();
-    if num_slower + num_by_joints > 0 {
-        console.line(&format_args!(
-            "  of the moves with the gun off, {num_slower} are slower than in the path and {num_by_joints} are joint moves"
-        ));
+    if let Some(line) = changed_moves_line(found.changed_moves()) {
+        console.line(&format_args!("  {line}"));
     }
     if let Some(what) = placed.arm.unchecked_accelerations() {
         console.line(&format_args!(
@@ -202,6 +200,23 @@ fn show(placed: &PlacedArm, found: &PathCheck, console: &mut Console) {
             &"  to do: lower the speed where it accelerates too slowly, or round the corners in a larger radius",
         );
     }
+}
+
+/// Says how many of the moves with the gun off are slower, and how many are joint moves; `None` if all are as in the path.
+fn changed_moves_line([num_slower, num_by_joints]: [usize; 2]) -> Option<String> {
+    let slower = match num_slower {
+        0 => None,
+        1 => Some("1 is slower than in the path".to_owned()),
+        num => Some(format!("{num} are slower than in the path")),
+    };
+    let by_joints = match num_by_joints {
+        0 => None,
+        1 => Some("1 is a joint move".to_owned()),
+        num => Some(format!("{num} are joint moves")),
+    };
+    let changed: Vec<String> = slower.into_iter().chain(by_joints).collect();
+    (!changed.is_empty())
+        .then(|| format!("of the moves with the gun off, {}", changed.join(" and ")))
 }
 
 /// Lists the points that are not reached: the number for each reason, the most frequent first, unless one line says
@@ -236,9 +251,9 @@ fn problem_lines(points: &[PointCheck]) -> Vec<String> {
     if ranges.len() == 1 {
         totals.clear();
     }
-    let all = points.len();
+    let all = counted(points.len(), "point", "points");
     let totals = totals.into_iter();
-    let totals = totals.map(|(reason, num)| format!("{reason}: {num} of {all} points"));
+    let totals = totals.map(|(reason, num)| format!("{reason}: {num} of {all}"));
     totals.chain(ranges).collect()
 }
 
@@ -264,6 +279,10 @@ fn better_places(
         let numbers: Vec<String> = numbers.collect();
         format!("--base \"{} {}\"", convention.name(), numbers.join(" "))
     };
+    // The search goes no farther than a metre.
+    let is_step = base.is_some_and(|place| place.num_reached < all);
+    let further =
+        is_step.then(|| "  check again with it: a further step may reach more".to_owned());
     let base = base.map(|place| {
         let [x, y, z] = place.shift.map(|x| 1000.0 * x);
         format!(
@@ -281,18 +300,61 @@ fn better_places(
             option(Translation3::from(rail.direction.into_inner() * at))
         )
     });
-    base.into_iter().chain(rail).collect()
+    base.into_iter().chain(further).chain(rail).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::robot::arm::Obstacles;
 
     fn point(problem: Option<PointProblem>) -> PointCheck {
         PointCheck {
             problem,
             ..PointCheck::default()
         }
+    }
+
+    #[test]
+    fn a_base_from_which_some_points_are_still_missed_is_to_be_checked_again() {
+        let placed = PlacedArm {
+            arm: Arm::named("irb4600").expect("known"),
+            robot_from_base: RigidTransform::identity(),
+            flange_from_nozzle: RigidTransform::identity(),
+            gun_radius: 0.05,
+            obstacles: Obstacles::default(),
+        };
+        let told = |num_reached| {
+            let place = PlaceSuggestion {
+                shift: [0.5, 0.0, 0.0],
+                num_reached,
+            };
+            better_places(&placed, 10, [Some(place), None], Convention::Kuka).join("\n")
+        };
+        assert!(
+            told(7).ends_with("a further step may reach more"),
+            "{}",
+            told(7)
+        );
+        assert!(!told(10).contains("further"), "{}", told(10));
+    }
+
+    #[test]
+    fn one_changed_move_is_singular_and_none_is_not_told() {
+        let told = |changed| changed_moves_line(changed).unwrap_or_default();
+        assert_eq!(told([0, 0]), "");
+        assert_eq!(
+            told([1, 1]),
+            "of the moves with the gun off, 1 is slower than in the path and 1 is a joint move"
+        );
+        assert_eq!(
+            told([2, 0]),
+            "of the moves with the gun off, 2 are slower than in the path"
+        );
+        assert_eq!(
+            told([0, 3]),
+            "of the moves with the gun off, 3 are joint moves"
+        );
     }
 
     #[test]

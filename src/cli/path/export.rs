@@ -68,7 +68,8 @@ pub(super) fn run(
     let carried = carry(&path, &standard, &part.reference.cloud, &params);
     let subject = ProgramSubject {
         part: name,
-        part_points: &part.reference.cloud.points,
+        reference: &part.reference,
+        path: &path,
         scene: None,
         camera_from_part: standard,
         is_simulated: part.meta.simulated,

@@ -18,6 +18,7 @@ use crate::{
     paint::{Coat, CoatFolder, Film, KeepOut, PaintSurface, plan, propose, simulate},
     pipeline::parameters::Setting,
     stages::reference::ReferenceParams,
+    units::counted,
 };
 
 /// Plan a spray path over the side of a part that was seen when it was enrolled, and simulate its film
@@ -128,8 +129,8 @@ pub(super) fn run_plan(
     }
     if !args.json {
         console.line(&format_args!(
-            "{name}: {} points on {}; rows {:.0} mm apart at {:.0} mm/s",
-            path.points().len(),
+            "{name}: {} on {}; rows {:.0} mm apart at {:.0} mm/s",
+            counted(path.points().len(), "point", "points"),
             surface.scope(),
             1000.0 * coat.spacing,
             1000.0 * coat.speed

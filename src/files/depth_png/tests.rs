@@ -200,6 +200,11 @@ fn a_camera_is_no_capture_and_nothing_else_is_overwritten_by_one() {
     let json = intrinsics_path(&path);
     let error = open(&json).unwrap_err();
     assert!(matches!(&error, FileError::IsIntrinsics { image, .. } if *image == path));
+    let shared = folder.path().join(FOLDER_CAMERA);
+    std::fs::copy(&json, &shared).unwrap();
+    let error = open(&shared).unwrap_err();
+    let all = folder.path().join("*.png");
+    assert!(matches!(&error, FileError::IsIntrinsics { image, .. } if *image == all));
     write_depth_png(&path, &frame()).expect("a camera may be replaced by a camera");
     std::fs::write(&json, "{\"shift\": 3}").unwrap();
     let error = write_depth_png(&path, &frame()).unwrap_err();

@@ -176,3 +176,27 @@ fn numbers_that_look_like_millimetres_are_warned_about_and_kept() {
     let (_folder, path) = file("door.xyz", b"0 0 0.6\n1.1 0 0.65\n");
     assert_eq!(open(&path).unwrap().warnings(), []);
 }
+
+#[test]
+fn metres_that_were_read_as_millimetres_are_warned_about() {
+    let points = (0..2500).map(|i| {
+        format!(
+            "{} {} 1.4\n",
+            0.02 * f64::from(i % 50),
+            0.02 * f64::from(i / 50)
+        )
+    });
+    let (_folder, path) = file("door.xyz", points.collect::<String>().as_bytes());
+    assert_eq!(open(&path).unwrap().warnings(), []);
+    let in_millimetres = PathBuf::from(format!("{}#units=mm", path.display()));
+    let warnings = open(&in_millimetres).unwrap().warnings();
+    assert!(
+        matches!(warnings[..], [FileWarning::TooSmall { .. }]),
+        "{warnings:?}"
+    );
+    assert!(
+        warnings[0].to_string().contains("only 1.0 mm"),
+        "{warnings:?}"
+    );
+    assert!(!warnings[0].advice().contains("--"));
+}

@@ -17,7 +17,7 @@ use crate::{
 
 /// Margin over another pose below which an inspection rejects the pose.
 const LEAST_LEAD: f64 = 0.05;
-/// Turn, degrees, below which the confirmation takes two poses for different ones only because of their shift.
+/// Turn, degrees: below it, the confirmation distinguishes two poses only by their shift.
 const LEAST_TURN: f64 = 10.0;
 
 /// Returns what an inspection of the whole part without noise would find wrong with its pose.
@@ -48,7 +48,8 @@ pub(super) fn pose_warning(reference: &Reference, coverage: Coverage) -> Option<
     Some(fits_after(&between, &reference.cloud.points))
 }
 
-/// Returns the warning about a part that fits as well after this motion: another side of it if it turns, else no fixed pose.
+/// Returns the warning about a part that fits equally well after this motion: it is symmetric if the motion turns it, else
+/// its pose is unconstrained.
 fn fits_after(motion: &RigidTransform, points: &[Point3<f32>]) -> EnrolWarning {
     let degrees = motion.rotation.angle().to_degrees();
     if degrees < LEAST_TURN {

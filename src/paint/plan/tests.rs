@@ -145,16 +145,3 @@ fn a_coat_without_a_gun_and_regions_without_extent_are_refused() {
     let refused = plan(&surface, &Coat::default(), &[everything]).expect_err("nothing left");
     assert_eq!(refused, PaintError::NoRows);
 }
-
-#[test]
-fn twenty_thousand_points_are_planned_in_two_seconds() {
-    let surface = grid(160, 125, Coverage::OneSide, |i, j| {
-        let (x, y) = (1.3 * i - 0.65, j - 0.5);
-        let normal = Vector3::new(0.6 * x, 0.2 * y, 1.0).normalize();
-        (Point3::new(x, y, -0.3 * x * x - 0.1 * y * y), normal)
-    });
-    assert_eq!(surface.points.len(), 20_000);
-    let start = std::time::Instant::now();
-    plan(&surface, &Coat::default(), &[]).expect("planned");
-    assert!(start.elapsed().as_secs_f64() < 2.0, "{:?}", start.elapsed());
-}

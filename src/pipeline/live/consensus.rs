@@ -172,7 +172,7 @@ impl Consensus {
             needed,
         };
         let rejected = if num_accepting < needed || is_contradicted {
-            // A reason that most frames share says more than that not all of them agree.
+            // A reason that most frames share is more useful than the fact that they do not all agree.
             let mut complaints = naming.iter().filter_map(|said| said.verdict.rejected());
             let num_rejecting = naming.len() - num_accepting;
             let last = complaints.next_back().cloned();
@@ -230,7 +230,7 @@ fn nothing_named(said: &[&FrameVerdict]) -> Option<ConsensusVerdict> {
     })
 }
 
-/// The rejection for frames that disagree because two parts fit almost equally well: at least one frame says so, and
+/// The rejection for frames that disagree because two parts fit almost equally well: at least one frame was rejected for this, and
 /// at least `needed` frames fit that explanation.
 fn almost_equal(said: &[&FrameVerdict], name: &str, needed: usize) -> Option<Rejection> {
     let pair_of = |verdict: &Verdict| match verdict.rejected() {

@@ -7,7 +7,8 @@
 //! is a new one.
 //!
 //! Known limits: once a verdict counts, a part that is exchanged for another between two frames is taken for the
-//! same, unless the frames are seconds apart and another part is accepted. In captures seconds apart, in which stillness cannot be observed, two of one name in a row are one part.
+//! same, unless the frames are seconds apart and another part is accepted. Captures seconds apart cannot show whether a
+//! part hangs still: if two in a row have the same name, they count as one part.
 
 use std::time::Duration;
 
@@ -183,8 +184,8 @@ impl HungParts {
         (left, role)
     }
 
-    /// True if this has another name than what was seen last. Once a verdict counts, only an accepted part is: the name
-    /// nearest to a refused one changes from frame to frame.
+    /// True if this part has another name than the one seen last. Once a verdict counts, only an accepted part can be
+    /// another one: the best guess of a part that is not accepted changes from frame to frame.
     fn is_another(&self, shown: Option<(&str, f64)>, is_accepted: bool) -> bool {
         match (&self.state, shown) {
             (HungState::Unsettled { last, .. }, Some((name, _))) => last != name,

@@ -164,7 +164,7 @@ pub enum BundleError {
         /// Which, and what became of them since.
         parts: Vec<LocalPart>,
     },
-    /// What the library says of the version that it was taken from cannot be read.
+    /// The library's record of the version that it was taken from cannot be read.
     #[error("{}: damaged: {reason}", path.display())]
     BadRecord {
         /// The file.
@@ -185,7 +185,7 @@ pub enum BundleError {
         path: PathBuf,
         /// `private key` or `public key`.
         what: &'static str,
-        /// What the reader says.
+        /// Message of the reader.
         reason: String,
     },
     /// The system gives no random numbers.

@@ -34,7 +34,7 @@ pub struct Manifest {
     pub num_parts: usize,
     /// The bundle that belongs to it.
     pub bundle: BundleCheck,
-    /// What the publisher has to say about it; may be empty.
+    /// Note of the publisher; may be empty.
     #[serde(default)]
     pub note: String,
     /// The numbers by which robots know the parts.

@@ -28,7 +28,7 @@ use super::{
 
 /// Digits of a version in the name of its manifest.
 const DIGITS: usize = 10;
-/// The object that tells whether a store keeps what is there. What is in it does not matter.
+/// The object that shows whether a store refuses to overwrite. Its content does not matter.
 const PROBE: &str = "if-none-match";
 
 /// Which store.
@@ -296,7 +296,7 @@ fn s3(bucket: &str) -> Result<Box<dyn ObjectStore>, StoreError> {
     Ok(Box::new(store.map_err(|error| StoreError::of(&error))?))
 }
 
-/// Checks what the environment says: the client panics or puts it into every address and header as it is.
+/// Checks the environment variables: the client panics on bad ones, or puts them unchanged into every address and header.
 fn check_settings(
     value_of: &dyn Fn(AmazonS3ConfigKey) -> Option<String>,
 ) -> Result<(), StoreError> {

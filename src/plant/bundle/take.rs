@@ -19,7 +19,7 @@ use crate::{
     stages::reference::ReferenceParams,
 };
 
-/// The file in the library that says which version it was taken from. It is replaced together with the parts.
+/// The file in the library that records the version that it was taken from. It is replaced together with the parts.
 const RECORD: &str = ".version.json";
 /// The largest such file: ten thousand parts.
 const MAX_RECORD_BYTES: u64 = 4 << 20;

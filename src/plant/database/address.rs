@@ -134,7 +134,7 @@ impl FromStr for DatabaseAddress {
     }
 }
 
-/// Reads from the options whether to encrypt; `None` if they do not say.
+/// Reads from the options whether to encrypt; `None` if they do not specify it.
 fn is_encrypted(options: &str) -> Result<Option<bool>, DatabaseAddressError> {
     let mut found = None;
     for option in options.split('&').filter(|option| !option.is_empty()) {

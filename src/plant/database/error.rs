@@ -75,7 +75,7 @@ pub enum DatabaseError {
     },
     /// An older version of the program created the tables, and nothing has migrated them yet.
     #[error(
-        "{database}: the history there is still that of an older version of Partsight (format {found}, this one needs {known})"
+        "{database}: the tables there are of an older version of Partsight (format {found}; this version needs {known})"
     )]
     Older {
         /// The database.

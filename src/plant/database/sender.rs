@@ -188,7 +188,7 @@ impl HistorySender {
 
 impl Drop for HistorySender {
     fn drop(&mut self) {
-        // Nobody is left to be told.
+        // Nobody is left to receive it.
         let _ = self.end();
     }
 }

@@ -254,7 +254,7 @@ impl MqttLink {
 
 impl Drop for MqttLink {
     fn drop(&mut self) {
-        // Nobody is left to be told.
+        // Nobody is left to receive it.
         let _ = self.take_leave();
     }
 }

@@ -269,7 +269,7 @@ fn cautions(
     if subject.seen_by == SeenBy::Simulation {
         cautions.push("simulated: no camera was read".to_owned());
     }
-    // Further cautions say how far the pose can be used, and that of something unknown is of no use.
+    // Further cautions qualify the pose, and the pose of something unknown is of no use.
     if inspection.verdict.is_unknown() {
         return cautions;
     }

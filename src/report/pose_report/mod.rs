@@ -6,6 +6,7 @@
 
 mod blocks;
 mod csv;
+mod file;
 mod pdf;
 mod sheet;
 
@@ -31,7 +32,7 @@ pub use self::{
         TransformBlock,
     },
     csv::{CsvAppended, CsvError, append_csv},
-    pdf::{PdfError, PdfPictures, pose_pdf},
+    pdf::{PdfPictures, pose_pdf},
 };
 
 /// Version of the report; later reports only add fields.
@@ -48,7 +49,7 @@ pub enum SeenBy {
     Camera,
     /// None: the scene is simulated.
     Simulation,
-    /// The scene is from a file that does not say.
+    /// The scene is from a file without this information.
     NotKnown,
 }
 
@@ -75,7 +76,7 @@ pub struct PoseReport {
     pub program: String,
     /// The file or frame that was inspected.
     pub scene: String,
-    /// What gave the frame, as the history names it; null from `partsight report`, which is given the file.
+    /// Source of the frame, as the history names it; null from `partsight report`, which reads a file.
     pub source: Option<String>,
     /// Whether a camera was read.
     pub seen_by: SeenBy,

@@ -5,15 +5,12 @@ mod numbers;
 
 use image::RgbImage;
 use jiff::tz::TimeZone;
-use krilla::{
-    Document,
-    metadata::{DateTime, Metadata},
-    page::PageSettings,
-};
+use pdf_writer::Date;
 
 use super::{
     PoseReport, SeenBy, VerdictBlock,
-    sheet::{Area, Faces, Ink, Sheet, Style, Weight},
+    file::{About, Weight},
+    sheet::{Area, Faces, Ink, Sheet, Style},
 };
 use crate::{
     pipeline::{AcceptParams, is_like},
@@ -52,17 +49,6 @@ fn typeset(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
 
-/// Why the page could not be made.
-#[derive(Debug, thiserror::Error)]
-#[error("the page could not be made: {0}")]
-pub struct PdfError(String);
-
-impl crate::error::Advice for PdfError {
-    fn advice(&self) -> String {
-        "Write the report as JSON, and report this as a bug".into()
-    }
-}
-
 /// The pictures of a report.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PdfPictures<'a> {
@@ -75,39 +61,27 @@ pub struct PdfPictures<'a> {
 }
 
 /// Creates the report as a PDF of one page. Equal reports with equal pictures give identical bytes.
-pub fn pose_pdf(report: &PoseReport, pictures: &PdfPictures<'_>) -> Result<Vec<u8>, PdfError> {
-    let mut document = Document::new();
-    document.set_metadata(metadata(report, pictures));
-    let settings = PageSettings::from_wh(PAGE[0], PAGE[1]).expect("A4 has an extent");
-    let mut page = document.start_page_with(settings);
+pub fn pose_pdf(report: &PoseReport, pictures: &PdfPictures<'_>) -> Vec<u8> {
     let faces = Faces::new();
-    let mut sheet = Sheet::new(page.surface(), &faces);
+    let mut sheet = Sheet::new(PAGE, &faces);
     compose(&mut sheet, report, pictures);
-    sheet.finish();
-    page.finish();
-    document
-        .finish()
-        .map_err(|error| PdfError(format!("{error:?}")))
-}
-
-fn metadata(report: &PoseReport, pictures: &PdfPictures<'_>) -> Metadata {
     let at = report.inspected_at.to_zoned(TimeZone::UTC);
-    let date = DateTime::new(at.year().unsigned_abs())
+    let created = Date::new(at.year().unsigned_abs())
         .month(at.month().unsigned_abs())
         .day(at.day().unsigned_abs())
         .hour(at.hour().unsigned_abs())
         .minute(at.minute().unsigned_abs())
         .second(at.second().unsigned_abs())
         .utc_offset_hour(0);
-    Metadata::new()
-        .title(format!(
+    sheet.finish(&About {
+        title: format!(
             "Pose report: {}, {}",
             headline(report, pictures),
             report.scene
-        ))
-        .creator(report.program.clone())
-        .language("en".into())
-        .creation_date(date)
+        ),
+        creator: &report.program,
+        created,
+    })
 }
 
 /// Draws the whole page from top to bottom.
@@ -193,8 +167,8 @@ fn headline(report: &PoseReport, pictures: &PdfPictures<'_>) -> String {
     }
 }
 
-/// True if score and margin show which part it is, whatever else speaks against it. The report does not have the recipe's
-/// least margin: that of the built-in recipe decides.
+/// True if score and margin identify the part, even if it was not accepted for another reason. The report does not contain
+/// the recipe's minimum margin, so that of the built-in recipe is used.
 fn is_recognised(verdict: &VerdictBlock) -> bool {
     let is_clear = |margin: f64| margin >= AcceptParams::default().min_margin;
     let is_likely = |score: f64| score >= verdict.threshold;

@@ -1,21 +1,15 @@
 //! A page to draw on: selectable text in the font of the window, lines, and pictures.
 //!
-//! `krilla` makes the PDF. Lengths are points, 72 to the inch; y goes down.
+//! Lengths are points, 72 to the inch; y goes down.
 //!
 //! Known limits: text from left to right, no kerning; a missing glyph is an empty box on paper, but its character is
 //! kept when the text is copied.
 
-use image::{DynamicImage, RgbImage, imageops::FilterType};
-use krilla::{
-    color::rgb,
-    geom::{PathBuilder, Point, Rect, Size, Transform},
-    image::Image,
-    paint::{Fill, Stroke},
-    surface::Surface,
-    text::{Font, GlyphId, KrillaGlyph},
-};
+use image::{RgbImage, imageops::FilterType};
+use pdf_writer::{Content, Finish as _, Name, Str, TextStr};
 
-use crate::report::lettering::{Anchor, BOLD, Lettering, REGULAR};
+use super::file::{self, About, UsedGlyphs, Weight};
+use crate::report::lettering::{Anchor, Lettering};
 
 /// Colour on paper: red, green, blue.
 pub(super) type Ink = [u8; 3];
@@ -29,12 +23,6 @@ pub(super) struct Style {
     pub(super) ink: Ink,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Weight {
-    Regular,
-    Bold,
-}
-
 /// A rectangle on the page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Area {
@@ -44,12 +32,8 @@ pub(super) struct Area {
     pub(super) height: f32,
 }
 
+#[cfg(test)]
 impl Area {
-    fn rect(self) -> Option<Rect> {
-        Rect::from_xywh(self.left, self.top, self.width, self.height)
-    }
-
-    #[cfg(test)]
     pub(super) fn overlaps(self, other: Self) -> bool {
         self.left < other.left + other.width
             && other.left < self.left + self.width
@@ -58,59 +42,21 @@ impl Area {
     }
 }
 
-/// A font for measuring and writing.
-pub(super) struct Face {
-    measured: Lettering,
-    written: Font,
-}
-
-impl Face {
-    pub(super) fn of(weight: Weight) -> Self {
-        let bytes = match weight {
-            Weight::Regular => REGULAR,
-            Weight::Bold => BOLD,
-        };
-        Self {
-            measured: Lettering::of(bytes),
-            written: Font::new(bytes.into(), 0).expect("our own font is one"),
-        }
-    }
-
-    fn glyphs(&self, text: &str) -> Vec<KrillaGlyph> {
-        let places = text.char_indices();
-        let glyphs = places.zip(self.measured.glyphs(text));
-        let glyph = |((at, letter), (glyph, width)): ((usize, char), (skrifa::GlyphId, f32))| {
-            let (glyph, range) = (GlyphId::new(glyph.to_u32()), at..at + letter.len_utf8());
-            KrillaGlyph::new(glyph, width, 0.0, 0.0, 0.0, range, None)
-        };
-        glyphs.map(glyph).collect()
-    }
-}
-
-/// Both font weights.
-pub(super) struct Faces {
-    regular: Face,
-    bold: Face,
-}
+/// The fonts, in the order of [`Weight::ALL`].
+pub(super) struct Faces([Lettering; 2]);
 
 impl Faces {
     pub(super) fn new() -> Self {
-        Self {
-            regular: Face::of(Weight::Regular),
-            bold: Face::of(Weight::Bold),
-        }
+        Self(Weight::ALL.map(|weight| Lettering::of(weight.font())))
     }
 
-    fn of(&self, weight: Weight) -> &Face {
-        match weight {
-            Weight::Regular => &self.regular,
-            Weight::Bold => &self.bold,
-        }
+    fn of(&self, weight: Weight) -> &Lettering {
+        &self.0[weight as usize]
     }
 
     /// Returns the width of a text.
     pub(super) fn width(&self, text: &str, style: Style) -> f32 {
-        self.of(style.weight).measured.width(text, style.size)
+        self.of(style.weight).width(text, style.size)
     }
 
     /// Truncates a text in its middle to fit the width: both ends of a path matter more than its middle.
@@ -171,7 +117,10 @@ impl Faces {
 
 /// A page being drawn.
 pub(super) struct Sheet<'a> {
-    surface: Surface<'a>,
+    size: [f32; 2],
+    content: Content,
+    fonts: [UsedGlyphs; 2],
+    pictures: Vec<RgbImage>,
     pub(super) faces: &'a Faces,
     /// All texts and their areas, for tests of the layout.
     #[cfg(test)]
@@ -179,9 +128,15 @@ pub(super) struct Sheet<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    pub(super) fn new(surface: Surface<'a>, faces: &'a Faces) -> Self {
+    pub(super) fn new(size: [f32; 2], faces: &'a Faces) -> Self {
+        let mut content = Content::new();
+        // In PDF, y goes up from the lower left corner.
+        content.transform([1.0, 0.0, 0.0, -1.0, 0.0, size[1]]);
         Self {
-            surface,
+            size,
+            content,
+            fonts: Default::default(),
+            pictures: Vec::new(),
             faces,
             #[cfg(test)]
             texts: Vec::new(),
@@ -205,18 +160,32 @@ impl<'a> Sheet<'a> {
                 height: 0.9 * style.size,
             },
         ));
-        let face = self.faces.of(style.weight);
-        self.surface.set_fill(Some(filled(style.ink)));
-        self.surface.set_stroke(None);
-        let start = Point::from_xy(left, at[1]);
-        self.surface.draw_glyphs(
-            start,
-            &face.glyphs(text),
-            face.written.clone(),
-            text,
-            style.size,
-            false,
-        );
+        let glyphs = self.faces.of(style.weight).glyphs(text);
+        let used = &mut self.fonts[style.weight as usize];
+        let (mut codes, mut is_plain) = (Vec::new(), true);
+        for (letter, (glyph, width)) in text.chars().zip(glyphs) {
+            let (code, is_letter) = used.code(glyph, width, letter);
+            codes.extend(code.to_be_bytes());
+            is_plain &= is_letter;
+        }
+        if !is_plain {
+            let mut span = self
+                .content
+                .begin_marked_content_with_properties(Name(b"Span"));
+            span.properties().actual_text(TextStr(text));
+            span.finish();
+        }
+        let [red, green, blue] = colour(style.ink);
+        self.content
+            .set_fill_rgb(red, green, blue)
+            .begin_text()
+            .set_font(style.weight.resource(), style.size)
+            .set_text_matrix([1.0, 0.0, 0.0, -1.0, left, at[1]])
+            .show(Str(&codes))
+            .end_text();
+        if !is_plain {
+            self.content.end_marked_content();
+        }
     }
 
     /// Writes lines from `at` downwards. Returns the baseline after the last one.
@@ -238,15 +207,11 @@ impl<'a> Sheet<'a> {
 
     /// Fills an area.
     pub(super) fn fill(&mut self, area: Area, ink: Ink) {
-        let mut path = PathBuilder::new();
-        if let Some(rect) = area.rect() {
-            path.push_rect(rect);
-        }
-        if let Some(path) = path.finish() {
-            self.surface.set_fill(Some(filled(ink)));
-            self.surface.set_stroke(None);
-            self.surface.draw_path(&path);
-        }
+        let [red, green, blue] = colour(ink);
+        self.content
+            .set_fill_rgb(red, green, blue)
+            .rect(area.left, area.top, area.width, area.height)
+            .fill_nonzero();
     }
 
     /// Draws the border of an area.
@@ -265,23 +230,17 @@ impl<'a> Sheet<'a> {
 
     /// Draws a line through points.
     pub(super) fn line(&mut self, points: &[[f32; 2]], width: f32, ink: Ink) {
-        let mut path = PathBuilder::new();
+        let [red, green, blue] = colour(ink);
+        self.content
+            .set_line_width(width)
+            .set_stroke_rgb(red, green, blue);
         for (i, [x, y]) in points.iter().enumerate() {
-            if i == 0 {
-                path.move_to(*x, *y);
-            } else {
-                path.line_to(*x, *y);
-            }
+            match i {
+                0 => self.content.move_to(*x, *y),
+                _ => self.content.line_to(*x, *y),
+            };
         }
-        if let Some(path) = path.finish() {
-            self.surface.set_fill(None);
-            self.surface.set_stroke(Some(Stroke {
-                paint: colour(ink).into(),
-                width,
-                ..Stroke::default()
-            }));
-            self.surface.draw_path(&path);
-        }
+        self.content.stroke();
     }
 
     /// Draws a picture in the upper left of the area, as large as it fits. Returns the area covered.
@@ -298,41 +257,38 @@ impl<'a> Sheet<'a> {
             height: height * scale,
             ..area
         };
-        let Some(size) = Size::from_wh(covered.width, covered.height) else {
-            return covered;
-        };
         // More pixels than the paper shows would only enlarge the file.
         let shrunk = (scale * DENSITY < 1.0).then(|| {
             let side = |side: f32| (side * scale * DENSITY).ceil().max(1.0) as u32;
             image::imageops::resize(picture, side(width), side(height), FilterType::Triangle)
         });
         let shown = shrunk.unwrap_or_else(|| picture.clone());
-        let (columns, rows) = shown.dimensions();
-        let image = Image::from_rgba8(
-            DynamicImage::from(shown).into_rgba8().into_raw(),
-            columns,
-            rows,
-        );
-        self.surface
-            .push_transform(&Transform::from_translate(covered.left, covered.top));
-        self.surface.draw_image(image, size);
-        self.surface.pop();
+        let name = file::picture_name(self.pictures.len());
+        self.pictures.push(shown);
+        // A picture is a unit square with its upper side up.
+        let Area { left, top, .. } = covered;
+        let place = [
+            covered.width,
+            0.0,
+            0.0,
+            -covered.height,
+            left,
+            top + covered.height,
+        ];
+        self.content
+            .save_state()
+            .transform(place)
+            .x_object(Name(name.as_bytes()))
+            .restore_state();
         covered
     }
 
-    /// Ends the page.
-    pub(super) fn finish(self) {
-        self.surface.finish();
+    /// Returns the page as a PDF file.
+    pub(super) fn finish(self, about: &About<'_>) -> Vec<u8> {
+        file::write(about, self.size, self.content, &self.fonts, &self.pictures)
     }
 }
 
-fn colour([red, green, blue]: Ink) -> rgb::Color {
-    rgb::Color::new(red, green, blue)
-}
-
-fn filled(ink: Ink) -> Fill {
-    Fill {
-        paint: colour(ink).into(),
-        ..Fill::default()
-    }
+fn colour(ink: Ink) -> [f32; 3] {
+    ink.map(|value| f32::from(value) / 255.0)
 }

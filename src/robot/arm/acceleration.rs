@@ -7,7 +7,7 @@
 //! exactly one window before and behind the point are computed on the straight moves there, and the larger result
 //! counts.
 //!
-//! For the rail only the points are used: between them it may accelerate evenly. Over a long move that mean says little,
+//! For the rail only the points are used: between them it may accelerate evenly. Over a long move that mean is of little use,
 //! so a move of the rail between two points that begins or ends at a standstill also needs at least the acceleration
 //! that brings it there in time ([`least_acceleration`]), even if it begins a window early and ends a window late.
 //!

@@ -15,12 +15,12 @@ use crate::geometry::rigid::RigidTransform;
 /// Costs in seconds of joint motion: of a singularity nearby, and of turning the nozzle by one step.
 const SINGULAR_COST: f64 = 2.0;
 const TURN_COST: f64 = 0.02;
-/// Cost of every radian by which a joint is beyond half a turn: some controllers cannot name such turns, and cables
-/// suffer.
+/// Cost per radian by which a joint is beyond half a turn: some controllers cannot express such turns, and they strain
+/// cables.
 const WOUND_COST: f64 = 0.001;
 /// Cost of a tilt per radian, so that the nozzle is only tilted where that avoids a problem or a singularity.
 const TILT_COST: f64 = 6.0;
-/// Cost of a joint move between two strokes, which takes a stop at both ends.
+/// Cost of a joint move between two strokes: the arm stops before and after it.
 const JOINT_MOVE_COST: f64 = 5.0;
 /// Cost of joints that are faster than this share of their top speeds, times the excess: between two points they may be
 /// faster than on average.
@@ -101,7 +101,7 @@ pub(super) fn nozzle_at(point: &ArmPoint, [x, y]: Tilt, angle: f64) -> RigidTran
     point.robot_from_nozzle * aim * tilt * aim.inverse() * turn
 }
 
-/// The turns to be tried at a point: all of a round jet; half a turn of a fan, which is symmetric.
+/// The turns to try at a point: all for a round jet; half a turn for a fan, which is symmetric.
 pub(super) fn turns_of(point: &ArmPoint, num_turns: usize) -> impl Iterator<Item = usize> + use<> {
     let step = match (point.is_turn_free, num_turns.is_multiple_of(2)) {
         (true, _) => 1,
@@ -126,7 +126,7 @@ pub(super) fn candidates_of(
             for solution in solver.solutions(&pose, None) {
                 let is_singular = solver.singularity(&solution).is_some();
                 let configuration = solver.arm.configuration_bit(&solution);
-                // Turning away from the path's own orientation has no benefit of its own.
+                // Prefer the orientation of the path.
                 let away = turn.min(num_turns - turn) as f64;
                 let cost = 0.1 * TURN_COST * away
                     + TILT_COST * x.hypot(y)
@@ -241,7 +241,7 @@ fn best_chain(
                 &points[i].robot_from_nozzle,
             );
             let (start, end) = (&points[i - 1], &points[i]);
-            // With the gun off the arm may take its time.
+            // With the gun off, the arm may move more slowly.
             let speed = if start.is_gun_on {
                 start.speed
             } else {
@@ -256,7 +256,7 @@ fn best_chain(
             let step = |previous: &Candidate| {
                 let apart = turns_apart(previous.turn, candidate.turn, num_turns);
                 let (time, angle) = joint_time(arm, &previous.joints, &candidate.joints);
-                // The joints' greatest speed as a share of what they can.
+                // Speed of the fastest joint as a share of its maximum.
                 let share = allowed.map_or(time, |allowed| time / allowed);
                 let is_jump = share > 1.0
                     || angle > PI

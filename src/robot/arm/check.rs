@@ -14,7 +14,7 @@ use super::{
     validate::validate,
     way::{Way, WayEnd, way_between},
 };
-use crate::geometry::rigid::RigidTransform;
+use crate::{geometry::rigid::RigidTransform, units::counted};
 
 /// A pose of the nozzle that the arm must reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +66,7 @@ impl Default for CheckParams {
 pub struct PointCheck {
     /// The joints; none if the point is out of reach or beyond a limit.
     pub joints: Option<Joints>,
-    /// The nozzle there: as in the path but for turn and tilt.
+    /// Pose of the nozzle: that of the path, turned and tilted.
     pub robot_from_nozzle: RigidTransform,
     /// Turn about the nozzle's z axis relative to the path, radians within ±π.
     pub turn: f64,
@@ -74,9 +74,9 @@ pub struct PointCheck {
     pub tilt: f64,
     /// Position of the rail, metres; 0 without one.
     pub rail: f64,
-    /// How the arm comes here from the previous point.
+    /// How the arm moves here from the previous point.
     pub way: Way,
-    /// The problem of the point, or of the way to it, if any.
+    /// The problem of the point, or of the move to it, if any.
     pub problem: Option<PointProblem>,
 }
 
@@ -99,7 +99,7 @@ impl PathCheck {
             .count()
     }
 
-    /// Number of points at which the nozzle is tilted, and the greatest tilt, radians; `None` if it is nowhere.
+    /// Number of points at which the nozzle is tilted, and the greatest tilt, radians; `None` if it is tilted at none.
     pub fn tilted(&self) -> Option<(usize, f64)> {
         let tilts = self.points.iter().map(|point| point.tilt);
         let tilts = tilts.filter(|tilt| *tilt > 0.0);
@@ -140,14 +140,15 @@ impl PathCheck {
             0 => String::new(),
             num => format!(" and would collide at {num}"),
         };
-        (num < all).then(|| format!("{arm} reaches {num} of {all} points{collisions}"))
+        let all_points = counted(all, "point", "points");
+        (num < all).then(|| format!("{arm} reaches {num} of {all_points}{collisions}"))
     }
 }
 
 /// Finds the joints for every point of the path, or the problem there. Points without a problem are reached one after
 /// the other by straight moves at their speed; with the gun off, more slowly or by joint moves where that is needed.
-/// With an approach distance, the ways to the path and from it are checked
-/// as well; their problems are reported at the first and the last point.
+/// With an approach distance, the moves to and from the path are checked as well; their problems are reported at the first
+/// and the last point.
 pub fn check_path(
     placed: &PlacedArm,
     points: &[ArmPoint],
@@ -222,7 +223,7 @@ fn check_points(
     let Some((rail, _)) = moving.filter(|_| num_bad(&checked) > 0) else {
         return Ok(checked);
     };
-    // The run of the rail is chosen without looking at speeds.
+    // The positions of the rail are chosen without regard to speeds.
     let at = params.rail.clamp(rail.range[0], rail.range[1]);
     let rails = vec![at; points.len()];
     let still = check_on(is_cancelled, placed, points, params, &rails)?;
@@ -295,7 +296,7 @@ fn num_bad(checked: &[PointCheck]) -> usize {
         .count()
 }
 
-/// The one with fewer points that are not reached; if equal, the second.
+/// Returns the check that misses fewer points; the second if both miss as many.
 fn fewer_bad(one: Vec<PointCheck>, other: Vec<PointCheck>) -> Vec<PointCheck> {
     if num_bad(&one) < num_bad(&other) {
         one
@@ -369,7 +370,7 @@ fn check_chosen(
     Ok(checked)
 }
 
-/// The points with the speeds and stops of the ways that were found.
+/// Returns the points with the speeds and stops of the moves found.
 fn as_passed(points: &[ArmPoint], checked: &[PointCheck]) -> Vec<ArmPoint> {
     let mut passed = points.to_vec();
     for (i, point) in checked.iter().enumerate().skip(1) {

@@ -49,7 +49,7 @@ const MAX_BOXES: usize = 200;
 const MAX_NAME: usize = 60;
 /// Limit for coordinates and sizes, millimetres; no cell is larger.
 const LARGEST: f64 = 100_000.0;
-/// Least length of a box's longest side, millimetres: sizes in metres are below it.
+/// Minimum length of a box's longest side, millimetres: a smaller one was probably given in metres.
 const LEAST_SIDE: f64 = 10.0;
 
 /// A body of gun or arm.

@@ -100,7 +100,7 @@ pub(super) fn rail_positions(
 
 /// The configurations that reach a point at some turn of the nozzle, a bit for each.
 fn configurations(arm: &Arm, solver: &Solver<'_>, point: &ArmPoint) -> u8 {
-    // A fan does not turn on the way, and a configuration that only the other way round reaches is another one.
+    // A fan keeps its orientation between two points, so only configurations that reach the point in this one count.
     let num_turns = if point.is_turn_free { NUM_TURNS } else { 1 };
     let mut found = 0;
     for turn in turns_of(point, num_turns) {

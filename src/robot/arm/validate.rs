@@ -3,14 +3,14 @@
 use super::{ArmError, ArmPoint, CheckParams, GUN_RADIUS, PlacedArm, kinematics::Solver};
 use crate::{geometry::rigid::is_finite, robot::spray::MOST_TILT, units::Metres};
 
-/// Least radius of the gun, metres: a gun without one is a line, and its body is not checked.
+/// Minimum radius of the gun, metres: a gun of radius 0 is a line, and collisions of its body are not checked.
 const LEAST_GUN_RADIUS: f64 = 0.001;
 /// The foot of an arm may be this far below the floor, metres.
 pub(super) const PIT: f64 = 0.1;
-/// Most turns: steps of 5°.
+/// Maximum number of turns about the nozzle's axis: steps of 5°.
 const MAX_TURNS: usize = 72;
 
-/// Refuses what cannot be checked. An error counts the points of `points` from 1.
+/// Returns an error if arm, path or parameters cannot be checked; it numbers points from 1.
 pub(super) fn validate(
     placed: &PlacedArm,
     points: &[ArmPoint],

@@ -1,4 +1,4 @@
-//! The straight move from one checked point to the next.
+//! The move from one checked point to the next.
 
 use super::{
     Arm, ArmPoint, PlacedArm, PointCheck,
@@ -8,25 +8,25 @@ use super::{
 };
 use crate::geometry::rigid::RigidTransform;
 
-/// Longest steps in which straight moves are followed, metres and radians.
+/// Maximum step in which straight moves are checked, metres and radians.
 const STEP: [f64; 2] = [0.05, 0.175];
 /// Differences of joints up to this are ignored, radians.
 const SAME: f64 = 1e-4;
 
 /// Lowest speed at which the arm moves between strokes, m/s.
 pub(super) const SLOWEST: f64 = 0.01;
-/// Longest steps in which joint moves are followed, radians.
+/// Maximum step in which joint moves are checked, radians.
 const JOINT_STEP: f64 = 0.05;
 
-/// How the arm comes to a point.
+/// How the arm moves to a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Way {
-    /// Straight, at the path's speed.
+    /// In a straight line, at the speed of the path.
     #[default]
     Planned,
-    /// Straight and with the gun off, at this lower speed, m/s.
+    /// In a straight line with the gun off, at this lower speed, m/s.
     Slower(f64),
-    /// By a joint move with the gun off, for instance into another configuration.
+    /// By a joint move with the gun off, for example to change the configuration.
     Joints,
 }
 
@@ -73,7 +73,7 @@ impl WayEnd {
     }
 }
 
-/// Whether the arm may come to `end` by a joint move: with the gun off, and only if the program can name the
+/// True if the arm may reach `end` by a joint move: with the gun off, and only if the program can name the
 /// configuration there. The approach and the retreat are straight.
 pub(super) fn may_move_by_joints(arm: &Arm, start: &ArmPoint, end: &ArmPoint) -> bool {
     let is_end_of_program = start.is_stop && end.is_stop;
@@ -109,7 +109,7 @@ pub(super) fn way_between(
     (Way::Planned, problem)
 }
 
-/// Whether gun and arm are clear of everything during a joint move.
+/// True if gun and arm collide with nothing during a joint move.
 fn is_joint_move_free(placed: &PlacedArm, from: &WayEnd, to: &WayEnd) -> bool {
     let num = (apart(&from.joints, &to.joints) / JOINT_STEP).ceil();
     (1..num as usize).all(|k| {

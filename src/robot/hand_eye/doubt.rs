@@ -105,7 +105,7 @@ pub enum HandEyeDoubt {
         /// What the poses span.
         span: Span,
     },
-    /// Too few pairs for their residuals to say much.
+    /// Too few pairs for meaningful residuals.
     #[error("with {found} pairs the residuals say little about how far off the result is")]
     FewPairs {
         /// Pairs given.

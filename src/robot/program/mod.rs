@@ -52,7 +52,7 @@ use self::{configuration::configuration, steps::Step, text::Lines};
 use crate::{
     geometry::rigid::{RigidTransform, is_finite},
     robot::arm::{PathCheck, PlacedArm, Way},
-    units::{Metres, Radians},
+    units::{Metres, Radians, counted},
 };
 
 pub use self::{
@@ -102,7 +102,7 @@ impl Default for ProgramSettings {
             gun_output: 1,
             speed: 0.25,
             approach: Metres(0.1),
-            // The film within a tolerance of 20 % hardly changes by that.
+            // This hardly changes how much of the film is within a tolerance of 20 %.
             max_tilt: Radians::from_degrees(10.0),
             blend: Metres(0.005),
         }
@@ -218,8 +218,8 @@ impl Program<'_> {
         Ok(())
     }
 
-    /// Whether the language can name the configuration of the checked arm at every point that it reaches. If it cannot at
-    /// one of them, it names none: between two that it names, the controller might turn a joint once around.
+    /// True if the language can express the configuration of the checked arm at every point that it reaches. Otherwise the
+    /// program gives no configuration at all: with some of them, the controller might turn a joint by a full turn in between.
     fn names_configurations(&self, format: ProgramFormat) -> bool {
         self.reach.is_some_and(|(arm, check)| {
             let all = check.points.iter().chain(check.ends.iter().flatten());
@@ -291,13 +291,14 @@ impl Program<'_> {
         );
         if let Some(axis) = format.rail_axis().filter(|_| self.moves_on_rail()) {
             lines.push(format!(
-                "rail: {axis}, mm, 0 where the cell was calibrated, coupled to the arm, the frame does not move along"
+                "rail: {axis}, mm, 0 where the cell was calibrated, coupled to the arm; the frame does not move with it"
             ));
         }
         if let Some((arm, check)) = self.reach {
             if let Some((num, most)) = check.tilted() {
                 lines.push(format!(
-                    "nozzle: tilted at {num} points by up to {:.1} degrees, where the arm could not otherwise follow the path",
+                    "nozzle: tilted at {} by up to {:.1} degrees, where the arm could not otherwise follow the path",
+                    counted(num, "point", "points"),
                     most.to_degrees()
                 ));
             }
@@ -330,8 +331,8 @@ impl Program<'_> {
             lines.push("reach and collisions: not checked".into());
         }
         lines.push(format!(
-            "{} points, gun: output {}",
-            self.points.len(),
+            "{}, gun: output {}",
+            counted(self.points.len(), "point", "points"),
             self.settings.gun_output
         ));
         lines.push("Begin where the arm reaches the first pose freely.".into());

@@ -159,7 +159,7 @@ mod tests {
             assert!(moved.fold(0.0, f64::max) > 0.01, "{near:?}");
             assert_eq!(arm.arm.configuration(&end), arm.arm.configuration(&point));
         }
-        // 5 m behind the nozzle nothing is reached.
+        // The arm does not reach 5 m behind the nozzle.
         settings.approach = Metres(5.0);
         let far = check_reach(&arm, &line(1.2), &frame, &settings).expect("checked");
         let problems: Vec<bool> = far.points.iter().map(|p| p.problem.is_some()).collect();

@@ -14,6 +14,9 @@
 //! Source of the band: the paper's section V-B, eq. 14 (10 to 20 cm, normal at the nozzle). It gives no limit for the
 //! angle; ours is [`MOST_TILT`].
 //!
+//! A path that does not belong to the part is found without the camera, because a part may be half hidden: its nozzle
+//! does not meet the enrolled surface, or not near its own stand-off ([`off_the_part`]).
+//!
 //! Known limits: where the camera does not see the part, because something is in front of it or it faces away, nothing
 //! can be compared; such points are [`BandStatus::NotSeen`]. Reach and collisions of the arm are not checked here.
 
@@ -26,6 +29,7 @@ use std::f64::consts::PI;
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::{
+    error::Advice,
     geometry::{cloud::PointCloud, rigid::RigidTransform},
     library::{PathPoint, SprayPath},
     stages::{
@@ -161,7 +165,7 @@ pub fn carry(
     let mut before: Option<Vector3<f64>> = None;
     let points = path.points().iter().map(|point| {
         let mut part_from_nozzle = tool_frame(point);
-        // A fan is the same turned by 180°; the nozzle must not turn for that.
+        // A fan turned by 180° is the same fan: choose the sign that keeps the nozzle from turning.
         if point.fan.is_some() {
             let x = part_from_nozzle * Vector3::x();
             if before.is_some_and(|before| before.dot(&x) < 0.0) {
@@ -201,6 +205,63 @@ pub fn against_reference(
         band_of(meeting(&tool_frame(point), &surface, expected), params)
     });
     bands.collect()
+}
+
+/// A path that does not belong to the part with which it is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the spray path does not aim at the part: of its {num_spraying} points with the gun on, {num_aiming} have the enrolled part before them, at about their stand-off"
+)]
+pub struct OffThePart {
+    /// Number of points with the gun on.
+    pub num_spraying: usize,
+    /// Number of those that aim at the part.
+    pub num_aiming: usize,
+}
+
+impl Advice for OffThePart {
+    fn advice(&self) -> String {
+        "Check that the path is that of this part, in the part's frame, in the unit that its heading says, and points towards the part".into()
+    }
+}
+
+/// Minimum share of the points with the gun on that aim at the part. It is low because a gun also sprays beyond edges and
+/// over openings: of the points planned over the shipped parts, 40 to 70 % aim at them, and 13 % with an overrun of 400 mm.
+const LEAST_AIMING: f64 = 0.05;
+/// Minimum share of the points that meet the part which do so at about their stand-off. Planned paths have 98 % or more.
+const LEAST_AT_STAND_OFF: f64 = 0.5;
+/// A stand-off may be off by half of it, or by this, metres, if that is more.
+const LEAST_SLACK: f64 = 0.05;
+
+/// Compares a path with the part as it was enrolled; `None` if it belongs to it, or if the part has no normals. Where the
+/// path names no stand-off, the nozzle only has to be in front of the part.
+pub fn off_the_part(path: &SprayPath, reference: &Reference) -> Option<OffThePart> {
+    let surface = ReferenceSurface::of(reference)?;
+    let taught = StandOffParams::default().taught;
+    let points = path.points();
+    // A path that never sprays is judged by all of its points.
+    let sprays = points.iter().any(|point| point.is_gun_on);
+    let (mut num_spraying, mut num_met, mut num_aiming) = (0_usize, 0_usize, 0_usize);
+    for point in points.iter().filter(|point| point.is_gun_on || !sprays) {
+        num_spraying += 1;
+        let expected = point.stand_off.unwrap_or(taught);
+        let Some(met) = meeting(&tool_frame(point), &surface, expected) else {
+            continue;
+        };
+        num_met += 1;
+        let is_near = point
+            .stand_off
+            .map_or(met.distance.0 > -LEAST_SLACK, |taught| {
+                (met.distance.0 - taught.0).abs() <= LEAST_SLACK.max(0.5 * taught.0)
+            });
+        num_aiming += usize::from(is_near);
+    }
+    let is_off = (num_aiming as f64) < LEAST_AIMING * num_spraying as f64
+        || (num_aiming as f64) < LEAST_AT_STAND_OFF * num_met as f64;
+    is_off.then_some(OffThePart {
+        num_spraying,
+        num_aiming,
+    })
 }
 
 /// The default for a part without a stored path: one nozzle at the taught distance, on the normal of the point nearest

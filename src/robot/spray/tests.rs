@@ -4,8 +4,10 @@ use nalgebra::Unit;
 use super::*;
 use crate::{
     geometry::rigid::from_euler_zyx,
-    kit::{moved, plate},
+    kit::{moved, plate, shipped_library},
+    paint::{Coat, PaintSurface, Pattern, plan},
     robot::{Convention, RobotFrame, parse_written_pose},
+    stages::reference::Coverage,
 };
 
 fn seen_at(pose: &RigidTransform) -> PointCloud {
@@ -97,6 +99,61 @@ fn a_path_in_another_frame_lies_off_the_reference() {
         ..*point
     });
     assert_eq!(inside(&SprayPath::new(moved.collect()).expect("points")), 0);
+}
+
+#[test]
+fn a_planned_path_aims_at_its_part_and_one_of_another_part_or_frame_does_not() {
+    let library = shipped_library();
+    let part = |name: &str| {
+        let mut references = library.references.iter();
+        let found = references.find(|reference| reference.name.as_str() == name);
+        found.expect("shipped")
+    };
+    let planned = |name: &str, coat: &Coat| {
+        let surface = PaintSurface::of(part(name), Coverage::OneSide).expect("a surface");
+        plan(&surface, coat, &[]).expect("planned")
+    };
+    // Of the shipped parts, these have the fewest points that aim at them: far beyond the edges, along the outlines of
+    // openings, and over bars.
+    let coat = Coat::default();
+    let beyond = Coat {
+        overrun: 0.4,
+        ..coat
+    };
+    let rings = Coat {
+        pattern: Pattern::Contour,
+        ..coat
+    };
+    for (name, coat) in [
+        ("fender", beyond),
+        ("grille", rings),
+        ("radiator_support", coat),
+    ] {
+        let path = planned(name, &coat);
+        assert_eq!(off_the_part(&path, part(name)), None, "{name}");
+    }
+    let of_grille = off_the_part(&planned("grille", &coat), part("front_door"));
+    let of_grille = of_grille.expect("the path of another part");
+    assert!(
+        2 * of_grille.num_aiming < of_grille.num_spraying,
+        "{of_grille}"
+    );
+    let fender = planned("fender", &coat);
+    let shifted = |by: [f64; 3], knows_stand_off: bool| {
+        let points = fender.points().iter().map(|point| PathPoint {
+            nozzle: point.nozzle + Vector3::from(by),
+            stand_off: point.stand_off.filter(|_| knows_stand_off),
+            ..*point
+        });
+        let path = SprayPath::new(points.collect()).expect("points");
+        off_the_part(&path, part("fender"))
+    };
+    for by in [[5.0, 5.0, 9.0], [1.5, 0.0, 0.0], [0.0, 0.0, -0.2]] {
+        assert!(shifted(by, true).is_some(), "{by:?}");
+    }
+    // Another model, and a gun that sprays from farther away.
+    assert_eq!(shifted([0.0, 0.0, -0.03], true), None);
+    assert_eq!(shifted([0.0, 0.0, -0.2], false), None);
 }
 
 #[test]

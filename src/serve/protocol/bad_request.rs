@@ -5,7 +5,8 @@ use thiserror::Error;
 use super::{ByteOrder, binary::VERSION, plain};
 use crate::error::Advice;
 
-/// Why bytes are not a request. The client is told and disconnected, because the start of the next request is unknown.
+/// Why bytes are not a request. The client gets this as an answer and is disconnected, because the start of the next
+/// request is unknown.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum BadRequest {
     /// The request is longer than any valid one.

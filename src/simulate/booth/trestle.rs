@@ -219,15 +219,21 @@ impl Frame {
     }
 }
 
-/// Returns the frontmost point of the part's edge in a direction of the xy plane.
-fn edge_in_direction(part: &[Point3<f64>], direction: f64) -> Option<Point3<f64>> {
+/// Returns the frontmost point of the part's edge in a direction of the xy plane, and the unit vectors in that direction
+/// and across it.
+fn edge_in_direction(
+    part: &[Point3<f64>],
+    direction: f64,
+) -> Option<(Point3<f64>, [Vector3<f64>; 2])> {
     let (sin, cos) = direction.sin_cos();
     let reach = |p: &Point3<f64>| p.x * cos + p.y * sin;
     let farthest = part.iter().map(reach).fold(f64::NEG_INFINITY, f64::max);
-    part.iter()
-        .filter(|p| reach(p) > farthest - 0.006)
-        .min_by(|a, b| a.z.total_cmp(&b.z))
-        .copied()
+    let edge = part.iter().filter(|p| reach(p) > farthest - 0.006);
+    let front = edge.min_by(|a, b| a.z.total_cmp(&b.z))?;
+    Some((
+        *front,
+        [Vector3::new(cos, sin, 0.0), Vector3::new(-sin, cos, 0.0)],
+    ))
 }
 
 /// Adds a clamp: an arm from the frame to beside the edge, a jaw over the edge, a spindle with a cross handle.
@@ -238,12 +244,9 @@ fn add_clamp(
     direction: f64,
     random: &mut Pcg64,
 ) {
-    let Some(edge) = edge_in_direction(part, direction) else {
+    let Some((edge, [outwards, aside])) = edge_in_direction(part, direction) else {
         return;
     };
-    let (sin, cos) = direction.sin_cos();
-    let outwards = Vector3::new(cos, sin, 0.0);
-    let aside = Vector3::new(-sin, cos, 0.0);
     let size = random.random_range(0.014..0.028);
     let beside = edge + outwards * (0.5 * size + 0.002);
     let arm = Tube::square(size);
@@ -278,12 +281,9 @@ fn add_bar_beside(
     direction: f64,
     random: &mut Pcg64,
 ) {
-    let Some(edge) = edge_in_direction(part, direction) else {
+    let Some((edge, [outwards, aside])) = edge_in_direction(part, direction) else {
         return;
     };
-    let (sin, cos) = direction.sin_cos();
-    let outwards = Vector3::new(cos, sin, 0.0);
-    let aside = Vector3::new(-sin, cos, 0.0);
     let gap = if random.random_bool(0.3) {
         0.0
     } else {

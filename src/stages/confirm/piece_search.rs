@@ -15,7 +15,7 @@ use crate::{
     geometry::{cloud::is_finite, rigid::RigidTransform},
     stages::reference::{
         Reference,
-        border::{BorderPair, BorderPoint, ReferenceBorder, frame_of},
+        border::{BorderPair, BorderPoint, ReferenceBorder, ReferencePair, frame_of},
     },
 };
 
@@ -208,29 +208,11 @@ impl PreparedScene<'_> {
         piece: &PieceSample,
         reference: &Reference,
         border: &ReferenceBorder,
-        pair: &OrientedPair,
+        ours: &OrientedPair,
         poses: &mut RoughPoses,
     ) {
-        let OrientedPair { pair, middle, axes } = pair;
-        let ours = pair.of.map(|i| &piece.border[usize::from(i)]);
-        // Nested iterators are quicker from within, by for_each, than around a loop.
-        let alike = border.pairs_like(*pair, DISTANCE_OFF, ANGLE_OFF);
-        alike.for_each(|theirs| {
-            let points = theirs.pair.of.map(|i| &border.points[usize::from(i)]);
-            let (onto, their_axes) = theirs.frame(points);
-            let turn: Matrix3<f32> = their_axes * axes.transpose();
-            let are_turned_alike = ours
-                .iter()
-                .zip(points)
-                .all(|(a, b)| (turn * a.normal).dot(&b.normal) > NORMAL_OFF);
-            if !are_turned_alike {
-                return;
-            }
-            let shift = (onto - turn * middle.coords).coords;
-            if let Some(off) = early_out_cost(piece, reference, border, &turn, &shift, poses.limit)
-            {
-                poses.push(off, &turn, &shift);
-            }
+        border.visit_pairs_like(&ours.pair, DISTANCE_OFF, ANGLE_OFF, |theirs| {
+            try_pose(piece, reference, border, ours, theirs, poses);
         });
     }
 
@@ -252,10 +234,7 @@ impl PreparedScene<'_> {
             let at = moved * p;
             if !is_beyond(&at) {
                 num += 1;
-                off += reference
-                    .field
-                    .nearest(&at)
-                    .map_or(1.0, |n| clipped(n.distance_sq));
+                off += clipped(reference.field.distance_sq(&at));
             }
         }
         if num < LEAST_SHARED {
@@ -271,12 +250,9 @@ impl PreparedScene<'_> {
             let at = moved * p.at;
             if !is_beyond(&at) {
                 num += 1.0;
-                let nearest = reference
-                    .borders()
-                    .iter()
-                    .filter_map(|border| border.field.nearest(&at));
-                let least = nearest.map(|n| n.distance_sq).fold(f32::INFINITY, f32::min);
-                off += clipped(least);
+                let borders = reference.borders().iter();
+                let distances_sq = borders.map(|border| border.field.distance_sq(&at));
+                off += clipped(distances_sq.fold(f32::INFINITY, f32::min));
             }
         }
         if num > 0.0 {
@@ -309,7 +285,7 @@ impl PreparedScene<'_> {
             let Some((u, v)) = camera.pixel_of(&at) else {
                 continue;
             };
-            let (u, v) = ((u + 0.5).floor(), (v + 0.5).floor());
+            let (u, v) = (u + 0.5, v + 0.5);
             let is_inside =
                 u >= 0.0 && v >= 0.0 && u < camera.width as f64 && v < camera.height as f64;
             if !is_inside {
@@ -371,6 +347,32 @@ impl RoughPoses {
     }
 }
 
+/// Keeps the pose in which a pair of the piece's border lies on one of the reference's, if the first points agree.
+///
+/// By itself, so that the search for pairs, most of which are unlike, stays a tight loop.
+#[inline(never)]
+fn try_pose(
+    piece: &PieceSample,
+    reference: &Reference,
+    border: &ReferenceBorder,
+    ours: &OrientedPair,
+    theirs: &ReferencePair,
+    poses: &mut RoughPoses,
+) {
+    let points = theirs.pair.of.map(|i| &border.points[usize::from(i)]);
+    let (onto, their_axes) = theirs.frame(points);
+    let turn: Matrix3<f32> = their_axes * ours.axes.transpose();
+    let are_turned_alike = (ours.pair.of.iter().zip(points))
+        .all(|(i, b)| (turn * piece.border[usize::from(*i)].normal).dot(&b.normal) > NORMAL_OFF);
+    if !are_turned_alike {
+        return;
+    }
+    let shift = (onto - turn * ours.middle.coords).coords;
+    if let Some(off) = early_out_cost(piece, reference, border, &turn, &shift, poses.limit) {
+        poses.push(off, &turn, &shift);
+    }
+}
+
 /// Mean squared distance of the first points at a pose, in squares of [`FAR`], surface and border added; `None` as soon
 /// as too many of them are off, or the sum is beyond `limit`.
 fn early_out_cost(
@@ -385,27 +387,25 @@ fn early_out_cost(
     const PER_POINT: f32 = 1.0 / NUM_TRIED as f32;
     let is_cut = !reference.cut.is_nothing();
     let is_beyond = |at: &Point3<f32>| is_cut && reference.cut.depth_inside(&at.cast()) < AT_CUT;
-    let (mut num, mut num_off, mut sum) = (0_usize, 0_usize, 0.0_f32);
+    // Counted as floats: to convert whole numbers takes longer than to look a point up.
+    let (mut num, mut num_off, mut sum) = (0.0_f32, 0.0_f32, 0.0_f32);
     for p in piece.surface.iter().take(NUM_TRIED) {
         let at = Point3::from(turn * p.coords + shift);
         if is_beyond(&at) {
             continue;
         }
-        num += 1;
-        let off = reference
-            .field
-            .nearest(&at)
-            .map_or(1.0, |n| clipped(n.distance_sq));
-        num_off += usize::from(off >= 1.0);
+        num += 1.0;
+        let off = clipped(reference.field.distance_sq(&at));
+        num_off += if off < 1.0 { 0.0 } else { 1.0 };
         sum += off;
-        if num_off as f32 > 1.0 + MOST_OFF * num as f32 || sum * PER_POINT > limit {
+        if num_off > 1.0 + MOST_OFF * num || sum * PER_POINT > limit {
             return None;
         }
     }
-    if num < LEAST_SHARED {
+    if num < LEAST_SHARED as f32 {
         return None;
     }
-    let surface = sum / num as f32;
+    let surface = sum / num;
     let (mut num, mut num_on, mut sum) = (0.0_f32, 0.0_f32, 0.0_f32);
     for p in piece.border.iter().take(NUM_TRIED) {
         let at = Point3::from(turn * p.at.coords + shift);
@@ -413,10 +413,7 @@ fn early_out_cost(
             continue;
         }
         num += 1.0;
-        let off = border
-            .field
-            .nearest(&at)
-            .map_or(1.0, |n| clipped(n.distance_sq));
+        let off = clipped(border.field.distance_sq(&at));
         num_on += if off < 1.0 { 1.0 } else { 0.0 };
         sum += off;
         if surface + sum * PER_POINT > limit {

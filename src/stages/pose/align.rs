@@ -34,7 +34,10 @@ impl From<PoseMethod> for AlignParams {
     }
 }
 
-/// As [`align_with`] with the method's default parameters, to the end.
+/// Aligns the source to the target, with the method's default parameters.
+///
+/// `initial` is a start; without one the global method searches everywhere, and ICP and ICP-GA begin with no
+/// displacement.
 pub fn align(
     source: &PointCloud,
     target: &PointCloud,
@@ -44,10 +47,7 @@ pub fn align(
     align_with(source, target, &method.into(), initial, &|| false)
 }
 
-/// Aligns the source to the target: `target_from_source`.
-///
-/// `initial` is a start; without one the global method searches everywhere, and ICP and ICP-GA begin with no
-/// displacement. `is_cancelled` is asked every few milliseconds once the target is prepared.
+/// As [`align`], with the given parameters. Once the target is prepared, `is_cancelled` is called every few milliseconds.
 pub fn align_with(
     source: &PointCloud,
     target: &PointCloud,
@@ -141,7 +141,7 @@ fn align_centred(
     Ok(estimate)
 }
 
-/// At most so many of the points, evenly spread over their order.
+/// Returns at most `most` of the points, evenly spread over their order.
 fn thinned(points: &[Point3<f32>], most: usize) -> Vec<Point3<f32>> {
     let step = points.len().div_ceil(most.max(1)).max(1);
     points.iter().step_by(step).copied().collect()

@@ -65,7 +65,7 @@ pub(crate) struct OnSurface {
 
 /// Closest points of a source that moves by small steps.
 ///
-/// Each search also says how far away the second closest point is. As long as a source point has moved by less than
+/// Each search also returns the distance of the second closest point. As long as a source point has moved by less than
 /// the lead of its closest point, no other can have overtaken it.
 #[derive(Debug, Default)]
 pub(super) struct ClosestTracker {

@@ -9,7 +9,7 @@ const LANES: usize = 8;
 /// A neighbour this many times as far away as the other one is no neighbour.
 const SAME_OUTLINE: f32 = 3.0;
 
-/// Ends this many pieces' halves away say which way a border runs.
+/// The direction of a border is taken from ends this many half pieces away.
 const NEIGHBOURS: f64 = 3.0;
 
 /// A few hundred points in columns of eight, which the processor looks at all at once. Neighbours along an outline are
@@ -171,7 +171,7 @@ impl EdgePoints {
     }
 }
 
-/// The direction in which the ends around one spread; its own says where to begin.
+/// Returns the direction in which the ends around one spread, starting from its own direction.
 fn along_neighbours(end: &SurfaceEnd, ends: &[SurfaceEnd], reach: f64) -> Vector3<f32> {
     let spread: Matrix3<f32> = ends
         .iter()

@@ -73,7 +73,7 @@ const BEYOND: f64 = 0.25;
 pub struct Individual {
     /// The genes.
     pub genes: Genes,
-    /// Their cost; infinite where the cost function says so.
+    /// Their cost; may be infinite.
     pub cost: f64,
 }
 

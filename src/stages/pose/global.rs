@@ -1,17 +1,17 @@
 //! The global pose: from no start at all.
 //!
-//! Lengths follow from the clouds: their extent says how far off a start may be, their spacing how fine the answer
-//! can be. Two clouds of the same whole thing have the same principal variances, and their principal axes lie on each
-//! other up to half turns: those starts come first, and if one of them convinces there is nothing else to look for,
-//! since a rigid motion that takes such a cloud onto itself takes its axes onto themselves. Otherwise rotations spread
-//! evenly over SO(3) race each other, centre on centre: all are refined a little on few points, the better go on to more
-//! points and finer scales. A view's centre is not the part's, so the best are put elsewhere and race once more.
+//! Lengths follow from the clouds: their extent limits the error of a start, their spacing the accuracy of the result.
+//! Two clouds of the same whole object have the same principal variances, and their principal axes coincide up to half
+//! turns. These starts come first. If one of them fits well, the search ends, because a rigid motion that maps such a cloud
+//! onto itself also maps its axes onto themselves. Otherwise rotations spread evenly over SO(3), centre on centre, compete
+//! in rounds: all are refined a little on few points, and the best go on to more points and finer scales. The centre of a
+//! view is not that of the part, so the best are shifted and go through the rounds once more.
 //!
-//! Nearly flat sheets slide along themselves as far as their surface goes, so what fits on the fine likeness is judged by
-//! the borders of both clouds as well. Copies of the same points need none, and are then exact.
+//! A nearly flat sheet can slide along its own surface, so the poses that fit on the fine scale are also compared by the
+//! borders of both clouds. Copies of the same points need no borders, and are then exact.
 //!
-//! Known limits: a view ends where the surface turns out of sight, too, and such a border has no counterpart; it pulls
-//! where one happens to be near.
+//! Known limits: a view also ends where the surface turns away from the camera. Such a border has no counterpart, and
+//! attracts the pose to any other border nearby.
 
 mod best;
 mod translations;
@@ -57,11 +57,11 @@ const CONVINCING: f64 = 0.9;
 const MOST_FOR_EDGES: usize = 12_000;
 const NUM_EDGES: usize = 256;
 
-/// What ends a level in the race, and before the last: shares of its scale.
+/// A level ends once its steps are below this share of its scale: in the rounds, and in the level before the last.
 const ROUGHLY_SETTLED: f64 = 0.05;
 const NEARLY_SETTLED: f64 = 0.02;
 
-/// A round of the race.
+/// A round of the search.
 struct Round {
     /// Points of the source.
     num_points: usize,

@@ -123,9 +123,9 @@ struct LocalMinimum {
 /// Where the genetic algorithm searches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SearchRegion {
-    /// Around the best pose, told by the tree: its closest points are mostly the right ones.
+    /// Around the best pose, scored with the tree: its closest points are mostly the right ones.
     NearFine,
-    /// Around the best pose, told by the field.
+    /// Around the best pose, scored with the field.
     NearCoarse,
     /// Everywhere but where ICP ended.
     Elsewhere,

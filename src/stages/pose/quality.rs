@@ -1,4 +1,4 @@
-//! How well a pose fits: distances of the source to the target, and what the camera says about the target.
+//! How well a pose fits: distances of the source to the target, and how much of the target the camera sees.
 //!
 //! Distances alone are blind one way: a small patch lies well on any large part. So the target is also looked for in
 //! the depth image. Where it should be seen, its surface is there, something hides it, or the camera looks past it to
@@ -22,7 +22,7 @@ pub struct FitQuality {
     pub rms_m: f64,
     /// Share of the source points that lie on the target within tolerance, 0..1.
     pub overlap: f64,
-    /// What the camera says of the target at this pose; `None` without a camera.
+    /// How much of the target the camera sees at this pose; `None` without a camera.
     pub sight: Option<VisibilityShares>,
 }
 
@@ -109,7 +109,7 @@ const FAR_OFF_SQ: f64 = 0.0064;
 
 /// Points of the target that are looked for at a pose that is the last word.
 pub const NUM_LOOKED_FOR: usize = 2000;
-/// A surface seen at a flatter angle than this (cosine) is often lost by the camera, so its absence says nothing.
+/// A surface seen at a flatter angle than this (cosine) is often lost by the camera, so its absence is no evidence.
 const LEAST_FACING: f64 = 0.3;
 /// Pixels around the expected one that may show the surface: the pose is not perfect and edges are ragged.
 const PIXEL_REACH: i64 = 2;

@@ -36,7 +36,7 @@ pub struct AlignmentSource {
 pub struct AlignmentTarget<'a> {
     /// The target's points with unit normals.
     pub cloud: &'a PointCloud,
-    /// Search tree over them, made when [`Self::tree`] is first asked for it.
+    /// Search tree over them, built by the first call of [`Self::tree`].
     pub tree: &'a OnceLock<KdTree>,
     /// Field of nearest points around them.
     pub field: &'a NearestField,

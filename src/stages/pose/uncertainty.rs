@@ -3,24 +3,23 @@
 //! The pose minimises a weighted sum of squared distances, so its covariance is that of an M-estimator, the "sandwich"
 //! H⁻¹ M H⁻¹ with H = Σ ψ′ J Jᵀ (P. J. Huber, "The behavior of maximum likelihood estimates under nonstandard conditions",
 //! Fifth Berkeley Symposium, 1967). J is a pair's change by turn and shift, about the middle of the source; ψ′, how the
-//! pull of a pair changes with its distance, is the weight less what the weight loses.
+//! pull of a pair changes with its distance, is the weight minus its decrease.
 //!
-//! Neighbouring pairs err together: a camera rounds depths in steps, and a whole side of an outline lies some
-//! millimetres off where readings are lost. So pairs are taken together by region, an outline also by the side it is on
+//! Errors of neighbouring pairs are correlated: a camera rounds depths in steps, and a whole side of an outline lies some
+//! millimetres off where readings are lost. So pairs are grouped by region, those of an outline also by its side
 //! (K.-Y. Liang and S. L. Zeger, "Longitudinal data analysis using generalized linear models", Biometrika 73(1), 1986),
-//! and M = Σ G Gᵀ + b² Σ g gᵀ. G = Σ w r J over a patch is for what errs by itself. What a region shares has g = Σ w J
-//! over it, and b² is the mean square of the regions' mean distances: of so few, one figure is steadier than the products
-//! of each. Outlines add what a view's outline is never better known than.
+//! and M = Σ G Gᵀ + b² Σ g gᵀ. The sums G = Σ w r J over small patches cover independent errors. For errors that a region
+//! shares, g = Σ w J over the region, and b² is the mean square of the regions' mean distances: there are few regions, so
+//! one figure for all is steadier than a product for each. Outlines add the smallest error that a view's outline can have.
 //!
-//! What holds the pose, H, is counted with care in two places. An edge point holds the part across the outline, not
-//! along it: further along there is a closest point as well. And normals that are a little off feign a hold where
-//! there is none (on a plane they point to every side); that is taken off, and where it is most of the hold, the pose
-//! is unconstrained.
+//! The stiffness H is corrected in two places. An edge point constrains the part across the outline, not along it: further
+//! along there is another closest point. And slightly wrong normals produce spurious stiffness where there is none (on a
+//! plane they point to every side); it is subtracted, and where it is most of the stiffness, the pose is unconstrained.
 //!
-//! The bounds are about the pose of this model. Closest points pull along an outline too, so the refinement ends a
-//! step away from it, which is added.
+//! The bounds refer to the minimum of this model. Closest points also pull along an outline, so the refinement ends a
+//! step away from that minimum; this step is added.
 //!
-//! Known limits: an error that all points share, as of a camera's scale, shows in no residual.
+//! Known limits: an error that all points share, such as that of a camera's scale, shows in no residual.
 
 mod freedom;
 mod normals;
@@ -60,7 +59,7 @@ impl Uncertainty {
         }
     }
 
-    /// False if the source may slide or turn without anything in the way.
+    /// False if the pose is unconstrained: the source may slide or turn.
     pub fn is_held(&self) -> bool {
         self.freedom.is_none()
     }
@@ -70,21 +69,21 @@ impl Uncertainty {
 const LOOSE: Radians = Radians(0.035);
 /// The same where no outline is seen: closest points on a surface alone hold a pose in any shallow valley of E.
 const LOOSE_WITHOUT_OUTLINE: Radians = Radians(0.01);
-/// Where more of the hold than this is feigned, there is none.
-const FEIGNED: f64 = 0.5;
-/// What the direction of a border is off by that was found among the points of a cloud, radians.
+/// A motion is unconstrained if more than this share of the stiffness against it is spurious.
+const MAX_SPURIOUS: f64 = 0.5;
+/// Error of the direction of a border found among the points of a cloud, radians.
 const EDGE_TILT: f64 = 0.1;
-/// Every so many pairs show what is feigned: it is a mean.
-const FEIGNED_EVERY: usize = 4;
+/// The spurious stiffness is estimated from every fourth pair.
+const SPURIOUS_EVERY: usize = 4;
 /// Side of a region of the surface and of the outline, in root mean square distances of the points from their middle.
 /// An outline's errors reach further.
 const REGION: f64 = 1.2;
-/// Side of a patch of the surface, likewise: what errs by itself, as the points of a cloud do.
+/// Side of a patch of the surface, in the same unit: its error is independent of other patches, like those of points.
 const PATCH: f64 = 0.4;
 const OUTLINE_REGION: f64 = 1.5;
-/// What a stretch of an outline may be off by, where the residuals do not show it: a pixel at 1.5 m, metres.
+/// Error of a stretch of an outline that the residuals do not show, metres: a pixel at 1.5 m.
 const OUTLINE_ERROR: f64 = 0.003;
-/// By what the scatter of turns and shifts exceeds the model's, on parts of other cars in frames of the tuning seeds
+/// Scatter of turns and shifts divided by that of the model, on parts of other cars in frames of the tuning seeds
 /// (`partsight bench bounds --seed 3000000`).
 const TURN_FACTOR: f64 = 1.1;
 const SHIFT_FACTOR: f64 = 1.2;
@@ -100,7 +99,7 @@ pub fn uncertainty(
     uncertainty_with(source, closest, target, pose, level, OUTLINE_ERROR)
 }
 
-/// As [`uncertainty`], where a stretch of the outline may be off by so many metres.
+/// As [`uncertainty`], with the error of a stretch of the outline, metres.
 pub(super) fn uncertainty_with(
     source: &AlignmentSource,
     closest: &[Correspondence],
@@ -254,16 +253,16 @@ fn change(from_middle: &Vector3<f64>, direction: &Vector3<f64>) -> Vector6<f64> 
     )
 }
 
-/// The hold that normals feign which are off by this angle, squared, anyhow.
+/// Returns the spurious stiffness from normals whose error has this mean square angle.
 fn spurious_stiffness(pairs: &[Pair], middle: &Vector3<f64>, tilt_sq: f64) -> Matrix6<f64> {
     let mut hold = Matrix6::zeros();
-    for pair in pairs.iter().step_by(FEIGNED_EVERY) {
+    for pair in pairs.iter().step_by(SPURIOUS_EVERY) {
         for along in tangents(&pair.normal) {
             let change = change(&(pair.at.coords - middle), &along);
             hold += change * change.transpose() * (pair.weight * tilt_sq);
         }
     }
-    hold * FEIGNED_EVERY as f64
+    hold * SPURIOUS_EVERY as f64
 }
 
 /// The sums over all pairs.
@@ -333,7 +332,7 @@ impl Sums {
         }
     }
 
-    /// The motion that most of the hold against is feigned, if there is one: turn, then shift.
+    /// Returns an unconstrained motion, if there is one: turn, then shift.
     fn free_motion(
         &self,
         spurious_stiffness: &Matrix6<f64>,
@@ -356,12 +355,12 @@ impl Sums {
             let softest = eigen.eigenvectors.column(eigen.eigenvalues.imin());
             return Some(units * softest);
         };
-        // The largest feigned/hold: with hold = L Lᵀ an eigenvalue of L⁻¹ feigned L⁻ᵀ.
+        // The largest spurious share: with hold = L Lᵀ, an eigenvalue of L⁻¹ spurious L⁻ᵀ.
         let half = root.solve_lower_triangular(&spurious_stiffness)?;
         let whole = root.solve_lower_triangular(&half.transpose())?;
         let eigen = whole.symmetric_eigen();
         let most = eigen.eigenvalues.imax();
-        if eigen.eigenvalues[most] < FEIGNED {
+        if eigen.eigenvalues[most] < MAX_SPURIOUS {
             return None;
         }
         let motion =

@@ -59,12 +59,10 @@ const NUM_POINTS: usize = 128;
 /// Minimum distance of a pair, metres: closer pairs do not determine a pose.
 pub const LEAST_DISTANCE: f32 = 0.15;
 /// Distances beyond this share a bin, metres; followed by the width of the distance bins, metres, and the number of
-/// bins of the first angle.
+/// bins of each angle.
 const FARTHEST: f32 = 2.4;
 const DISTANCE_BIN: f32 = 0.04;
 const NUM_ANGLES: usize = 24;
-/// Number of bins of the second angle; coarser, so that most bins hold a pair.
-const NUM_SECTORS: usize = 8;
 /// Cell size of the nearest-point field and the distance up to which it answers, metres.
 const FIELD_CELL: f32 = 0.02;
 const FIELD_BAND: f32 = 0.06;
@@ -84,10 +82,10 @@ impl ReferenceBorder {
         let bin = |ReferencePair { pair, .. }: &ReferencePair| {
             let first =
                 distance_bin(pair.distance) * NUM_ANGLES + angle_bin(pair.angles[0], NUM_ANGLES);
-            first * NUM_SECTORS + angle_bin(pair.angles[1], NUM_SECTORS)
+            first * NUM_ANGLES + angle_bin(pair.angles[1], NUM_ANGLES)
         };
         pairs.sort_by_cached_key(bin);
-        let num_bins = (distance_bin(FARTHEST) + 1) * NUM_ANGLES * NUM_SECTORS;
+        let num_bins = (distance_bin(FARTHEST) + 1) * NUM_ANGLES * NUM_ANGLES;
         let mut bins = vec![0; num_bins + 1];
         for pair in &pairs {
             bins[bin(pair) + 1] += 1;
@@ -103,45 +101,52 @@ impl ReferenceBorder {
         }
     }
 
-    /// Iterates over the pairs whose distance and angles differ from `pair` by less than the given limits, metres
+    /// Calls `visit` with each pair whose distance and angles differ from `pair` by less than the given limits, metres
     /// and radians.
-    pub fn pairs_like(
+    pub fn visit_pairs_like(
         &self,
-        pair: BorderPair,
+        pair: &BorderPair,
         distance_off: f32,
         angle_off: f32,
-    ) -> impl Iterator<Item = &ReferencePair> {
+        mut visit: impl FnMut(&ReferencePair),
+    ) {
+        let is_like = |other: &BorderPair| {
+            let is_as_far = (other.distance - pair.distance).abs() < distance_off;
+            let [is_like_here, is_like_there] =
+                [0, 1].map(|end| angle_between(pair.angles[end], other.angles[end]) < angle_off);
+            // Combined into one branch instead of three: each condition fails often, and a misprediction costs more than
+            // evaluating them.
+            is_as_far & is_like_here & is_like_there
+        };
         let distances = distance_bin((pair.distance - distance_off).max(0.0))
             ..=distance_bin(pair.distance + distance_off);
         let reach = (angle_off / BIN_ANGLE).ceil() as usize;
         let middle = angle_bin(pair.angles[0], NUM_ANGLES) + NUM_ANGLES;
-        let sector = |angle| angle_bin(angle, NUM_SECTORS);
-        let [first, last] = [-angle_off, angle_off].map(|off| sector(pair.angles[1] + off));
-        let num_sectors = (last + NUM_SECTORS - first) % NUM_SECTORS + 1;
-        let bins = distances.flat_map(move |distance| {
-            let angles = middle - reach..=middle + reach;
-            angles.flat_map(move |angle| {
-                let of_angle = (distance * NUM_ANGLES + angle % NUM_ANGLES) * NUM_SECTORS;
-                (first..first + num_sectors).map(move |sector| of_angle + sector % NUM_SECTORS)
-            })
-        });
-        let in_bins = bins.flat_map(|bin| {
-            let ends = [bin, bin + 1].map(|end| self.bins[end] as usize);
-            &self.pairs[ends[0]..ends[1]]
-        });
-        in_bins.filter(move |other| {
-            let other = &other.pair;
-            let is_as_far = (other.distance - pair.distance).abs() < distance_off;
-            let [is_like_here, is_like_there] =
-                [0, 1].map(|end| angle_between(pair.angles[end], other.angles[end]) < angle_off);
-            // Combined into one branch instead of three: each condition fails half of the time, and a misprediction
-            // costs more than evaluating them.
-            is_as_far & is_like_here & is_like_there
-        })
+        let [first, last] =
+            [-angle_off, angle_off].map(|off| angle_bin(pair.angles[1] + off, NUM_ANGLES));
+        // Bins of neighbouring second angles follow each other, up to a whole turn.
+        let runs = if first <= last {
+            [first..last + 1, 0..0]
+        } else {
+            [first..NUM_ANGLES, 0..last + 1]
+        };
+        for distance in distances {
+            for angle in middle - reach..=middle + reach {
+                let of_angle = (distance * NUM_ANGLES + angle % NUM_ANGLES) * NUM_ANGLES;
+                for run in &runs {
+                    let [start, end] =
+                        [run.start, run.end].map(|bin| self.bins[of_angle + bin] as usize);
+                    let in_bins = self.pairs[start..end].iter();
+                    in_bins
+                        .filter(|other| is_like(&other.pair))
+                        .for_each(&mut visit);
+                }
+            }
+        }
     }
 }
 
-/// Width of a bin of the first angle, radians.
+/// Width of a bin of an angle, radians.
 const BIN_ANGLE: f32 = std::f32::consts::TAU / NUM_ANGLES as f32;
 
 fn distance_bin(distance: f32) -> usize {
@@ -155,7 +160,8 @@ fn angle_bin(angle: f32, num: usize) -> usize {
 
 fn angle_between(a: f32, b: f32) -> f32 {
     let off = (a - b).abs();
-    off.min(std::f32::consts::TAU - off)
+    let other_way = std::f32::consts::TAU - off;
+    if other_way < off { other_way } else { off }
 }
 
 impl BorderPair {
@@ -252,10 +258,8 @@ mod tests {
             BorderPair::of([&points[usize::from(i)], &points[usize::from(j)]], [i, j])
         };
         for wanted in [[0, 7], [12, 40], [59, 3]].map(|ends| of(ends).expect("far apart")) {
-            let mut found: Vec<[u16; 2]> = border
-                .pairs_like(wanted, 0.1, 0.24)
-                .map(|found| found.pair.of)
-                .collect();
+            let mut found: Vec<[u16; 2]> = Vec::new();
+            border.visit_pairs_like(&wanted, 0.1, 0.24, |like| found.push(like.pair.of));
             let is_like = |other: &BorderPair| {
                 (other.distance - wanted.distance).abs() < 0.1
                     && (0..2).all(|end| {

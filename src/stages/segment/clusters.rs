@@ -37,7 +37,7 @@ pub(super) struct Members {
 }
 
 /// Maximum number of pixels without a reading that a surface may span: dropouts are rarely wider.
-const BRIDGED_PIXELS: usize = 4;
+pub(super) const BRIDGED_PIXELS: usize = 4;
 /// Smaller clusters are specks and are not listed, points.
 const MIN_CLUSTER_POINTS: usize = 50;
 
@@ -270,7 +270,7 @@ const SHADOW: usize = 40;
 const NO_GROUP: u32 = u32::MAX;
 
 /// Distance to the end of the view up to which a reading counts as being at it, pixels.
-const MARGIN: u32 = 2;
+pub(super) const MARGIN: u32 = 2;
 
 /// Minimum number of searched lines that end with the view for a surface to be cut off on that side: about 20 pixels.
 const LEAST_CUT: f64 = 5.0;

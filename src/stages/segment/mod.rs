@@ -19,6 +19,7 @@ mod noise;
 mod part;
 mod planes;
 mod stand;
+mod strip;
 mod subset;
 
 use nalgebra::Point3;
@@ -26,7 +27,7 @@ use nalgebra::Point3;
 pub use self::{
     clusters::Cluster,
     noise::noise_of_picture,
-    part::{BackgroundSign, SegmentedPart, other_segments, pieces, surfaces, without_bars},
+    part::{BackgroundSign, SegmentedPart, other_segments, pieces, without_bars},
     planes::BackgroundPlane,
     stand::Bars,
 };
@@ -95,6 +96,8 @@ pub struct Segmentation {
     pub planes: Vec<BackgroundPlane>,
     /// The remaining connected surfaces, largest first, including a stand that touches them.
     pub clusters: Vec<Cluster>,
+    /// Indices of the points of each of them in the scene, ascending.
+    pub surfaces: Vec<Vec<u32>>,
     /// Standard deviation of the depth at 1 m, measured on the first background plane; without one, the larger of
     /// the picture's and the parameter's.
     pub noise_at_1m: Metres,
@@ -173,6 +176,7 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
             labels: label_readings(&scene.cloud.points),
             planes: Vec::new(),
             clusters: Vec::new(),
+            surfaces: Vec::new(),
             noise_at_1m: params.noise_at_1m,
             part: Err(NoPart::TooFewPoints {
                 found,
@@ -194,13 +198,15 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
         let label = PointLabel::Background(planes.len() as u8);
         cell.mark(points, &mut labels, label, noise_at_1m, params);
     }
-    let clusters = clusters::connect(scene, &labels, noise_at_1m, params);
-    let part = part::select_part(scene, &clusters, &mut labels, &planes, noise_at_1m, params)
+    let found = clusters::connect(scene, &labels, noise_at_1m, params);
+    let part = part::select_part(scene, &found, &mut labels, &planes, noise_at_1m, params)
         .map_err(|no_part| too_wide(scene).unwrap_or(no_part));
+    let (clusters, surfaces) = found.into_iter().map(|c| (c.cluster, c.indices)).unzip();
     Segmentation {
         labels,
         planes,
-        clusters: clusters.into_iter().map(|c| c.cluster).collect(),
+        clusters,
+        surfaces,
         noise_at_1m,
         part,
     }

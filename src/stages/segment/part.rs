@@ -1,9 +1,12 @@
 //! Selects the connected surface that is the part, and extracts its points.
 
+use nalgebra::Point3;
+
 use super::{
     BackgroundPlane, Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation,
     clusters, label_readings, noise_of_picture,
     stand::{Bars, remove_stand},
+    strip,
 };
 use crate::{
     geometry::{
@@ -83,10 +86,7 @@ impl SegmentedPart {
 
     fn is_flat(&self) -> bool {
         let points = self.cloud.points.iter().step_by(7);
-        let depth_sq = points.clone().map(|p| f64::from(p.z).powi(2)).sum::<f64>();
-        let noise = self.noise_at_1m.0 * depth_sq / points.len().max(1) as f64;
-        let principal = principal_axes(points.map(|p| (p.cast(), 1.0)));
-        principal.is_some_and(|principal| principal.variances[2].sqrt() < FLAT + noise)
+        is_flat(points.map(|p| p.cast()), self.noise_at_1m)
     }
 
     /// Creates a part from a cloud that holds nothing else.
@@ -183,24 +183,11 @@ impl SegmentedPart {
     }
 }
 
-/// Returns the indices of the points of every connected surface, ascending; in the order of [`Segmentation::clusters`].
-pub fn surfaces(
-    scene: &SceneCloud,
-    segmentation: &Segmentation,
-    params: &SegmentParams,
-) -> Vec<Vec<u32>> {
-    let before = |label: &PointLabel| match label {
-        PointLabel::Part => PointLabel::Rest,
-        label => *label,
-    };
-    let labels: Vec<PointLabel> = segmentation.labels.iter().map(before).collect();
-    connected(scene, &labels, segmentation.noise_at_1m, params)
-}
-
 /// Returns the point indices of every connected surface of a scene without background, largest first.
 pub fn pieces(scene: &SceneCloud, params: &SegmentParams) -> Vec<Vec<u32>> {
     let labels = label_readings(&scene.cloud.points);
-    connected(scene, &labels, params.noise_at_1m, params)
+    let found = clusters::connect(scene, &labels, params.noise_at_1m, params);
+    found.into_iter().map(|members| members.indices).collect()
 }
 
 /// Minimum area of another surface, as a share of the largest.
@@ -228,23 +215,21 @@ pub fn other_segments(
     }
     let part = segmentation.part.as_ref().ok();
     let taken = part.and_then(SegmentedPart::first_of_surface);
-    let mut others: Vec<(Cluster, Vec<u32>)> = surfaces(scene, segmentation, params)
-        .into_iter()
-        .zip(&segmentation.clusters)
-        .filter(|(indices, cluster)| is_candidate(cluster) && indices.first() != taken)
+    let surfaces = segmentation.clusters.iter().zip(&segmentation.surfaces);
+    let mut others: Vec<(&Cluster, &Vec<u32>)> = surfaces
+        .filter(|(cluster, indices)| is_candidate(cluster) && indices.first() != taken)
         // The camera looks at the part, not at what is behind other things.
-        .filter(|(_, cluster)| cluster.in_front >= IN_FRONT)
-        .map(|(indices, cluster)| (*cluster, indices))
+        .filter(|(cluster, _)| cluster.in_front >= IN_FRONT)
         .collect();
-    others.sort_by(|a, b| part_prior(&b.0).total_cmp(&part_prior(&a.0)));
+    others.sort_by(|a, b| part_prior(b.0).total_cmp(&part_prior(a.0)));
     others
         .into_iter()
         .take(limit)
         .map(|(cluster, members)| {
             SegmentedPart::of_surface(
                 scene,
-                members,
-                cluster,
+                members.clone(),
+                *cluster,
                 segmentation.noise_at_1m,
                 Bars::OffSurface,
             )
@@ -276,6 +261,17 @@ fn part_prior(cluster: &Cluster) -> f64 {
     cluster.num_points as f64 * in_front * if cluster.touches_edge { 0.4 } else { 1.0 }
 }
 
+/// Returns true if points lie on a plane, within the noise.
+pub(super) fn is_flat(
+    points: impl ExactSizeIterator<Item = Point3<f64>> + Clone,
+    noise_at_1m: Metres,
+) -> bool {
+    let depth_sq = points.clone().map(|p| p.z.powi(2)).sum::<f64>();
+    let noise = noise_at_1m.0 * depth_sq / points.len().max(1) as f64;
+    let principal = principal_axes(points.map(|p| (p, 1.0)));
+    principal.is_some_and(|principal| principal.variances[2].sqrt() < FLAT + noise)
+}
+
 pub(super) fn select_part(
     scene: &SceneCloud,
     clusters: &[clusters::Members],
@@ -284,8 +280,11 @@ pub(super) fn select_part(
     noise_at_1m: Metres,
     params: &SegmentParams,
 ) -> Result<SegmentedPart, NoPart> {
+    let is_strip =
+        |c: &&clusters::Members| strip::is_strip(scene, c, labels, planes, noise_at_1m, params);
     let largest = clusters
         .iter()
+        .filter(|c| !is_strip(c))
         .max_by(|a, b| part_prior(&a.cluster).total_cmp(&part_prior(&b.cluster)));
     match largest {
         Some(largest)
@@ -307,14 +306,4 @@ pub(super) fn select_part(
             needed: params.min_part_area,
         }),
     }
-}
-
-fn connected(
-    scene: &SceneCloud,
-    labels: &[PointLabel],
-    noise_at_1m: Metres,
-    params: &SegmentParams,
-) -> Vec<Vec<u32>> {
-    let found = clusters::connect(scene, labels, noise_at_1m, params);
-    found.into_iter().map(|members| members.indices).collect()
 }

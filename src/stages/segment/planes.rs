@@ -124,6 +124,20 @@ pub(super) fn label_background(
     points.iter().map(label).collect()
 }
 
+/// Returns the distance from a background plane within which a point belongs to it.
+pub(super) fn reach_of(
+    plane: &Plane,
+    noise_at_1m: Metres,
+    params: &SegmentParams,
+) -> impl Fn(&Point3<f32>) -> f64 {
+    let (normal, noise) = (plane.normal, params.noise_factor * noise_at_1m.0);
+    let base = params.plane_distance.0;
+    move |p| {
+        let p = p.cast::<f64>();
+        base + noise * p.z.abs() * normal.dot(&p.coords).abs()
+    }
+}
+
 /// Returns the number of samples that contain a good one with probability `p` (eq. 1), for a share of good samples of
 /// `good_share` (the paper's (1 - ε)^s), but at most [`MAX_SAMPLES`].
 fn num_samples(p: f64, good_share: f64) -> usize {

@@ -61,6 +61,44 @@ fn an_empty_cell_holds_no_part() {
 }
 
 #[test]
+fn a_strip_of_floor_too_narrow_for_a_plane_is_no_part() {
+    for seed in [6, 11] {
+        let setup = CellSetup::new(SimulatedObject::Nothing, seed);
+        let found = segmented(&frame(&setup));
+        assert!(
+            matches!(found.part, Err(NoPart::OnlyBackground { .. })),
+            "seed {seed}: {:?}",
+            found.clusters
+        );
+    }
+}
+
+#[test]
+fn a_thin_part_along_the_lower_end_of_the_view_stays_a_part() {
+    // Seen nearly edge-on and cut off by the view.
+    let pose = Isometry3::from_parts(
+        Vector3::new(0.0, 0.457 * 1.8, 1.8).into(),
+        UnitQuaternion::from_axis_angle(&Vector3::x_axis(), 85_f64.to_radians()),
+    );
+    for kind in [
+        PartKind::BackBumper,
+        PartKind::FrontBumper,
+        PartKind::TrunkLid,
+    ] {
+        let mut setup = CellSetup::with_part(kind, Side::Left, 0, 5);
+        setup.pose = PartPose::Fixed(pose);
+        let frame = frame(&setup);
+        let found = segmented(&frame);
+        let (_, precision) = recall_and_precision(&frame, &found);
+        assert!(
+            found.part.is_ok() && precision > 0.9,
+            "{kind}: {precision:.3} {:?}",
+            found.clusters
+        );
+    }
+}
+
+#[test]
 fn a_flat_board_before_the_wall_is_not_taken_for_another_wall() {
     for seed in 0..5 {
         let frame = frame(&CellSetup::new(

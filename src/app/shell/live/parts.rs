@@ -92,37 +92,17 @@ impl FollowedParts {
         (*part == hanging).then_some(trace)
     }
 
-    /// The serial number of the part that hangs before this source, if its verdict has counted with one.
-    pub(super) fn serial_of_hanging(&self, source: &str) -> Option<&str> {
-        let trace = self.trace_of_hanging().filter(|_| self.source == source)?;
-        Some(trace.serial.as_str()).filter(|serial| !serial.is_empty())
-    }
-
-    /// True if a serial number entered now is of the next part: none hangs there, or the one that does has its own.
-    pub(super) fn needs_no_serial(&self) -> bool {
-        let has_serial = |trace: &Traceability| !trace.serial.is_empty();
-        self.rows.id_of_frame(false) != *self.rows.id()
-            || self.trace_of_hanging().is_some_and(has_serial)
-    }
-
-    /// Takes a serial number that was entered after the verdict on the part that hangs there, unless that part has one.
-    /// Returns the part and its traceability.
-    pub(super) fn take_late_serial(
-        &mut self,
-        current: &CurrentTrace,
-    ) -> Option<(HungId, Traceability)> {
-        let trace = self.trace_of_hanging()?;
-        if !trace.serial.is_empty() {
-            return None;
+    /// A serial number went to this part after its verdict.
+    pub(in crate::app) fn traced(&mut self, part: &HungId, trace: &Traceability) {
+        if let Some((counted, known)) = &mut self.counted
+            && *counted == *part
+        {
+            known.clone_from(trace);
         }
-        let serial = current.take_late_serial();
-        let (part, trace) = self.counted.as_mut().filter(|_| !serial.is_empty())?;
-        trace.serial = serial;
-        Some((part.clone(), trace.clone()))
     }
 
     /// The part that a capture of this source shows, which is taken in place of Live, and the traceability of that
-    /// inspection. A part whose verdict has counted keeps its own serial number: the current one is of the next part.
+    /// inspection. A part whose verdict has counted keeps its own serial number: the waiting one is of the next part.
     pub(in crate::app) fn of_capture(
         &self,
         source: &str,
@@ -135,7 +115,11 @@ impl FollowedParts {
             HungId::new()
         };
         let trace = match &self.counted {
-            Some((counted, trace)) if *counted == part && !trace.serial.is_empty() => trace.clone(),
+            Some((counted, trace))
+                if *counted == part && (!trace.serial.is_empty() || current.is_late_of(&part)) =>
+            {
+                trace.clone()
+            }
             _ => current.take(shows_part),
         };
         (part, trace)

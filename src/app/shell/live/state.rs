@@ -29,8 +29,7 @@ use crate::{
         task::{Task, TaskEvent, TaskRunner},
         user_error::UserError,
     },
-    capture::{SourceSpec, WatchedSpec},
-    error::lock,
+    capture::SourceSpec,
     history::Traceability,
     pipeline::live::{LiveParams, MAX_AVERAGED},
 };
@@ -126,47 +125,7 @@ impl Session {
 
     /// True while a folder is followed, in which every capture is of another part.
     pub(in crate::app) fn is_watching(&self) -> bool {
-        self.is_live() && matches!(self.source.followed(), Some(SourceSpec::Watched(_)))
-    }
-
-    /// True if a serial number entered now would go to the next part, not to the one that hangs there.
-    pub(in crate::app) fn serial_is_for_next(&self) -> bool {
-        !self.is_live() || lock(&self.live.parts).needs_no_serial()
-    }
-
-    /// Enters a scanned serial number, unless the part that hangs there has it already. Returns what to tell the user.
-    pub(in crate::app) fn enter_scanned(&self, code: &str) -> Option<Notice> {
-        let serial = Traceability::cleaned(code);
-        let source = self.source.followed().map(|source| source.to_string());
-        // Meanwhile Live takes no serial number.
-        let parts = lock(&self.live.parts);
-        let of_hanging = source.and_then(|source| parts.serial_of_hanging(&source));
-        if of_hanging == Some(serial.as_str()) {
-            return Some(Notice::done(text!(
-                "operator-serial-known",
-                serial = serial
-            )));
-        }
-        let former = Traceability::cleaned(&self.trace.get().serial);
-        self.trace.set_serial(&serial);
-        drop(parts);
-        let mut rows = self.shift.last.iter();
-        if rows.any(|row| row.trace.serial == serial) {
-            let what = text!("operator-serial-in-shift", serial = serial);
-            return Some(Notice::look(what, text!("operator-serial-in-shift-next")));
-        }
-        if !former.is_empty() && former != serial {
-            let what = text!(
-                "operator-serial-replaced",
-                serial = serial,
-                former = former.clone()
-            );
-            let next = text!("operator-serial-replaced-next", former = former);
-            return Some(Notice::look(what, next));
-        }
-        // Other pages do not show the field.
-        let is_seen = self.is_operator_view();
-        (!is_seen).then(|| Notice::done(text!("operator-serial-entered", serial = serial)))
+        self.is_live() && self.source.is_watched()
     }
 }
 
@@ -178,6 +137,11 @@ impl Source {
             Self::File(_) | Self::Scan(_) => None,
             Self::Camera(spec) => Some((**spec).clone()),
         }
+    }
+
+    /// True for a watched folder, which has no frame until a file is saved to it.
+    pub(in crate::app) fn is_watched(&self) -> bool {
+        matches!(self, Self::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)))
     }
 }
 
@@ -219,11 +183,12 @@ pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Eff
 /// Handles a change of the source: follows it if the former one was followed, else captures one frame. A watched folder is
 /// followed at once because it has no frame yet.
 pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
-    let waits = matches!(&state.session.source, Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(WatchedSpec { .. })));
-    if (state.session.is_live() || waits) && state.session.source.followed().is_some() {
+    let source = &state.session.source;
+    if (state.session.is_live() || source.is_watched()) && source.followed().is_some() {
         start(state);
         return None;
     }
+    outdate_shown(state);
     state.capture()
 }
 
@@ -239,8 +204,10 @@ fn start(state: &mut State) {
         return;
     }
     state.follower.session += 1;
+    outdate_shown(state);
     state.session.failed = None;
     remove_notices(state, NoticeTopic::Following);
+    remove_notices(state, NoticeTopic::LiveEnded);
     remove_notices(state, NoticeTopic::Scene);
     dismiss_lost_notice(state);
     state.cancel_inspection();
@@ -376,7 +343,6 @@ fn take_record(state: &mut State, record: LiveRecord) -> Event {
             Event::Inspected { inspected, purpose }
         }
         LiveRecord::Left(entry) => Event::Left(entry),
-        LiveRecord::TracedLate(hung, trace) => Event::TracedLate(hung, trace),
     }
 }
 
@@ -388,7 +354,7 @@ fn receive(state: &mut State, answer: LiveAnswer) {
             // The window may have missed the loss itself.
             let is_lost = matches!(told.status.source, SourceState::Lost(_));
             if is_lost || (told.inspected.is_none() && told.status.num_inspected > 0) {
-                outdate_frame(state);
+                outdate_shown(state);
             }
             state.session.live.status = Some(told.status);
             if let Some(inspected) = told.inspected {
@@ -399,14 +365,17 @@ fn receive(state: &mut State, answer: LiveAnswer) {
             state.session.live.recording = None;
             notify(state, error.into());
         }
-        LiveAnswer::Skipped(error) => {
-            // In a watched folder it was the capture of another part, which has no verdict now.
+        LiveAnswer::Skipped { name, error } => {
+            // In a watched folder it was the capture of another part, which has no verdict now. The notice stays until it is
+            // dismissed: the next capture may come before anybody has looked.
             if state.session.is_watching() {
-                state.session.failed = Some(error.clone());
-                notify(state, Notice::from(error).about(NoticeTopic::Scene));
-            } else {
-                notify(state, error.into());
+                state.follower.unseen = None;
+                state.session.failed = Some(UserError {
+                    what: text!("operator-unreadable", file = name),
+                    advice: text!("operator-unreadable-next"),
+                });
             }
+            notify(state, error.into());
         }
         LiveAnswer::AtItsEnd => {
             ended(state);
@@ -449,9 +418,6 @@ pub(in crate::app) fn show_unseen(state: &mut State) {
 
 fn show_latest(state: &mut State, inspected: Arc<Inspected>) {
     state.follower.unseen = None;
-    if state.session.is_watching() {
-        remove_notices(state, NoticeTopic::Scene);
-    }
     state.use_library(&inspected.library);
     state.session.failed = None;
     state.generation += 1;
@@ -460,16 +426,15 @@ fn show_latest(state: &mut State, inspected: Arc<Inspected>) {
         inspected,
         is_past: false,
         session: Some(state.follower.session),
+        is_outdated: false,
     });
 }
 
-/// The shown frame is from before the source was lost: another part may hang there now.
-fn outdate_frame(state: &mut State) {
+/// What was inspected so far is of another source, or from before the source was lost or followed anew.
+fn outdate_shown(state: &mut State) {
     state.follower.unseen = None;
-    let session = Some(state.follower.session);
-    let shown = state.session.shown.as_mut();
-    if let Some(shown) = shown.filter(|shown| shown.session == session) {
-        shown.session = None;
+    if let Some(shown) = &mut state.session.shown {
+        shown.is_outdated = true;
     }
 }
 
@@ -633,12 +598,24 @@ mod tests {
             what: "the file ends early".into(),
             advice: "Copy it again".into(),
         };
-        receive(&mut state, LiveAnswer::Skipped(error.clone()));
-        assert_eq!(state.session.failed, Some(error.clone()));
+        let skipped = || LiveAnswer::Skipped {
+            name: "door.png".into(),
+            error: error.clone(),
+        };
+        receive(&mut state, skipped());
+        let failed = state.session.failed.take().expect("no result");
+        assert!(failed.what.contains("door.png"), "{failed:?}");
+        assert!(failed.advice.contains("Save the capture"), "{failed:?}");
+        // Nobody may have looked yet when the next capture comes.
+        assert!(state.follower.task.run_waiting());
+        update(&mut state);
+        assert!(state.session.shown.is_some());
+        let mut notices = state.notices.iter();
+        assert!(notices.any(|notice| notice.what == "the file ends early"));
         // The last frame of a camera stands for the part that hangs there.
         state.session.source = Source::Cell(CellChoice::default());
-        state.session.failed = None;
-        receive(&mut state, LiveAnswer::Skipped(error));
+        toggle(&mut state);
+        receive(&mut state, skipped());
         assert!(state.session.failed.is_none() && state.session.is_live());
     }
 
@@ -650,9 +627,61 @@ mod tests {
         assert!(state.follower.task.run_waiting());
         let events = update(&mut state);
         assert!(!events.is_empty() && state.session.shown.is_none());
-        toggle(&mut state);
+        assert!(!state.session.is_live(), "it has ended");
         apply_any(&mut state, Action::GoTo(WorkspaceKind::Inspect));
         assert!(state.session.shown.is_some());
+    }
+
+    #[test]
+    fn what_was_inspected_before_another_source_is_chosen_is_not_current_any_more() {
+        let other = || -> SourceSpec { "watch:others".parse().expect("a source") };
+        for choose in [
+            Action::Live(LiveAction::Use(other())),
+            Action::UseCell(CellChoice::Empty),
+        ] {
+            let mut state = watching();
+            toggle(&mut state);
+            assert!(state.follower.task.run_waiting());
+            update(&mut state);
+            assert!(state.session.current_result().is_some());
+            apply_any(&mut state, choose);
+            // Neither while the source has given nothing, nor when the user gives up waiting for it.
+            state.session.live.status = Some(told());
+            assert!(state.session.current_result().is_none() && state.session.is_old());
+            if state.session.is_live() {
+                toggle(&mut state);
+            }
+            apply_any(&mut state, Action::CancelInspection);
+            assert!(state.session.current_result().is_none() && state.session.is_old());
+        }
+        // What was inspected behind another workspace is not current either.
+        let mut state = watching();
+        toggle(&mut state);
+        apply_any(&mut state, Action::GoTo(WorkspaceKind::History));
+        assert!(state.follower.task.run_waiting());
+        update(&mut state);
+        apply_any(&mut state, Action::Live(LiveAction::Use(other())));
+        apply_any(&mut state, Action::GoTo(WorkspaceKind::Inspect));
+        assert!(state.session.shown.is_none());
+    }
+
+    #[test]
+    fn a_past_inspection_that_ends_live_says_so_until_it_is_on_again() {
+        let mut state = watching();
+        toggle(&mut state);
+        assert!(state.follower.task.run_waiting());
+        update(&mut state);
+        let shown = state.session.shown.as_ref().expect("inspected");
+        let inspected = Arc::clone(&shown.inspected);
+        state.notices.clear();
+        toggle(&mut state);
+        state.show_past(inspected);
+        assert!(!state.session.is_live());
+        let said = state.notices.last().expect("said");
+        assert!(said.what.starts_with("Live stopped"), "{said:?}");
+        assert!(said.advice.contains("Live again"), "{said:?}");
+        toggle(&mut state);
+        assert!(state.notices.is_empty(), "{:?}", state.notices);
     }
 
     /// Title of the running or waiting job.
@@ -738,8 +767,7 @@ mod tests {
         assert!(state.follower.task.run_waiting());
         update(&mut state);
         toggle(&mut state);
-        let current = Some(state.follower.session);
-        state.session.shown.as_mut().expect("inspected").session = current;
+        state.session.shown.as_mut().expect("inspected").is_outdated = false;
         let lost = SourceState::Lost(UserError {
             what: "the folder does not exist".into(),
             advice: "Check it".into(),
@@ -750,7 +778,7 @@ mod tests {
             let told = LiveStatusUpdate { status, inspected };
             receive(&mut state, LiveAnswer::Stands(Box::new(told)));
             let shown = state.session.shown.as_ref().expect("kept");
-            assert_eq!(shown.session, None);
+            assert!(shown.is_outdated);
         }
     }
 

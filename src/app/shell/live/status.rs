@@ -103,11 +103,11 @@ pub(in crate::app) fn words(session: &Session) -> (Mark, String) {
     let (sign, what) = match (&status.source, status.stillness) {
         (SourceState::Lost(_), _) => (Mark::Bad, text!("live-lost")),
         (SourceState::Opening, _) => (Mark::Open, text!("live-opening")),
-        (SourceState::Running, None) => (Mark::Good, text!("live-each-counts")),
+        (SourceState::Running, None) => (Mark::Runs, text!("live-file-is-part")),
         (SourceState::Running, Some(MotionState::Watching)) => (Mark::Open, text!("live-looking")),
         (SourceState::Running, Some(MotionState::Moving)) => (Mark::Open, text!("live-moving")),
         (SourceState::Running, Some(MotionState::Steady { lasting, .. })) => (
-            Mark::Good,
+            Mark::Runs,
             text!(
                 "live-steady-for",
                 seconds = format!("{:.1}", lasting.as_secs_f64())
@@ -166,11 +166,10 @@ mod tests {
 
     use super::*;
 
-    #[test]
-    fn a_watched_folder_has_no_rates() {
-        let mut status = LiveStatus {
+    fn running(stillness: Option<MotionState>) -> LiveStatus {
+        LiveStatus {
             source: SourceState::Running,
-            stillness: None,
+            stillness,
             standing: LiveVerdict::Open,
             rates: [Some(0.0); 2],
             latency: Some(Duration::from_millis(88)),
@@ -178,7 +177,27 @@ mod tests {
             num_dropped: 0,
             num_averaged: 1,
             recorded: None,
+        }
+    }
+
+    #[test]
+    fn a_source_has_no_tick_because_that_would_be_a_verdict() {
+        let steady = MotionState::Steady {
+            since: Duration::ZERO,
+            lasting: Duration::from_secs(9),
         };
+        let all = [MotionState::Watching, MotionState::Moving, steady];
+        for stillness in all.into_iter().map(Some).chain([None]) {
+            let mut session = Session::default();
+            session.live.status = Some(running(stillness));
+            let (sign, words) = words(&session);
+            assert_ne!(sign, Mark::Good, "{words}");
+        }
+    }
+
+    #[test]
+    fn a_watched_folder_has_no_rates() {
+        let mut status = running(None);
         assert_eq!(figures(&status), "88 ms");
         status.stillness = Some(MotionState::Watching);
         assert_eq!(figures(&status), "0 fps, 0 inspected · 88 ms");

@@ -22,7 +22,7 @@ use crate::{
     },
     capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
     error::{Fault, guarded, lock},
-    history::{HungId, NewEntry, StoredVerdict, Traceability},
+    history::{NewEntry, StoredVerdict, Traceability},
     pipeline::{
         self, NamedRecipe, ProgressObserver, Verdict,
         live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
@@ -60,8 +60,7 @@ impl LiveStart {
     }
 }
 
-/// An inspection to be recorded, or an addition to one. It has a channel of its own, so that it is recorded even if its job was
-/// replaced meanwhile.
+/// An inspection to be recorded. It has a channel of its own, so that it is recorded even if its job was replaced meanwhile.
 #[derive(Debug)]
 pub(super) enum LiveRecord {
     /// A verdict that counts and was not reported before.
@@ -73,8 +72,6 @@ pub(super) enum LiveRecord {
     },
     /// A part left before its verdict counted, or following stopped before.
     Left(Box<NewEntry>),
-    /// The serial number of this part came after its verdict.
-    TracedLate(HungId, Traceability),
 }
 
 /// Maximum number of unread records, whose points and pictures take up to 15 MB each; the job waits beyond that.
@@ -105,7 +102,12 @@ pub enum LiveAnswer {
     /// The recording has failed and ended.
     NotRecorded(UserError),
     /// A frame of the source could not be read or inspected.
-    Skipped(UserError),
+    Skipped {
+        /// Name of the frame, or of its file.
+        name: String,
+        /// Why, and what to do.
+        error: UserError,
+    },
     /// The source has no more frames.
     AtItsEnd,
     /// The camera is closed.
@@ -277,7 +279,8 @@ impl<'a> LiveSession<'a> {
                 }
                 Some(FeedItem::Skipped(skipped)) => {
                     let error = UserError::of(&*skipped.error);
-                    self.context.partial(LiveAnswer::Skipped(error));
+                    let name = skipped.name;
+                    self.context.partial(LiveAnswer::Skipped { name, error });
                 }
                 None => match feed.status().state {
                     FeedState::Ended | FeedState::Stopped => return Ok(LiveAnswer::AtItsEnd),
@@ -309,7 +312,8 @@ impl<'a> LiveSession<'a> {
         let UserError { what, advice } = UserError::of(fault);
         let what = format!("{name}: {what}");
         let error = UserError { what, advice };
-        self.context.partial(LiveAnswer::Skipped(error));
+        let name = name.to_owned();
+        self.context.partial(LiveAnswer::Skipped { name, error });
     }
 
     /// Inspects a frame.
@@ -354,10 +358,6 @@ impl<'a> LiveSession<'a> {
             role = lock(&self.request.parts).rows.role_of(&frame);
             if role == FrameRole::Nothing {
                 self.see(&frame, arrived);
-                // While it moves, it may be on its way out.
-                if self.standing.counted().is_some() {
-                    self.trace_late();
-                }
             }
         }
         self.num_inspected += 1;
@@ -407,17 +407,6 @@ impl<'a> LiveSession<'a> {
         self.request.record_left(left);
     }
 
-    /// Records a serial number that came after the verdict on the part that hangs there.
-    fn trace_late(&self) {
-        let mut parts = lock(&self.request.parts);
-        let traced = parts.take_late_serial(&self.request.trace);
-        // Recording may wait for the window.
-        drop(parts);
-        if let Some((hung, trace)) = traced {
-            send(&self.request.recorder, LiveRecord::TracedLate(hung, trace));
-        }
-    }
-
     /// Keeps the inspection of a frame to be shown, and records it if it is the first or another one of its part.
     fn keep(&mut self, mut inspected: Inspected, role: FrameRole, arrived: Instant) {
         // What a trigger found out about the part before lies below.
@@ -434,10 +423,7 @@ impl<'a> LiveSession<'a> {
                 parts.counted = Some((summary.hung.clone(), summary.trace.clone()));
             }
             FrameRole::Again => {
-                if let Some((_, trace)) = &mut parts.counted {
-                    if trace.serial.is_empty() {
-                        trace.serial = self.request.trace.take_late_serial();
-                    }
+                if let Some((_, trace)) = &parts.counted {
                     summary.trace = trace.clone();
                 }
             }

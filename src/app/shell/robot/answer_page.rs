@@ -170,7 +170,7 @@ fn state(ui: &mut Ui, robot: &RobotCell, session: &Session) {
     let advice = match sign {
         Mark::Look if session.source.followed().is_none() => text!("live-cannot-advice"),
         Mark::Look => text!("robot-answers-without-frames-advice"),
-        Mark::Good | Mark::Bad | Mark::Open => String::new(),
+        Mark::Good | Mark::Bad | Mark::Open | Mark::Runs => String::new(),
     };
     match answering.trouble() {
         Some(trouble) => told(ui, Mark::Bad, trouble),

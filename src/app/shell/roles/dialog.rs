@@ -53,6 +53,10 @@ pub(in crate::app) fn dialog(ctx: &Context, state: &State, actions: &mut Vec<Act
             text!("shell-remove-pin"),
         ),
     };
+    if asks_pin {
+        // Before the Enter of the same frame.
+        typed(ctx, actions);
+    }
     let modal = widgets::dialog(ctx, "role", |ui| {
         ui.set_max_width(3.0 * DIGIT[0] + 2.0 * ui.spacing().item_spacing.x);
         ui.heading(title);
@@ -79,9 +83,6 @@ pub(in crate::app) fn dialog(ctx: &Context, state: &State, actions: &mut Vec<Act
             }
         });
     });
-    if asks_pin {
-        typed(ctx, actions);
-    }
     if modal.should_close() {
         actions.push(Action::Role(RoleAction::Close));
     }

@@ -65,6 +65,13 @@ impl RoleState {
         let locks = role == UserRole::Engineer && self.pin.is_some();
         locks.then_some(f64::from(self.lock_after) * 60.0)
     }
+
+    /// True if the PIN is asked for and what was typed as quickly as by a scanner can be one.
+    pub(in crate::app) fn may_be_pin(&self, code: &str) -> bool {
+        let is_short = code.len() <= pin::MOST_DIGITS;
+        let is_asked = self.asked.is_some() && self.pin.is_some();
+        is_asked && is_short && code.bytes().all(|letter| letter.is_ascii_digit())
+    }
 }
 
 /// A question on top of the window.

@@ -30,7 +30,7 @@ pub(super) fn needs_engineer(action: &Action, has_pin: bool) -> bool {
             action,
             RoleAction::SetPin | RoleAction::RemovePin | RoleAction::LockAfter(_)
         ),
-        // The next capture is of the source that is chosen, and a file that is opened is the source.
+        // Choosing another source changes what is captured next; an opened file becomes the source.
         Action::Live(LiveAction::Use(_) | LiveAction::SetUp(Some(_)))
         | Action::UseCell(_)
         | Action::Open(_) => has_pin,

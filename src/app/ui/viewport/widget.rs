@@ -194,9 +194,14 @@ impl Viewport {
         }
         let is_measuring = self.tool == ViewTool::Measure || self.measure != Measurement::default();
         if is_measuring && pressed(Key::Escape) {
-            self.tool = ViewTool::Look;
-            self.measure = Measurement::default();
+            self.end_measuring();
         }
+    }
+
+    /// Stops measuring and forgets what was measured.
+    pub fn end_measuring(&mut self) {
+        self.tool = ViewTool::Look;
+        self.measure = Measurement::default();
     }
 
     fn click(

@@ -139,7 +139,7 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
         |place| library.title(place).to_owned(),
     );
     let named = |title: &str| format!("{} · {title} ▼", text!("align-part"));
-    // The menu takes the room that Run leaves.
+    // The menu uses the width left by Run.
     let room = ui.available_width() - button_width(ui, &named(""));
     let font = TextStyle::Button.resolve(ui.style());
     let shown = fitted_middle(ui.painter(), &shortened(&title, 24), &font, room);

@@ -9,7 +9,11 @@ use crate::{
     app::{
         inspection::inspected::Inspected,
         language::text,
-        shell::{context::ShellContext, notice::Notice},
+        shell::{
+            context::ShellContext,
+            message::Message,
+            notice::{Notice, NoticeTopic},
+        },
     },
     cases::{CaseDescription, CaseError, CaseFolder, KeptCase},
     history::{HistoryBuffer, HistoryError},
@@ -18,25 +22,28 @@ use crate::{
 impl CompareState {
     /// Keeps the scene in front, or says why not.
     pub(super) fn keep(&mut self, cx: &mut ShellContext<'_>) {
+        let look =
+            |what: String, advice: String| Notice::look(what, advice).about(NoticeTopic::Case);
         let study = self.study.as_ref().filter(|_| !self.is_study_old());
         let Some(study) = study else {
-            return cx.notify(Notice::look(
+            return cx.notify(look(
                 text!("compare-nothing-to-keep"),
                 text!("compare-nothing-to-keep-advice"),
             ));
         };
         let Some(inspected) = &study.inspected else {
-            return cx.notify(Notice::look(
+            return cx.notify(look(
                 text!("compare-kept-already"),
                 text!("compare-kept-already-advice"),
             ));
         };
         let Some(truth) = self.truth.clone() else {
-            return cx.notify(Notice::look(
+            return cx.notify(look(
                 text!("compare-no-truth"),
                 text!("compare-keep-case-first"),
             ));
         };
+        cx.send(Message::RemoveNotices(NoticeTopic::Case));
         let about = CaseDescription {
             kept_at: Timestamp::now(),
             remark: self.remark.trim().to_owned(),

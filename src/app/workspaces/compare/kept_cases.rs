@@ -177,6 +177,15 @@ fn header(ui: &mut Ui, compare: &CompareState, session: &Session, acts: &mut Vec
             let text = format!("· {}", text!("compare-other-recipe"));
             ui.label(RichText::new(text).color(theme.warning));
         }
+        if let (Some(num), Some(kept)) = (compare.num_covered, &compare.cases) {
+            let total = kept.list.len();
+            let text = if num < total {
+                text!("compare-run-covers", done = num, total = total)
+            } else {
+                text!("compare-cases-removed")
+            };
+            ui.label(RichText::new(format!("· {text}")).color(theme.warning));
+        }
     });
     ui.spacing_mut().interact_size.y = height;
 }

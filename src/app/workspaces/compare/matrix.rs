@@ -8,9 +8,9 @@ use crate::{
 /// The matrix, row by row.
 #[derive(Debug, Default)]
 pub struct Matrix {
-    /// The truths.
+    /// True labels, from top to bottom.
     pub rows: Vec<Truth>,
-    /// The answers.
+    /// Answers, from left to right.
     pub columns: Vec<CaseAnswer>,
     /// Cells that are not empty.
     pub cells: Vec<MatrixCell>,
@@ -32,7 +32,7 @@ pub struct MatrixCell {
 }
 
 impl Matrix {
-    /// Judges the cells.
+    /// Prepares a confusion matrix for drawing.
     pub fn of(confusion: Confusion) -> Self {
         let Confusion {
             rows,

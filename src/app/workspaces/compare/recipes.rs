@@ -217,12 +217,8 @@ impl CompareState {
             recipe.label.name.clone()
         });
         match &done {
-            RecipeDone::Saved(name) => {
-                names[0] = name.to_string();
-                if self.tried.is_none() {
-                    names[1] = name.to_string();
-                }
-            }
+            // A recipe saved under another name is on trial; the one in use keeps its name until another one is used.
+            RecipeDone::Saved(name) => names[0] = name.to_string(),
             RecipeDone::Renamed(from, to) => {
                 for name in names.iter_mut().filter(|name| *name == from.as_str()) {
                     *name = to.to_string();
@@ -233,11 +229,9 @@ impl CompareState {
         let now = self
             .recipes
             .named(&names[1], Arc::clone(&in_use.parameters));
-        let tried = self
-            .tried
-            .as_ref()
-            .map(|tried| self.recipes.named(&names[0], Arc::clone(&tried.parameters)));
-        self.tried = tried.filter(|tried| *tried != now).map(Arc::new);
+        let tried = self.tried.as_ref().unwrap_or(&in_use);
+        let tried = self.recipes.named(&names[0], Arc::clone(&tried.parameters));
+        self.tried = (tried != now).then(|| Arc::new(tried));
         if now.label != in_use.label {
             let is_listed = matches!(done, RecipeDone::Listed);
             if is_listed && now.label.is_changed && cx.session.role == UserRole::Engineer {

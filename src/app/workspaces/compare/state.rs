@@ -1,6 +1,10 @@
 //! The state of the workspace, and the actions that change it.
 
-use std::{collections::VecDeque, path::PathBuf, sync::Arc};
+use std::{
+    collections::{HashMap, VecDeque},
+    path::PathBuf,
+    sync::Arc,
+};
 
 use super::{
     action::{CompareAction, CompareFile, RecipeAction},
@@ -13,7 +17,10 @@ use crate::{
     app::{
         language::text,
         shell::{
-            context::ShellContext, file_dialog::FileDialog, message::Message, notice::Notice,
+            context::ShellContext,
+            file_dialog::FileDialog,
+            message::Message,
+            notice::{Notice, NoticeTopic},
             session::Shown,
         },
         task::{Running, Task, TaskEvent, TaskRunner},
@@ -45,6 +52,8 @@ pub struct CompareState {
     pub cases: Option<Cases>,
     /// The last run over all kept cases.
     pub run: Option<Arc<CaseRun>>,
+    /// Number of the cases kept now that the run covers, if these are not the cases that it ran over.
+    pub(super) num_covered: Option<usize>,
     /// The cell of the matrix whose cases are listed.
     pub cell: Option<Cell>,
     /// Time of ranking with several workers, once measured.
@@ -138,6 +147,7 @@ impl CompareState {
             study: None,
             cases: None,
             run: None,
+            num_covered: None,
             cell: None,
             scaling: None,
             changes: None,
@@ -177,6 +187,7 @@ impl CompareState {
             CompareAction::SetTruth(truth) => {
                 self.truth = Some(truth);
                 self.due = StudyNeed::WhenFree;
+                cx.send(Message::RemoveNotices(NoticeTopic::Case));
             }
             CompareAction::Against(part) => {
                 self.against = part;
@@ -274,6 +285,7 @@ impl CompareState {
                     }
                 }
                 self.run = Some(run);
+                self.compare_run_with_cases();
             }
             CompareResult::Scaled(scaling) => self.scaling = Some(scaling),
             CompareResult::Changed(changes) => {
@@ -294,8 +306,22 @@ impl CompareState {
                     folder,
                     list: cases,
                 });
+                self.compare_run_with_cases();
             }
         }
+    }
+
+    /// Finds out whether the run that has ended, or was stopped, is about the cases kept now.
+    fn compare_run_with_cases(&mut self) {
+        let is_running = self.is_running_cases();
+        let both = self.run.as_ref().zip(self.cases.as_ref());
+        let differing = both.filter(|(run, cases)| !is_running && run.cases != cases.list);
+        self.num_covered = differing.map(|(run, cases)| {
+            let ran = run.cases.iter().map(|case| (case.name.as_str(), case));
+            let ran: HashMap<&str, &KeptCase> = ran.collect();
+            let is_covered = |case: &&KeptCase| ran.get(case.name.as_str()) == Some(case);
+            cases.list.iter().filter(is_covered).count()
+        });
     }
 
     fn take_done(&mut self, done: CaseDone, cx: &mut ShellContext<'_>) {
@@ -342,7 +368,7 @@ impl CompareState {
         self.remark.clear();
     }
 
-    fn follow(&mut self, cx: &ShellContext<'_>) {
+    fn follow(&mut self, cx: &mut ShellContext<'_>) {
         if !self.is_listed {
             self.is_listed = true;
             self.change_cases(text!("compare-listing-cases"), CaseEdit::List);
@@ -360,6 +386,7 @@ impl CompareState {
             if is_other {
                 // A person wants to see what was captured or opened now.
                 self.front_scene();
+                cx.send(Message::RemoveNotices(NoticeTopic::Case));
             }
             self.due = self.due.max(StudyNeed::WhenFree);
         }
@@ -389,6 +416,7 @@ impl CompareState {
             ));
         };
         self.forget();
+        cx.send(Message::RemoveNotices(NoticeTopic::Case));
         self.truth = Some(case.meta.about.truth.clone());
         self.front = Front::Kept(Box::new(case));
         self.due = StudyNeed::Now;

@@ -110,6 +110,8 @@ pub struct CaseRun {
     pub troubles: Vec<UserError>,
     /// Number of cases in the folder.
     pub total: usize,
+    /// These cases.
+    pub cases: Arc<[KeptCase]>,
     /// Truth against answer.
     pub matrix: Matrix,
     /// Scores against the shares of right guesses.
@@ -212,6 +214,7 @@ fn run_cases(
     let order = library.references.iter().map(|r| r.name.clone());
     let order: Vec<String> = order.collect();
     let total = list.cases.len();
+    let cases: Arc<[KeptCase]> = list.cases.into();
     let judge = CaseJudge::new(&library, recipe);
     let (mut results, mut troubles) = (Vec::new(), Vec::new());
     let so_far = |results: &[CaseResult], troubles: &[UserError], ended| {
@@ -224,10 +227,11 @@ fn run_cases(
             results: results.to_vec(),
             troubles: troubles.to_vec(),
             total,
+            cases: Arc::clone(&cases),
             ended,
         })
     };
-    for (done, case) in list.cases.iter().enumerate() {
+    for (done, case) in cases.iter().enumerate() {
         context.check()?;
         context.progress(done, total);
         match folder.read_scene(case) {

@@ -22,6 +22,8 @@ use crate::{
 pub enum EnrolAction {
     /// Make the scene that Inspect shows the draft.
     TakeShown,
+    /// Go to Inspect, which shows the part that was just saved.
+    SeeInspected,
     /// Correct which points are kept.
     Correct(Edit),
     /// Start the corrections from another selection.
@@ -44,8 +46,10 @@ pub enum EnrolAction {
     Save,
     /// Discard the draft.
     Discard,
-    /// Undo the last step.
+    /// Undo the last step of the draft; without a draft, the last step of all.
     Undo,
+    /// Undo the last step of all, as a notice offers after a change of the library.
+    UndoChange,
     /// Redo the step undone last.
     Redo,
     /// Open the card of an enrolled part.

@@ -104,10 +104,8 @@ impl Form {
     pub fn write(&mut self, field: Field, library: Option<&LibraryView>) {
         match field {
             Field::Title(title) => {
-                if self.named_by == NamedBy::Title {
-                    self.name = proposed_name(&title, library);
-                }
                 self.title = title.chars().take(MAX_TITLE).collect();
+                self.propose_name(library);
             }
             Field::Name(name) => {
                 // An emptied name follows the title again.
@@ -119,7 +117,17 @@ impl Form {
                 self.name = name;
             }
             Field::Notes(notes) => self.notes = notes,
-            Field::ReferenceOf(part) => self.reference_of = part,
+            Field::ReferenceOf(part) => {
+                self.reference_of = part;
+                self.propose_name(library);
+            }
+        }
+    }
+
+    /// Proposes a name, unless a person has entered one.
+    fn propose_name(&mut self, library: Option<&LibraryView>) {
+        if self.named_by == NamedBy::Title {
+            self.name = proposed_name(&self.title, self.reference_of.as_ref(), library);
         }
     }
 
@@ -146,22 +154,32 @@ impl Form {
     }
 }
 
-/// Proposes a name for a title: `part` or `part_2`… if none of its letters may be in a name; none for an empty title.
-fn proposed_name(title: &str, library: Option<&LibraryView>) -> String {
-    if let Some(name) = PartName::proposed(title) {
+/// Proposes a name for a title. If none of its letters may be in a name, it is `part` or `part_2`…; that of one more reference
+/// of `door` is then `door_2`…, even without a title. Otherwise there is none for an empty title.
+fn proposed_name(
+    title: &str,
+    reference_of: Option<&PartName>,
+    library: Option<&LibraryView>,
+) -> String {
+    let named = PartName::proposed(title);
+    if let Some(name) = named.filter(|name| Some(name) != reference_of) {
         return name.into();
     }
-    if title.trim().is_empty() {
-        return String::new();
-    }
-    let is_taken = |name: &str| {
-        library.is_some_and(|library| {
-            let mut damaged = library.damaged.iter();
-            library.place_of(name).is_some() || damaged.any(|damaged| damaged.entry == name)
-        })
+    let stem = match reference_of {
+        Some(of) => of.as_str(),
+        None if title.trim().is_empty() => return String::new(),
+        None => "part",
     };
-    let numbered = (2..).map(|number: u32| format!("part_{number}"));
-    let mut names = std::iter::once("part".to_owned()).chain(numbered);
+    let is_taken = |name: &str| {
+        reference_of.is_some_and(|of| of.as_str() == name)
+            || library.is_some_and(|library| {
+                let mut damaged = library.damaged.iter();
+                library.place_of(name).is_some() || damaged.any(|damaged| damaged.entry == name)
+            })
+    };
+    // Cut off so that there is room for the number.
+    let numbered = (2..).map(|number: u32| format!("{stem:.58}_{number}"));
+    let mut names = std::iter::once(stem.to_owned()).chain(numbered);
     names.find(|name| !is_taken(name)).unwrap_or_default()
 }
 
@@ -220,5 +238,22 @@ mod tests {
         assert_eq!(named("右前 涂装", &["part", "part_2"]), "part_3");
         assert_eq!(named("右前 2", &[]), "2");
         assert_eq!(named(" ", &[]), "");
+    }
+
+    #[test]
+    fn one_more_reference_is_named_after_its_part_unless_it_has_a_title() {
+        let mut form = Form::default();
+        let mut write = |field| {
+            form.write(field, None);
+            form.name.clone()
+        };
+        let of = |name: &str| Field::ReferenceOf(Some(name.parse().expect("a name")));
+        assert_eq!(write(of("door")), "door_2");
+        assert_eq!(write(Field::Title("Door".into())), "door_2", "not its own");
+        assert_eq!(write(Field::Title("Door, open".into())), "door_open");
+        write(Field::Title(String::new()));
+        let long = write(of(&"d".repeat(PartName::MAX_LENGTH)));
+        assert!(PartName::new(&long).is_ok(), "{long}");
+        assert_eq!(write(Field::ReferenceOf(None)), "");
     }
 }

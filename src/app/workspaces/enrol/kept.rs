@@ -46,7 +46,6 @@ pub(super) struct KeptDraft {
     pub(super) origin: Origin,
     /// The selection that the scene started from.
     pub(super) usual: InitialSelection,
-    /// The corrections.
     pub(super) corrections: Corrections,
     /// The form of the part.
     pub(super) form: Form,

@@ -377,14 +377,20 @@ fn empty(ui: &mut Ui, enrol: &EnrolState, session: &Session, actions: &mut Vec<E
         });
         ui.add_space(space::LARGE);
         if let Some(shown) = &session.shown {
-            let origin = shown.inspected.origin.shown_title();
-            let text = text!("enrol-take-shown", scene = origin);
-            let label = text!("enrol-use-shown");
+            let origin = &shown.inspected.origin;
+            // What was just saved is not offered again.
+            let (text, label, action) = if enrol.saved_from.as_ref() == Some(origin) {
+                let text = text!("enrol-see-inspected");
+                (text.clone(), text, EnrolAction::SeeInspected)
+            } else {
+                let text = text!("enrol-take-shown", scene = origin.shown_title());
+                (text, text!("enrol-use-shown"), EnrolAction::TakeShown)
+            };
             let button = Button::new(RichText::new(text).color(theme.on_accent));
             let button = ui.add(button.fill(theme.accent).min_size(vec2(260.0, 48.0)));
             button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
             if button.clicked() {
-                actions.push(EnrolAction::TakeShown);
+                actions.push(action);
             }
         }
         let open = text_button(ui, &text!("enrol-open-scan"));

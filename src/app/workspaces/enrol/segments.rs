@@ -7,7 +7,7 @@ use crate::{
     geometry::cloud::is_finite,
     stages::{
         scene::SceneCloud,
-        segment::{PointLabel, SegmentParams, pieces, segment, surfaces},
+        segment::{PointLabel, SegmentParams, pieces, segment},
     },
 };
 
@@ -25,7 +25,7 @@ pub struct Segments {
 pub struct Segment {
     /// What kind of segment it is.
     pub kind: SegmentKind,
-    /// What it is called.
+    /// Title in the list.
     pub title: SegmentTitle,
     /// Number of points.
     pub num_points: usize,
@@ -109,12 +109,11 @@ impl Segments {
         let stand = stand.unwrap_or_default();
         let title = SegmentTitle::Stand;
         all.add(SegmentKind::Surface, title, PointAction::Dropped, &stand);
-        let others = surfaces(scene, &found, params);
         let is_other = |indices: &&Vec<u32>| {
             let first = indices.first();
             first.is_some() && first != part.first().into_iter().chain(stand.first()).min()
         };
-        let others = others.iter().filter(is_other);
+        let others = found.surfaces.iter().filter(is_other);
         for (number, indices) in others.take(Self::MAX_SURFACES).enumerate() {
             let title = SegmentTitle::Surface(number + 1);
             all.add(SegmentKind::Surface, title, PointAction::Dropped, indices);

@@ -13,14 +13,14 @@ use super::{
 };
 use crate::{
     app::{
-        inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
+        inspection::{library_cache::LibraryView, scan_choice::ShotChoice, source::Origin},
         language::{enrolment::bad_name, text},
         shell::{
             context::ShellContext,
             file_dialog::FileDialog,
             message::{Event, Message},
             notice::Notice,
-            session::{Session, UserRole},
+            session::{Session, UserRole, WorkspaceKind},
         },
         shots::{Asked, ShotsAction, ShotsFile, ShotsState},
         task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
@@ -45,6 +45,8 @@ pub struct EnrolState {
     pub replacing: Option<PartName>,
     /// The part changed last, if it is in the library.
     pub latest: Option<LastChangedPart>,
+    /// Where the draft that was saved last came from.
+    pub(super) saved_from: Option<Origin>,
     /// Number of library changes so far.
     pub num_changes: u64,
     /// The enrolled part whose card is open.
@@ -97,6 +99,7 @@ impl EnrolState {
             num_drafts: 0,
             replacing: None,
             latest: None,
+            saved_from: None,
             num_changes: 0,
             open: None,
             shape: None,
@@ -156,11 +159,10 @@ impl EnrolState {
 
     /// The draft, if a person has put work into it.
     pub(super) fn worked_on(&self) -> Option<&Draft> {
-        let draft = self.draft.as_ref()?;
-        let Form { title, notes, .. } = &draft.form;
-        let is_worked_on =
-            !(title.is_empty() && notes.is_empty() && draft.corrections.edits.is_empty());
-        is_worked_on.then_some(draft)
+        self.draft.as_ref().filter(|draft| {
+            draft.form != Form::default()
+                || draft.corrections != Corrections::none(draft.subject.usual)
+        })
     }
 
     /// Describes unsaved work on the draft, if any.
@@ -194,6 +196,7 @@ impl EnrolState {
         let library = cx.session.library.as_deref();
         match action {
             EnrolAction::TakeShown => self.take_shown(cx),
+            EnrolAction::SeeInspected => cx.send(Message::GoTo(WorkspaceKind::Inspect)),
             EnrolAction::Correct(edit) => {
                 self.is_outline_new = matches!(edit, Edit::Outline(..));
                 self.correct(cx, |all| all.edits.push(edit));
@@ -229,7 +232,8 @@ impl EnrolState {
                     self.did(UndoStep::Draft(Some(Box::new(former))), cx);
                 }
             }
-            EnrolAction::Undo => self.apply_step(UndoDirection::Back, cx),
+            EnrolAction::Undo => self.undo(cx),
+            EnrolAction::UndoChange => self.apply_step(UndoDirection::Back, cx),
             EnrolAction::Redo => self.apply_step(UndoDirection::Again, cx),
             EnrolAction::Open(name) => self.look_at(name, library),
             EnrolAction::Close => self.open = None,
@@ -309,7 +313,7 @@ impl EnrolState {
     /// Handles an event of the shell.
     pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
         match event {
-            Event::Undo => self.apply(EnrolAction::Undo, cx),
+            Event::Undo => self.apply(EnrolAction::UndoChange, cx),
             Event::EngineerIn => {
                 if let Some(action) = self.held.take() {
                     self.apply(action, cx);

@@ -93,18 +93,17 @@ fn modes(enrol: &EnrolState, can_correct: bool) -> Vec<Tool<EnrolAction>> {
 
 /// Undo, Redo and Reset.
 fn steps(draft: &Draft, enrol: &EnrolState) -> Vec<Tool<EnrolAction>> {
-    let steps = &enrol.steps;
     [
         (
             text!("enrol-undo"),
             text!("enrol-undo-step"),
-            !steps.done.is_empty(),
+            enrol.next_undo().is_some(),
             EnrolAction::Undo,
         ),
         (
             text!("enrol-redo"),
             text!("enrol-redo-step"),
-            !steps.undone.is_empty(),
+            !enrol.steps.undone.is_empty(),
             EnrolAction::Redo,
         ),
         (

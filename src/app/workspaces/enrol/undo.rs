@@ -219,6 +219,8 @@ impl EnrolState {
         if let DraftEffect::MakesWay(other) = &mut step.draft {
             let coming = other.take();
             let going = self.draft.take().map(Box::new);
+            let kept = going.as_ref().filter(|_| way != UndoDirection::Back);
+            self.saved_from = kept.map(|draft| draft.subject.origin.clone());
             if way == UndoDirection::First {
                 saved = going.as_deref().and_then(inspectable);
             }
@@ -262,6 +264,37 @@ impl EnrolState {
             }
         } else if form_of(replaced, Some(library)).is_none() {
             self.replacing = None;
+        }
+    }
+
+    /// Index of the step that is undone next: the last one of the draft, else, without a draft, the last of all. So a
+    /// draft does not give way to a part that was saved before it.
+    pub(super) fn next_undo(&self) -> Option<usize> {
+        let done = &self.steps.done;
+        let Some(draft) = &self.draft else {
+            return done.len().checked_sub(1);
+        };
+        let is_save = |step: &UndoStep| match step {
+            UndoStep::Library(step) => matches!(step.draft, DraftEffect::MakesWay(_)),
+            UndoStep::Corrections(..) | UndoStep::Draft(_) => false,
+        };
+        let of_draft = |step: &UndoStep| match step {
+            UndoStep::Corrections(number, _) => *number == draft.number,
+            UndoStep::Draft(_) => true,
+            UndoStep::Library(_) => false,
+        };
+        let steps = done.iter().enumerate().rev();
+        let mut since_save = steps.take_while(|(_, step)| !is_save(step));
+        let next = since_save.find(|(_, step)| of_draft(step));
+        next.map(|(place, _)| place)
+    }
+
+    /// Undoes that step.
+    pub(super) fn undo(&mut self, cx: &mut ShellContext<'_>) {
+        if let Some(place) = self.next_undo() {
+            let step = self.steps.done.remove(place);
+            self.steps.done.push(step);
+            self.apply_step(UndoDirection::Back, cx);
         }
     }
 

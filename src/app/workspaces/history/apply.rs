@@ -111,7 +111,7 @@ pub enum Direction {
 pub enum HistoryJob {
     /// Write an inspection; the ticket is returned with its number.
     Add(u64, Box<NewEntry>),
-    /// Add to the rows of a part what became known after its verdict.
+    /// Add traceability that arrived after the verdict to the rows of its part.
     Trace(HungId, Traceability),
     /// Write a remark.
     Remark(i64, String),

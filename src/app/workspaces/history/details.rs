@@ -355,7 +355,7 @@ fn buttons(ui: &mut Ui, history: &HistoryState, record: &Record, actions: &mut V
             actions.push(HistoryAction::InspectAgain(number));
         }
     });
-    // In sight: nothing hovers over a touch screen.
+    // Not as a hover text: a touch screen has none.
     if let Some(why) = no_frame {
         ui.label(RichText::new(why).small().weak());
     }

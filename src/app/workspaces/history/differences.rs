@@ -1,6 +1,6 @@
 //! Differences between two inspections of one part.
 
-use egui::{Grid, RichText, Ui, vec2};
+use egui::{Grid, Label, RichText, Ui, vec2};
 
 use crate::{
     app::{
@@ -14,6 +14,9 @@ use crate::{
     history::{Differences, InspectionSummary},
     pipeline::{Recipe, parameters::Parameter},
 };
+
+/// Gap between two columns, logical pixels.
+const GAP: f32 = 10.0;
 
 /// Text of a finding in a row of the table.
 type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
@@ -62,9 +65,18 @@ pub(super) fn table(
         (text!("history-figure-recipe"), &|of| of.recipe.clone()),
         (text!("history-figure-library"), &|of| of.library.clone()),
     ];
+    // The names of parts and recipes must not widen the panel.
+    let width = ((ui.available_width() - 2.0 * GAP) / 3.0).floor();
+    // Words wrap; a name is cut, and whole in its tooltip.
+    let cell = |ui: &mut Ui, text: RichText| {
+        let is_name = !text.text().contains(' ');
+        let label = Label::new(text);
+        ui.add(if is_name { label.truncate() } else { label });
+    };
     Grid::new(("differences", names))
         .num_columns(3)
-        .spacing(vec2(10.0, 2.0))
+        .max_col_width(width)
+        .spacing(vec2(GAP, 2.0))
         // Lines of text need less height than controls.
         .min_row_height(22.0)
         .show(ui, |ui| {
@@ -85,12 +97,13 @@ pub(super) fn table(
                 let text = RichText::new(&today);
                 let is_same = then == today;
                 ui.weak(what);
-                ui.label(&then);
-                ui.label(if is_same {
+                cell(ui, RichText::new(then));
+                let text = if is_same {
                     text
                 } else {
                     text.font(font::body_strong()).color(colour)
-                });
+                };
+                cell(ui, text);
                 ui.end_row();
             }
         });

@@ -16,7 +16,7 @@ use crate::{
 /// Above this number, parts are drawn in groups by their medians.
 const MOST_DRAWN: usize = 240;
 /// Smallest number of parts for which a drift is shown.
-const LEAST: usize = 3;
+pub(super) const LEAST: usize = 3;
 /// Drift compares the first and the last of this many equal shares.
 const END: usize = 5;
 

@@ -11,7 +11,7 @@ use crate::{
             widgets::{self, labelled, text_button},
         },
     },
-    history::{KeepFrames, Retention, Usage},
+    history::{ACCEPTED_KEPT, KeepFrames, Retention, Usage},
 };
 
 /// Draws the window while it is open.
@@ -24,7 +24,7 @@ pub(super) fn ui(ctx: &Context, history: &HistoryState, actions: &mut Vec<Histor
         ui.set_max_width(520.0);
         ui.heading(text!("history-keep-title"));
         ui.add_space(space::SMALL);
-        let why = text!("history-keep-why");
+        let why = text!("history-keep-why", num = ACCEPTED_KEPT);
         ui.weak(why);
         ui.add_space(space::SMALL);
         Grid::new("frames")

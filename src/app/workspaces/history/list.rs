@@ -1,7 +1,7 @@
 //! The list of past inspections; only the visible rows are fetched and drawn.
 
 use egui::{
-    Align2, Color32, FontId, Painter, Rect, RichText, ScrollArea, Sense, Ui, pos2,
+    Align2, Color32, FontId, Painter, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2,
     text::{LayoutJob, TextWrapping},
     vec2,
 };
@@ -10,12 +10,13 @@ use jiff::{Timestamp, tz::TimeZone};
 use super::{HistoryAction, HistoryState, bar};
 use crate::{
     app::{
+        inspection::library_cache::LibraryView,
         language::{
             history::{stored_scene, stored_title},
             results::stored_verdict,
             text,
         },
-        shell::session::Session,
+        shell::{session::Session, truth_menu::truth_title},
         ui::{
             theme::{ROUNDING, Theme, font, space},
             widgets::{Mark, fitted_middle, fitted_path, focus_ring, mark},
@@ -82,7 +83,7 @@ impl List {
             seen = visible.clone();
             for place in visible {
                 match history.row(place) {
-                    Some(past) => row(ui, past, listed, &layout, actions),
+                    Some(past) => row(ui, past, listed, &layout, session, actions),
                     None => {
                         ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
                     }
@@ -164,7 +165,7 @@ const COLUMNS: [Column; 5] = [
         name: || text!("history-column-scene"),
         width: Width::Share(0.42),
         is_path: true,
-        // A remark is what others look for first.
+        // Show a remark first: it is what most people look for.
         text: |past, _| {
             let scene = stored_scene(&past.scene, past.is_simulated);
             match past.remark.as_str() {
@@ -286,11 +287,20 @@ fn row(
     past: &Summary,
     selected: Option<i64>,
     layout: &Layout,
+    session: &Session,
     actions: &mut Vec<HistoryAction>,
 ) {
     let theme = Theme::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let is_selected = selected == Some(past.number);
+    let actual = past.label.as_ref().map(|truth| {
+        let unloaded = LibraryView::default();
+        let library = session.library.as_deref().unwrap_or(&unloaded);
+        text!(
+            "shell-actual-part",
+            part = truth_title(Some(truth), library)
+        )
+    });
     response.widget_info(|| {
         let verdict = stored_verdict(past.verdict);
         let label = text!(
@@ -300,13 +310,17 @@ fn row(
             part = stored_title(past),
             verdict = verdict,
         );
-        egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, label)
+        let mut info = egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, label);
+        info.current_text_value.clone_from(&actual);
+        info
     });
     let scene = stored_scene(&past.scene, past.is_simulated);
-    let response = if scene.contains(['/', '\\']) {
-        response.on_hover_text(scene)
-    } else {
+    let path = scene.contains(['/', '\\']).then_some(scene);
+    let says: Vec<String> = actual.into_iter().chain(path).collect();
+    let response = if says.is_empty() {
         response
+    } else {
+        response.on_hover_text(says.join("\n"))
     };
     if ui.is_rect_visible(rect) {
         let painter = ui.painter();
@@ -333,6 +347,11 @@ fn paint(painter: &Painter, rect: Rect, past: &Summary, layout: &Layout, theme: 
     };
     let at = pos2(rect.left() + 20.0, rect.center().y);
     mark(painter, at, 9.0, sign, theme);
+    // A person has said what really hung there.
+    if past.label.is_some() {
+        let edge = Stroke::new(1.5, theme.canvas);
+        painter.circle(at + vec2(8.0, 7.0), 4.5, theme.accent, edge);
+    }
     let serial = &past.trace.serial;
     for (place, (column, span)) in layout.columns().enumerate() {
         let mut line = rect;

@@ -117,7 +117,6 @@ struct Unwritten {
 pub(super) struct ReinspectionJob {
     /// The past inspection.
     pub(super) past: Arc<OpenedInspection>,
-    /// The purpose.
     pub(super) purpose: RemakeFor,
 }
 

@@ -268,6 +268,9 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, units: UnitSystem) {
         }
         if let Some(drift) = &found.drift {
             drift::ui(ui, drift, units);
+        } else {
+            let needed = text!("history-drift-needs", count = drift::LEAST);
+            ui.add(egui::Label::new(needed).wrap());
         }
     });
 }

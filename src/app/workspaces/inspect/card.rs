@@ -32,20 +32,22 @@ use crate::{
     stages::pose::PoseEstimate,
 };
 
-/// Draws the card.
+/// Draws the card; with the stand-off of an assumed path only if its nozzle is shown.
 pub(super) fn ui(
     ui: &mut Ui,
     inspected: &Inspected,
     session: &Session,
+    shows_nozzle: bool,
     actions: &mut Vec<InspectAction>,
 ) {
     let theme = Theme::of(ui);
     if session.is_old() {
-        ui.label(
-            RichText::new(text!("inspect-previous-result"))
-                .font(font::body_strong())
-                .color(theme.warning),
-        );
+        let text = match &session.inspecting {
+            Some(_) => text!("inspect-previous-result"),
+            None => text!("inspect-outdated"),
+        };
+        let text = RichText::new(text).font(font::body_strong());
+        ui.label(text.color(theme.warning));
         ui.multiply_opacity(0.55);
     }
     if session.shown.as_ref().is_some_and(|shown| shown.is_past) {
@@ -57,7 +59,9 @@ pub(super) fn ui(
         actions.push(InspectAction::ToggleRecording);
     }
     let inspection = &inspected.inspection;
+    // Without a name, nobody could tell which part the pose is of.
     let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    let pose = pose.filter(|_| inspection.verdict.is_named());
     // Keep the buttons visible, however low the window.
     let pose_to_copy = pose.filter(|_| inspection.verdict.is_accepted());
     Panel::bottom("ways on")
@@ -93,13 +97,16 @@ pub(super) fn ui(
                 let text = text!("inspect-approximate");
                 ui.label(RichText::new(text).color(theme.warning));
             }
-            stand_off::ui(ui, inspected, session.units);
+            // Beside an accepted part, the figures of a path that nobody has stored would look like a defect.
+            if shows_nozzle || inspected.spray.is_some() {
+                stand_off::ui(ui, inspected, session.units);
+            }
             robot_numbers::ui(ui, inspected, session, actions);
         }
         if let Some(scan) = &inspected.scan {
             summary(ui, &scan.fused, session.units);
         }
-        footer(ui, inspected, session.role);
+        footer(ui, inspected, session);
     });
 }
 
@@ -160,7 +167,8 @@ fn action_buttons(ui: &mut Ui, pose: Option<&PoseEstimate>, actions: &mut Vec<In
 
 /// Heads the figures with the part that they belong to, if the headline does not name it.
 fn as_part(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
-    let Some(guess) = inspected.inspection.verdict.guess() else {
+    let verdict = &inspected.inspection.verdict;
+    let Some(guess) = verdict.guess().filter(|_| verdict.is_named()) else {
         return;
     };
     let part = inspected.library.title_of(guess);
@@ -332,7 +340,7 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem) {
     );
 }
 
-fn footer(ui: &mut Ui, inspected: &Inspected, role: UserRole) {
+fn footer(ui: &mut Ui, inspected: &Inspected, session: &Session) {
     heading(ui, &text!("inspect-inspection"));
     let ms = inspected.inspection.timings.total.as_secs_f64() * 1000.0;
     row(ui, &text!("inspect-time"), &format!("{ms:.1} ms"));
@@ -340,10 +348,10 @@ fn footer(ui: &mut Ui, inspected: &Inspected, role: UserRole) {
     if inspected.origin.is_simulated() {
         row(ui, &text!("inspect-camera"), &text!("inspect-simulated"));
     }
-    for (name, text) in inspected.trace().known() {
+    for (name, text) in session.trace.of_part(inspected).known() {
         row(ui, &traced(name), &shortened(text, 28));
     }
-    if role == UserRole::Engineer {
+    if session.role == UserRole::Engineer {
         let label = recipe_label(&inspected.recipe.label);
         row(ui, &text!("inspect-recipe"), &shortened(&label, 28));
     }

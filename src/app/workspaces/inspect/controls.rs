@@ -115,7 +115,7 @@ fn sides(ui: &mut Ui, view: &mut SceneView) {
     }
 }
 
-/// True if the result, or the cell, has this to show.
+/// True if the result or the cell contains this.
 fn is_there(session: &Session, inspected: &Inspected, part: ViewPart) -> bool {
     let figure = &inspected.view;
     match part {
@@ -129,7 +129,7 @@ fn is_there(session: &Session, inspected: &Inspected, part: ViewPart) -> bool {
     }
 }
 
-/// Describes what has this to show.
+/// Explains what this needs before it can be shown.
 fn needed(part: ViewPart) -> String {
     match part {
         ViewPart::Axes | ViewPart::Outline => text!("inspect-needs-pose"),

@@ -38,9 +38,11 @@ pub(super) struct Headline {
 impl Headline {
     pub(super) fn of(inspected: &Inspected, session: &Session) -> Self {
         if let Some(followed) = &inspected.followed
-            && followed.standing.counted().is_none()
+            && inspected.is_open()
         {
-            return Self::not_yet(inspected, followed, session.is_live());
+            let shown = session.shown.as_ref();
+            let is_live = session.is_live() && shown.is_none_or(|shown| !shown.is_outdated);
+            return Self::not_yet(inspected, followed, is_live);
         }
         match &inspected.inspection.verdict {
             Verdict::Part {

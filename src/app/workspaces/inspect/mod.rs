@@ -258,7 +258,7 @@ impl Workspace for InspectWorkspace {
         if session.is_operator_view() {
             if let Some(shown) = &session.shown {
                 self.make(ui.ctx(), shown);
-                self.view.frame_part(&shown.inspected);
+                self.view.frame_part(shown);
             }
             operator::ui(ui, session, |ui| {
                 if let Some(shown) = &session.shown {
@@ -283,7 +283,8 @@ impl Workspace for InspectWorkspace {
             .resizable(false)
             .frame(panel(Margin::symmetric(18, 14)))
             .show(ui, |ui| {
-                card::ui(ui, inspected, session, &mut actions);
+                let shows_nozzle = self.state.shows_nozzle();
+                card::ui(ui, inspected, session, shows_nozzle, &mut actions);
             });
         Panel::bottom("stages")
             .exact_size(strip_height(&self.state, inspected, size.y))

@@ -7,7 +7,7 @@ use egui::{
 
 use super::{
     headline::{Headline, fitting_font},
-    operator_words::{in_short, next_step, next_without_part},
+    operator_words::{in_short, next_step, next_without_part, no_part_in_short},
 };
 use crate::{
     app::{
@@ -19,7 +19,6 @@ use crate::{
             widgets::{Mark, fitted_middle, line_mark, mark, sentence, wrapped},
         },
     },
-    geometry::cloud::Grid,
     history::StoredVerdict,
     pipeline::{Unrecognisable, Verdict},
     stages::pose::PoseEstimate,
@@ -130,8 +129,9 @@ impl Banner {
             return Self::new(Tone::Open, text!("operator-inspecting"), &run.title, wait);
         }
         if let Some(trouble) = &session.failed {
-            let ask = if session.is_watching() {
-                text!("operator-ask")
+            // A watched folder has no Capture: the next file comes by itself.
+            let next = if session.is_watching() {
+                trouble.advice.clone()
             } else {
                 text!("operator-no-result-next")
             };
@@ -139,7 +139,7 @@ impl Banner {
                 Tone::Trouble,
                 text!("operator-no-result"),
                 sentence(&trouble.what),
-                ask,
+                next,
             );
         }
         if let Some(library) = &session.library {
@@ -157,11 +157,17 @@ impl Banner {
                 return Self::new(Tone::Trouble, text!("operator-no-parts"), why, ask);
             }
         }
-        // A followed source has nothing to show until its first frame is inspected.
-        let shown = session.shown.as_ref();
-        let shown = shown.filter(|shown| shown.session.is_some() || !session.is_live());
+        // What is shown may be of another source, or from before this one was followed.
+        let shown = session.shown.as_ref().filter(|shown| !shown.is_outdated);
         let Some(shown) = shown else {
-            return if session.is_live() {
+            return if session.is_watching() {
+                Self::new(
+                    Tone::Open,
+                    text!("shell-waiting-for-file"),
+                    text!("operator-no-new-file"),
+                    text!("operator-save-capture"),
+                )
+            } else if session.is_live() {
                 Self::new(
                     Tone::Open,
                     text!("operator-looking"),
@@ -185,15 +191,19 @@ impl Banner {
             is_current: true,
             ..result
         };
-        let serial = &inspected.trace().serial;
+        let serial = session.trace.of_part(inspected).serial;
         if !serial.is_empty() {
             verdict.reason = format!("{} · {serial}", verdict.reason);
         }
         if shown.is_past {
+            let next = match session.source.followed() {
+                Some(_) => text!("operator-follow-current"),
+                None => text!("operator-capture-current"),
+            };
             return Self {
                 tone: Tone::Open,
                 reason: text!("operator-from-history"),
-                next: text!("operator-capture-current"),
+                next,
                 caution: String::new(),
                 ..verdict
             };
@@ -210,6 +220,10 @@ impl Banner {
             ..
         } = Headline::of(inspected, session);
         let inspection = &inspected.inspection;
+        if is_accepted && is_reported_wrong(inspected, session) {
+            let next = text!("operator-reported-wrong-next");
+            return Self::new(Tone::NotOk, title, text!("operator-reported-wrong"), next);
+        }
         if is_accepted {
             let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
             let next = if inspected.origin.is_simulated() {
@@ -218,8 +232,10 @@ impl Banner {
                 text!("operator-ambiguous-next")
             } else if matches!(inspected.origin, Origin::File { .. }) {
                 text!("operator-file-next")
-            } else {
+            } else if caution(inspected, Tone::Ok).is_empty() {
                 text!("operator-start-robot")
+            } else {
+                text!("operator-check-part-next")
             };
             return Self::new(Tone::Ok, title, text!("operator-recognised"), next);
         }
@@ -232,22 +248,22 @@ impl Banner {
             |part| inspected.library.title_of(part).to_owned(),
         );
         match &inspection.verdict {
-            Verdict::NoPart(Unrecognisable::EmptyLibrary) => Self::new(
+            Verdict::NoPart(why @ Unrecognisable::EmptyLibrary) => Self::new(
                 Tone::Trouble,
                 text!("operator-no-parts"),
-                sentence(&reason),
+                no_part_in_short(why),
                 text!("operator-ask-to-enrol"),
             ),
             // An empty cell is not a bad part.
             Verdict::NoPart(why) => {
-                let next = next_without_part(why);
-                Self::new(Tone::Open, title, sentence(&reason), next)
+                let next = next_without_part(why, session);
+                Self::new(Tone::Open, title, no_part_in_short(why), next)
             }
             Verdict::Part {
                 rejected: Some(why),
                 ..
             } => {
-                let next = next_step(why, &nearest);
+                let next = next_step(why, &nearest, session);
                 Self::new(Tone::NotOk, title, in_short(why, &nearest), next)
             }
             Verdict::Part { rejected: None, .. } => {
@@ -257,35 +273,31 @@ impl Banner {
     }
 }
 
-/// Says that a part reaches the edge of the picture. An accepted part may be painted nevertheless.
+/// Says that a part reaches the edge of the picture, or that an accepted one may be another model. Of an accepted part only what
+/// is certain: whoever is warned of every other good part heeds no warning.
 fn caution(inspected: &Inspected, tone: Tone) -> String {
     let is_cut = inspected.inspection.touches_edge() && inspected.scan.is_none();
     match tone {
         Tone::NotOk if is_cut => text!("operator-reaches-edge"),
-        Tone::Ok if is_cut && reaches_border(inspected) => text!("operator-reaches-edge-ok"),
-        Tone::Ok | Tone::NotOk | Tone::Open | Tone::Trouble => String::new(),
+        Tone::Ok => {
+            let is_surely_cut = is_cut && inspected.reaches_border;
+            let is_approximate = inspected.inspection.verdict.is_approximate();
+            let cautions = [
+                is_surely_cut.then(|| text!("operator-reaches-edge-ok")),
+                is_approximate.then(|| text!("operator-approximate-ok")),
+            ];
+            let cautions: Vec<String> = cautions.into_iter().flatten().collect();
+            cautions.join("\n")
+        }
+        Tone::NotOk | Tone::Open | Tone::Trouble => String::new(),
     }
 }
 
-/// True if points of the part lie at the border of the picture itself. The view may end earlier, for example at the shadow of
-/// a part that lies well inside.
-fn reaches_border(inspected: &Inspected) -> bool {
-    // As for the edge of the view: a few stray pixels do not count.
-    const LEAST: usize = 10;
-    const MARGIN: usize = 2;
-    let part = inspected.inspection.segmentation.part.as_ref().ok();
-    let Some((part, Grid { width, height })) = part.zip(inspected.scene.cloud.grid) else {
-        return false;
-    };
-    let is_at_border = |i: &&u32| {
-        let (u, v) = (**i as usize % width, **i as usize / width);
-        u.min(v) <= MARGIN || u + MARGIN + 1 >= width || v + MARGIN + 1 >= height
-    };
-    part.indices
-        .iter()
-        .filter(is_at_border)
-        .nth(LEAST - 1)
-        .is_some()
+/// True if a person has said that the accepted part is another one.
+fn is_reported_wrong(inspected: &Inspected, session: &Session) -> bool {
+    let labelled = session.shift.labelled.as_ref();
+    let truth = labelled.filter(|(part, _)| part == inspected.hung());
+    truth.is_some_and(|(_, truth)| truth.part() != inspected.inspection.verdict.guess())
 }
 
 /// Draws the operator's view; `picture` draws the part once there is an inspection.
@@ -427,14 +439,8 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
         font::next_step()
     };
     wrapped(ui, &banner.next, &next, theme.text);
-    match banner.tone {
-        _ if banner.caution.is_empty() => {}
-        // A good part carries no warning.
-        Tone::Ok => {
-            ui.add_space(space::SMALL);
-            wrapped(ui, &banner.caution, &font::far_list(), theme.weak_text);
-        }
-        Tone::NotOk | Tone::Open | Tone::Trouble => warn(ui, &banner.caution),
+    if !banner.caution.is_empty() {
+        warn(ui, &banner.caution);
     }
     ui.add_space(space::MEDIUM);
     current_trace::fields(ui, session);
@@ -456,7 +462,10 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for row in &shift.last {
             let is_ok = row.verdict == StoredVerdict::Accepted;
-            let (sign, colour) = if is_ok {
+            let is_wrong = row.is_wrongly_accepted();
+            let (sign, colour) = if is_wrong {
+                (Mark::Look, theme.warning)
+            } else if is_ok {
                 (Mark::Good, theme.accepted)
             } else {
                 (Mark::Bad, theme.rejected)
@@ -474,7 +483,12 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
             let mirrored = row.mirror_of();
             let mirrored = mirrored.map(|part| text!("results-title-mirrored", part = part));
             let serial = Some(row.trace.serial.clone()).filter(|serial| !serial.is_empty());
-            let below = [(mirrored, font::body()), (serial, font::far_list())];
+            let wrong = is_wrong.then(|| text!("operator-reported-wrong"));
+            let below = [
+                (wrong, font::body()),
+                (mirrored, font::body()),
+                (serial, font::far_list()),
+            ];
             let [name_line, line_below] = TWO_LINES;
             let line = ui.horizontal(|ui| {
                 let is_alone = below.iter().all(|(text, _)| text.is_none());
@@ -532,7 +546,7 @@ mod tests {
     };
 
     #[test]
-    fn a_part_at_the_edge_and_a_file_are_said_and_only_a_refused_part_is_warned_of() {
+    fn a_part_at_the_edge_another_model_and_a_file_are_said_and_only_what_is_certain() {
         let banner = |change: fn(&mut Inspected), is_past| {
             let mut inspected = inspected_cell(CellChoice::InTurn, 1);
             change(&mut inspected);
@@ -542,6 +556,7 @@ mod tests {
                     inspected: Arc::new(inspected),
                     is_past,
                     session: None,
+                    is_outdated: false,
                 }),
                 ..Session::default()
             })
@@ -554,8 +569,16 @@ mod tests {
         let cut: fn(&mut Inspected) = |inspected| {
             if let Ok(part) = &mut inspected.inspection.segmentation.part {
                 part.touches_edge = true;
-                part.indices = (0..20).collect();
             }
+            // Known with the result: no frame of the window goes through the points.
+            inspected.reaches_border = true;
+            inspected.origin = camera();
+        };
+        let approximate: fn(&mut Inspected) = |inspected| {
+            if let Verdict::Part { is_approximate, .. } = &mut inspected.inspection.verdict {
+                *is_approximate = true;
+            }
+            inspected.origin = camera();
         };
         let refused: fn(&mut Inspected) = |inspected| {
             if let Ok(part) = &mut inspected.inspection.segmentation.part {
@@ -568,9 +591,14 @@ mod tests {
         assert_eq!(banner(|_| (), false).caution, "");
         let inside = banner(beside_shadow, false);
         assert_eq!((inside.tone, &*inside.caution), (Tone::Ok, ""));
-        let good = banner(cut, false);
-        assert_eq!(good.tone, Tone::Ok);
-        assert!(good.caution.contains("the next one"), "{}", good.caution);
+        let plain = banner(|inspected| inspected.origin = camera(), false);
+        assert_eq!((&*plain.next, &*plain.caution), ("Start the robot", ""));
+        for (change, caution) in [(cut, "Not all of it"), (approximate, "another model")] {
+            let good = banner(change, false);
+            assert_eq!(good.tone, Tone::Ok);
+            assert!(good.caution.contains(caution), "{}", good.caution);
+            assert_eq!(good.next, "Check the part, then start the robot");
+        }
         let bad = banner(refused, false);
         assert_eq!(bad.tone, Tone::NotOk);
         assert!(bad.caution.contains("all of it"), "{}", bad.caution);
@@ -584,6 +612,14 @@ mod tests {
         // It may show what hung there days ago.
         let next = banner(file, false).next;
         assert!(next.starts_with("From a file"), "{next}");
+    }
+
+    /// A frame of a camera that is not simulated.
+    fn camera() -> Origin {
+        Origin::Frame {
+            name: "kinect frame 1".into(),
+            is_simulated: false,
+        }
     }
 
     const CHINESE: [&str; 2] = [

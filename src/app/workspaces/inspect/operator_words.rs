@@ -1,7 +1,10 @@
 //! A verdict in the operator's words: why a part is not accepted, and what an operator can do about it.
 
 use crate::{
-    app::language::{results::rejection_advice, text},
+    app::{
+        language::{results::rejection_advice, text},
+        shell::session::Session,
+    },
     pipeline::{Rejection, Unrecognisable},
     stages::segment::NoPart,
 };
@@ -33,52 +36,118 @@ pub(super) fn in_short(why: &Rejection, nearest: &str) -> String {
     }
 }
 
-/// States what an operator can do about it, if only to call the engineer.
-pub(super) fn next_step(why: &Rejection, nearest: &str) -> String {
+/// States why there is no part, without figures, which are for the engineer.
+pub(super) fn no_part_in_short(why: &Unrecognisable) -> String {
     match why {
-        Rejection::LowScore { .. } => text!("operator-uncover-next"),
-        Rejection::HardlySeen { .. } => text!("operator-all-in-picture-next"),
-        Rejection::AnotherModel { .. } | Rejection::AnotherMake { .. } => {
-            text!("operator-enrol-if-painted-next")
+        Unrecognisable::NoPart(NoPart::OnlyBackground { .. }) => text!("operator-nothing-hangs"),
+        Unrecognisable::NoPart(NoPart::TooFewPoints { .. }) => text!("operator-hardly-a-reading"),
+        Unrecognisable::NoPart(NoPart::TooWide { .. }) => text!("operator-too-wide"),
+        Unrecognisable::Project(_) | Unrecognisable::Contour(_) | Unrecognisable::Signature(_) => {
+            text!("operator-hardly-seen")
         }
+        Unrecognisable::EmptyLibrary => text!("operator-no-parts-why"),
+        Unrecognisable::Fault(_) => text!("operator-fault"),
+    }
+}
+
+/// States what an operator can do about it, if only to call the engineer.
+pub(super) fn next_step(why: &Rejection, nearest: &str, session: &Session) -> String {
+    let (step, otherwise) = match why {
+        Rejection::LowScore { .. } => (text!("operator-uncover"), text!("operator-if-it-persists")),
+        Rejection::HardlySeen { .. } => (text!("operator-all-in-picture"), String::new()),
         Rejection::AmbiguousPose { .. }
         | Rejection::Unconstrained { .. }
         | Rejection::Uncertain { .. }
-        | Rejection::NoPose(_) => text!("operator-turn-next"),
-        Rejection::Unknown { .. } => text!("operator-turn-or-enrol-next"),
-        Rejection::Mirrored { .. } => text!("operator-mirrored-next", nearest = nearest),
-        Rejection::MirroredImage { .. } => text!("operator-mirrored-image-next"),
-        Rejection::SmallMargin { .. } => text!("operator-small-margin-next"),
-        Rejection::Unconfirmed { .. } => text!("operator-unconfirmed-next"),
+        | Rejection::NoPose(_) => (text!("operator-turn"), text!("operator-if-it-persists")),
+        Rejection::Unknown { .. } => (
+            text!("operator-turn"),
+            text!("operator-enrol-if-painted-next"),
+        ),
+        Rejection::SmallMargin { .. } => (text!("operator-turn"), text!("operator-if-two-alike")),
+        Rejection::AnotherModel { .. } | Rejection::AnotherMake { .. } => {
+            return text!("operator-enrol-if-painted-next");
+        }
+        Rejection::Mirrored { .. } => return text!("operator-mirrored-next", nearest = nearest),
+        Rejection::MirroredImage { .. } => return text!("operator-mirrored-image-next"),
+        Rejection::Unconfirmed { .. } => return text!("operator-unconfirmed-next"),
         Rejection::OutOfRange { .. }
         | Rejection::BehindCamera { .. }
-        | Rejection::SurplusBytes { .. } => text!("operator-check-camera-next"),
+        | Rejection::SurplusBytes { .. } => return text!("operator-check-camera-next"),
         Rejection::Piece { .. }
         | Rejection::NotSteady { .. }
         | Rejection::FewFrames { .. }
         | Rejection::Undecided { .. }
-        | Rejection::PosesApart { .. } => rejection_advice(why),
-    }
+        | Rejection::PosesApart { .. } => return rejection_advice(why),
+    };
+    in_lines(step, session, otherwise)
 }
 
 /// States what an operator can do where there is no part.
-pub(super) fn next_without_part(why: &Unrecognisable) -> String {
-    match why {
+pub(super) fn next_without_part(why: &Unrecognisable, session: &Session) -> String {
+    let (step, otherwise) = match why {
         Unrecognisable::NoPart(NoPart::OnlyBackground { knows_cell, .. }) => {
-            if *knows_cell {
-                text!("operator-hang-or-empty-cell-next")
+            let otherwise = if *knows_cell {
+                text!("operator-if-it-hangs-there")
             } else {
-                text!("operator-hang-next")
-            }
+                String::new()
+            };
+            (text!("operator-hang"), otherwise)
         }
-        Unrecognisable::NoPart(NoPart::TooFewPoints { .. }) => {
-            text!("operator-uncover-camera-next")
-        }
+        Unrecognisable::NoPart(NoPart::TooFewPoints { .. }) => (
+            text!("operator-uncover-camera"),
+            text!("operator-if-it-persists"),
+        ),
         Unrecognisable::Project(_) | Unrecognisable::Contour(_) | Unrecognisable::Signature(_) => {
-            text!("operator-turn-part-next")
+            (text!("operator-turn"), text!("operator-if-it-persists"))
         }
         Unrecognisable::NoPart(NoPart::TooWide { .. })
         | Unrecognisable::EmptyLibrary
-        | Unrecognisable::Fault(_) => text!("operator-ask"),
+        | Unrecognisable::Fault(_) => return text!("operator-ask"),
+    };
+    in_lines(step, session, otherwise)
+}
+
+/// Puts sentences into lines: a step, how this source is inspected again, and what to do if that does not help.
+fn in_lines(step: String, session: &Session, otherwise: String) -> String {
+    let again = if session.is_watching() {
+        text!("operator-next-file")
+    } else if session.is_live() {
+        // Live inspects again by itself.
+        String::new()
+    } else {
+        text!("operator-then-capture")
+    };
+    let mut lines = vec![step, again, otherwise];
+    lines.retain(|line| !line.is_empty());
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::shell::session::Source;
+
+    #[test]
+    fn the_advice_fits_the_source() {
+        let why = Unrecognisable::NoPart(NoPart::TooFewPoints {
+            found: 0,
+            needed: 100,
+        });
+        let mut session = Session::default();
+        let advice = next_without_part(&why, &session);
+        assert!(
+            advice.contains("\nThen press Capture\nIf it persists"),
+            "{advice}"
+        );
+        // Capture would end Live, which inspects again by itself.
+        session.live.is_on = true;
+        let advice = next_without_part(&why, &session);
+        assert_eq!(advice.lines().count(), 2, "{advice}");
+        session.source = Source::Camera(Box::new("watch:captures".parse().expect("a source")));
+        let advice = next_without_part(&why, &session);
+        assert!(
+            advice.contains("The next file") && !advice.contains("Capture"),
+            "{advice}"
+        );
     }
 }

@@ -3,18 +3,15 @@
 use std::sync::Arc;
 
 use egui::{
-    Align2, Color32, FontId, Galley, Painter, Rect, Stroke, pos2,
+    Color32, FontId, Galley, Painter, Rect, Stroke, pos2,
     text::{LayoutJob, TextWrapping},
 };
 
 use super::plots::{Pictures, PlotDetail};
-use crate::{
-    app::{
-        inspection::figures::RankedPartFigure,
-        language::text,
-        ui::{theme::font, widgets::Scale},
-    },
-    pipeline::Verdict,
+use crate::app::{
+    inspection::figures::RankedPartFigure,
+    language::text,
+    ui::{theme::font, widgets::Scale},
 };
 
 /// Below this width of the ranking, logical pixels, names are above the bars.
@@ -65,7 +62,19 @@ impl Pictures<'_> {
             .collect();
         let widest = titles.iter().map(|title| title.size().x);
         let names = widest.fold(0.0, f32::max) + if is_large { 16.0 } else { 6.0 };
-        let values = if is_large { 60.0 } else { 0.0 };
+        let scores = candidates.iter().take(num_rows).filter(|_| is_large);
+        let scores: Vec<_> = scores
+            .map(|candidate| {
+                let score = if candidate.is_examined {
+                    format!("{:.2}", candidate.score)
+                } else {
+                    text!("inspect-not-examined")
+                };
+                painter.layout_no_wrap(score, font::body(), theme.text)
+            })
+            .collect();
+        let widest = scores.iter().map(|score| score.size().x + 24.0);
+        let values = widest.fold(0.0, f32::max);
         let bars = Scale::new([0.0, 1.0], [rect.left() + names, rect.right() - values]);
         for ((place, candidate), title) in candidates.iter().enumerate().zip(titles) {
             let middle = rect.top() + row * (place as f32 + 0.5);
@@ -86,14 +95,10 @@ impl Pictures<'_> {
                 2.0,
                 self.bar_fill(place),
             );
-            if is_large {
-                let at = pos2(rect.right(), middle);
-                let score = if candidate.is_examined {
-                    format!("{:.2}", candidate.score)
-                } else {
-                    text!("inspect-not-examined")
-                };
-                painter.text(at, Align2::RIGHT_CENTER, score, font::body(), colour);
+            if let Some(score) = scores.get(place) {
+                let size = score.size();
+                let at = pos2(rect.right() - size.x, middle - size.y / 2.0);
+                painter.galley_with_override_text_color(at, Arc::clone(score), colour);
             }
         }
         let threshold = bars.at(self.inspected.recipe.accept.min_score as f32);
@@ -130,14 +135,16 @@ impl Pictures<'_> {
         }
     }
 
-    /// Colour of the bar at this index of the ranking; only an accepted part's bar has the colour of acceptance.
+    /// Colour of the bar at this index of the ranking; the first one has that of the verdict.
     fn bar_fill(&self, place: usize) -> Color32 {
-        let verdict = &self.inspected.inspection.verdict;
-        let is_accepted = matches!(verdict, Verdict::Part { rejected: None, .. });
-        match (place, is_accepted) {
-            (0, true) => self.theme.accepted,
-            (0, false) => self.theme.rejected,
-            _ => self.theme.weak_text.gamma_multiply(0.6),
+        if place > 0 {
+            self.theme.weak_text.gamma_multiply(0.6)
+        } else if self.inspected.is_open() {
+            self.theme.warning
+        } else if self.inspected.inspection.verdict.is_accepted() {
+            self.theme.accepted
+        } else {
+            self.theme.rejected
         }
     }
 }
@@ -147,4 +154,54 @@ fn elided(painter: &Painter, text: &str, font: FontId, colour: Color32, width: f
     let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
     job.wrap = TextWrapping::truncate_at_width(width);
     painter.layout_job(job)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        app::{
+            inspection::{
+                inspected::{Inspected, LiveFrameContext, inspected_cell},
+                source::CellChoice,
+            },
+            shell::session::Session,
+            task::TaskRunner,
+            ui::theme::Theme,
+            workspaces::inspect::InspectState,
+        },
+        pipeline::{
+            Rejection, Verdict,
+            live::{LiveVerdict, MotionState},
+        },
+    };
+
+    #[test]
+    fn the_bar_of_the_best_part_is_red_only_once_a_verdict_counts() {
+        let theme = Theme::of(&egui::Context::default());
+        let state = InspectState::new(&TaskRunner::without_threads());
+        let session = Session::default();
+        let fill = |inspected: &Inspected| {
+            let pictures = Pictures {
+                inspected,
+                state: &state,
+                session: &session,
+                theme,
+                segmentation: None,
+                binary: None,
+            };
+            pictures.bar_fill(0)
+        };
+        let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+        assert_eq!(fill(&inspected), theme.accepted);
+        if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
+            *rejected = Some(Rejection::NotSteady { part: part.clone() });
+        }
+        assert_eq!(fill(&inspected), theme.rejected);
+        inspected.followed = Some(LiveFrameContext {
+            stillness: MotionState::Moving,
+            standing: LiveVerdict::Open,
+        });
+        assert_eq!(fill(&inspected), theme.warning);
+    }
 }

@@ -116,7 +116,6 @@ impl InspectState {
             parts: [
                 ViewPart::Axes,
                 ViewPart::Outline,
-                ViewPart::NozzleMiddle,
                 ViewPart::SprayPath,
                 ViewPart::RobotBase,
                 ViewPart::ShotCameras,
@@ -143,6 +142,12 @@ impl InspectState {
         let is_on_its_way = run.is_some_and(|run| run.purpose == ReinspectionPurpose::Shots);
         let asked = self.shots.asked_choice().filter(|_| is_on_its_way);
         Some(asked.unwrap_or(&scan.fused.choice))
+    }
+
+    /// True if an assumed nozzle is shown.
+    pub(super) fn shows_nozzle(&self) -> bool {
+        let nozzles = [ViewPart::NozzleMiddle, ViewPart::NozzleWorst];
+        nozzles.iter().any(|nozzle| self.parts.contains(nozzle))
     }
 
     /// The file that is being written, if any.
@@ -337,9 +342,11 @@ impl InspectState {
         let inspected = Arc::clone(&shown.inspected);
         let robot = cx.session.robot_of(&inspected).cloned();
         let convention = cx.session.convention;
+        let trace = cx.session.trace.of_part(&inspected);
         self.writing
             .start(text!("inspect-writing-report"), move |_| {
-                let report = report_files::report_of(&inspected, robot.as_deref(), convention);
+                let robot = robot.as_deref();
+                let report = report_files::report_of(&inspected, &trace, robot, convention);
                 Ok(report_files::report(
                     &folder,
                     &inspected,
@@ -487,6 +494,7 @@ mod tests {
             inspected: Arc::new(found),
             is_past: false,
             session: None,
+            is_outdated: false,
         });
         state.apply(InspectAction::CopyPose, &mut shell.context());
         assert!(matches!(

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use egui::{Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
+use egui::{Key, Modifiers, Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::{
     action::InspectAction,
@@ -78,6 +78,8 @@ pub(super) struct SceneView {
     session: Option<u64>,
     /// The part that was framed last for the operator, and whether its verdict counted by then.
     framed: Option<(HungId, bool)>,
+    /// Number of the result that was framed last for the operator, or needed no framing.
+    looked_at: Option<u64>,
     /// For a scan: the camera pose that defines the frame shown.
     space: Option<RigidTransform>,
     /// Size of the view in the last frame, logical pixels.
@@ -105,6 +107,7 @@ impl SceneView {
             origin: None,
             session: None,
             framed: None,
+            looked_at: None,
             space: None,
             size: Vec2::splat(1.0),
             controls_width: 0.0,
@@ -185,11 +188,26 @@ impl SceneView {
         }
     }
 
-    /// Frames another part for the operator, when it comes and when its verdict counts, but not on every frame of it.
-    pub(super) fn frame_part(&mut self, inspected: &Inspected) {
-        if self.is_to_be_framed(inspected) {
+    /// Frames another part for the operator, when it comes and when its verdict counts, but not on every frame of it. Live does
+    /// not know at once that another part has come: until a verdict counts, a part that is cut off by the view is framed, too.
+    pub(super) fn frame_part(&mut self, shown: &Shown) {
+        let inspected = &shown.inspected;
+        let is_new = self.looked_at.replace(shown.generation) != Some(shown.generation);
+        if self.is_to_be_framed(inspected) || is_new && inspected.is_open() && self.is_cut_off() {
             self.camera.request_fit(FitRequest::Focus);
         }
+    }
+
+    /// True if some of the part is outside the view.
+    fn is_cut_off(&self) -> bool {
+        let size = glam::Vec2::new(self.size.x, self.size.y);
+        let is_inside = |at: glam::Vec2| at.cmpge(glam::Vec2::ZERO).all() && at.cmple(size).all();
+        let corners = self.scene.focus().map(|part| part.corners());
+        let mut corners = corners.into_iter().flatten();
+        corners.any(|corner| {
+            let at = self.camera.screen_from_world(corner, size);
+            !at.is_some_and(is_inside)
+        })
     }
 
     fn is_to_be_framed(&mut self, inspected: &Inspected) -> bool {
@@ -210,6 +228,9 @@ impl SceneView {
         let parts = is_accepted.then_some(ViewPart::Outline);
         self.place(&parts.into_iter().collect(), None, session, inspected);
         self.restyle(session, inspected, Colouring::Segment);
+        // Only the engineer measures.
+        self.viewport.end_measuring();
+        ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::M));
         let rect = ui.available_rect_before_wrap();
         self.size = rect.size();
         self.paint(ui);
@@ -423,13 +444,87 @@ fn plate(
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
-    use crate::app::inspection::{inspected::inspected_cell, source::CellChoice};
+    use crate::{
+        app::{
+            inspection::{
+                inspected::{LiveFrameContext, inspected_cell},
+                source::CellChoice,
+            },
+            ui::viewport::{Measurement, ViewTool},
+        },
+        pipeline::live::{LiveVerdict, MotionState},
+        simulate::{PartKind, Side},
+    };
+
+    fn view() -> SceneView {
+        let reason = String::new();
+        SceneView::new(Err(ViewError::NoDevice { reason }))
+    }
+
+    #[test]
+    fn nobody_measures_in_the_operators_view() {
+        let mut view = view();
+        view.viewport.tool = ViewTool::Measure;
+        view.viewport.measure.add(glam::Vec3::ZERO);
+        let inspected = inspected_cell(CellChoice::InTurn, 1);
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let output = ctx.run_ui(egui::RawInput::default(), |ui| {
+            view.plain_ui(ui, &Session::default(), &inspected);
+        });
+        output.drop_without_applying_deltas();
+        assert_eq!(view.viewport.tool, ViewTool::Look);
+        assert_eq!(view.viewport.measure, Measurement::default());
+    }
+
+    #[test]
+    fn a_larger_part_that_moves_in_is_not_cut_off_for_the_operator() {
+        let hung = HungId::new();
+        let frame = |generation, kind| {
+            let mut inspected = inspected_cell(CellChoice::Part(kind, Side::Left), 1);
+            inspected.followed = Some(LiveFrameContext {
+                stillness: MotionState::Moving,
+                standing: LiveVerdict::Open,
+            });
+            // Live does not know yet that another part has come.
+            inspected.entry.record.summary.hung = hung.clone();
+            Shown {
+                generation,
+                inspected: Arc::new(inspected),
+                is_past: false,
+                session: Some(1),
+                is_outdated: false,
+            }
+        };
+        let mut view = view();
+        view.size = vec2(640.0, 480.0);
+        let mut is_framed = |shown: &Shown| {
+            view.show(shown);
+            view.frame_part(shown);
+            let is_framed = view.camera.pending_fit().is_some();
+            if let Some(part) = view.scene.focus().filter(|_| is_framed) {
+                let size = glam::Vec2::new(view.size.x, view.size.y);
+                view.camera.fit(&part, size);
+            }
+            is_framed
+        };
+        let [small, large, again] = [
+            (1, PartKind::Grille),
+            (2, PartKind::FrontBumper),
+            (3, PartKind::FrontBumper),
+        ]
+        .map(|(generation, kind)| frame(generation, kind));
+        assert!(is_framed(&small), "the first");
+        assert!(is_framed(&large));
+        assert!(!is_framed(&again), "all of it is in the view");
+    }
 
     #[test]
     fn each_part_is_framed_once_for_the_operator() {
-        let reason = String::new();
-        let mut view = SceneView::new(Err(ViewError::NoDevice { reason }));
+        let mut view = view();
         let mut inspected = inspected_cell(CellChoice::InTurn, 1);
         assert!(view.is_to_be_framed(&inspected));
         assert!(!view.is_to_be_framed(&inspected));

@@ -37,7 +37,7 @@ use crate::{
             suggest_base, suggest_rail,
         },
         program::{arm_points, check_reach},
-        spray::{CarriedPath, carry},
+        spray::{CarriedPath, OffThePart, carry, off_the_part},
     },
     stages::stand_off::StandOffParams,
 };
@@ -216,6 +216,7 @@ impl PaintState {
 struct StandardPath {
     carried: CarriedPath,
     part_points: Vec<Point3<f32>>,
+    off: Option<OffThePart>,
     is_simulated: bool,
 }
 
@@ -234,6 +235,7 @@ fn in_standard_position(
     Ok(StandardPath {
         carried,
         part_points: reference.cloud.points.clone(),
+        off: off_the_part(&planned.path, reference),
         is_simulated: loaded.shown.parts[place].simulated,
     })
 }
@@ -341,6 +343,7 @@ pub(super) fn write_program(
     let subject = ProgramSubject {
         part: planned.part.as_str(),
         part_points: &path.part_points,
+        off: path.off,
         scene: None,
         camera_from_part: RigidTransform::identity(),
         is_simulated: path.is_simulated,

@@ -39,7 +39,7 @@ pub(super) fn ui(
     let label = text!("paint-nozzle");
     let nozzle = field(ui, &label, &mut setup.nozzle, "kuka 0 0 250 0 45 0")
         .on_hover_text(text!("paint-nozzle-hint"));
-    // What is typed to correct it must not act as shortcuts.
+    // Keep the focus, so that keys typed to correct it do not act as shortcuts.
     let is_entered = nozzle.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if is_entered && setup.nozzle_error().is_some() {
         nozzle.request_focus();
@@ -319,11 +319,11 @@ fn apply_ui(
 
 fn collisions_ui(ui: &mut Ui, reach: &Reach) {
     let count = reach.check.num_collisions();
-    // Where the arm cannot be, nothing is known.
-    let value = if count == 0 && reach.check.num_reached() < reach.check.points.len() {
-        text!("paint-no-collisions-reached")
-    } else {
-        text!("paint-num-collisions", count = count)
+    // Collisions are only known at points that the arm reaches.
+    let value = match (count, reach.check.num_reached()) {
+        (0, 0) => text!("paint-collisions-not-checked"),
+        (0, num) if num < reach.check.points.len() => text!("paint-no-collisions-reached"),
+        _ => text!("paint-num-collisions", count = count),
     };
     row(ui, &text!("paint-collisions"), &value);
 }

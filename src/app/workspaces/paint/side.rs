@@ -118,8 +118,15 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
         return;
     }
     let Some(planned) = &paint.planned else {
+        let text = if paint.is_planning() {
+            text!("paint-planning")
+        } else {
+            text!("paint-not-planned")
+        };
+        ui.add(Label::new(RichText::new(text).weak()).wrap());
         return;
     };
+    let is_old = paint.is_old(session);
     let (figures, coat) = (&planned.film.figures, &planned.coat);
     let colour = if figures.within >= GOOD {
         theme.accepted
@@ -133,16 +140,26 @@ fn head(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec<Pa
         target = micrometres(coat.target),
         tolerance = micrometres(coat.target * coat.tolerance)
     );
-    ui.label(RichText::new(text).font(font::body_strong()).color(colour));
-    robot::verdict(ui, paint, session);
-    histogram(ui, figures, coat.tolerance);
-    let scope = match planned.surface.coverage {
-        Coverage::OneSide => text!("paint-scope-one-side"),
-        Coverage::AllAround => text!("paint-scope-all-around"),
-        Coverage::SeveralSides => text!("paint-scope-several-sides"),
+    ui.scope(|ui| {
+        if is_old {
+            ui.multiply_opacity(0.55);
+        }
+        ui.label(RichText::new(text).font(font::body_strong()).color(colour));
+        robot::verdict(ui, paint, session);
+        histogram(ui, figures, coat.tolerance);
+    });
+    // In place of the scope, so that nothing below moves while a parameter is changed.
+    let note = if is_old {
+        RichText::new(text!("paint-previous-path")).color(theme.warning)
+    } else {
+        let scope = match planned.surface.coverage {
+            Coverage::OneSide => text!("paint-scope-one-side"),
+            Coverage::AllAround => text!("paint-scope-all-around"),
+            Coverage::SeveralSides => text!("paint-scope-several-sides"),
+        };
+        RichText::new(scope).weak()
     };
-    let scope = RichText::new(scope).small().weak();
-    ui.add(Label::new(scope).wrap());
+    ui.add(Label::new(note.small()).wrap());
 }
 
 /// Draws the coat: its name and every parameter.
@@ -207,7 +224,7 @@ fn name_ui(ui: &mut Ui, naming: &str, actions: &mut Vec<PaintAction>) {
             .desired_width(150.0)
             .min_size(vec2(0.0, space::TARGET));
         let response = ui.add(edit);
-        // Or what is typed would be taken for shortcuts.
+        // Without the focus, typed keys would act as shortcuts.
         if is_new {
             response.request_focus();
         }
@@ -372,7 +389,8 @@ fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec
     let is_ready = paint.planned.is_some() && !paint.is_old(session);
     let unready = (!is_ready).then(|| match &paint.failed {
         Some(failed) => failed.what.clone(),
-        None => text!("paint-planning"),
+        None if paint.is_planning() => text!("paint-planning"),
+        None => text!("paint-not-planned"),
     });
     let half = (ui.available_width() - space::SMALL) / 2.0;
     ui.horizontal(|ui| {
@@ -403,7 +421,7 @@ fn buttons(ui: &mut Ui, paint: &PaintState, session: &Session, actions: &mut Vec
         .as_ref()
         .is_some_and(|planned| planned.is_stored);
     let can = is_ready && fixed.is_none() && !paint.is_storing() && !is_stored;
-    let can_propose = paint.planned.is_some() || paint.failed.is_some();
+    let can_propose = paint.planned.is_some() || paint.failed.is_some() || !paint.is_planning();
     let response = ui.horizontal(|ui| {
         let propose = button(ui, &text!("paint-propose"), can_propose, half, None);
         let propose = propose

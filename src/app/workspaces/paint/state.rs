@@ -37,7 +37,7 @@ pub struct PaintState {
     pub design: Design,
     /// The path shown.
     pub shown_path: ShownPath,
-    /// The last path with its film and input.
+    /// The last path of the part to paint, with its film and input.
     pub planned: Option<Arc<Planned>>,
     /// Why there is no path for the last request.
     pub failed: Option<UserError>,
@@ -56,6 +56,8 @@ pub struct PaintState {
     pub(super) coat_folder: Option<CoatFolder>,
     pub(super) steps: UndoStack,
     asked: Option<Request>,
+    /// The request that the last path answers.
+    answered: Option<Request>,
     task: Task<PaintResult>,
     storing: Task<PaintResult>,
     /// The step being stored, and its direction.
@@ -92,6 +94,7 @@ impl PaintState {
             coat_folder: coats.map(CoatFolder::at),
             steps: UndoStack::default(),
             asked: None,
+            answered: None,
             task: Task::new("paint", runner),
             storing: Task::new("paint-store", runner),
             pending: None,
@@ -141,10 +144,37 @@ impl PaintState {
         self.reach_task.cancel();
     }
 
-    /// True while the shown path does not match the last request.
+    /// True while a path is planned or proposed.
+    pub fn is_planning(&self) -> bool {
+        self.task.running().is_some()
+    }
+
+    /// True while the shown path does not match the present request, even if its planning was cancelled.
     pub fn is_old(&self, session: &Session) -> bool {
-        let is_asked = self.request(session) == self.asked;
-        !is_asked || self.task.running().is_some() || self.failed.is_some()
+        let is_answered = self.request(session) == self.answered;
+        !is_answered || self.is_planning() || self.failed.is_some()
+    }
+
+    /// Forgets path and failure of another part: nothing of it is shown under the name of the part to paint now.
+    fn forget_other_part(&mut self, session: &Session) {
+        if session.library.is_none() {
+            return;
+        }
+        let part = self.part(session);
+        let is_other = |known: &PartName| Some(known) != part;
+        let planned = self.planned.as_ref();
+        let is_planned = planned.is_some_and(|planned| is_other(&planned.part));
+        let asked = self.asked.as_ref();
+        let is_asked = asked.is_some_and(|asked| is_other(&asked.part));
+        if is_planned || is_asked {
+            self.task.cancel();
+            self.planned = None;
+            self.failed = None;
+            self.asked = None;
+            self.answered = None;
+            self.time = 0.0;
+            self.playback = Playback::Paused;
+        }
     }
 
     /// True if no job runs and none will start with the next frame.
@@ -193,12 +223,17 @@ impl PaintState {
                 text!("paint-edits-dropped-advice"),
             ));
         }
+        self.forget_other_part(cx.session);
     }
 
     fn carry_out(&mut self, action: PaintAction, cx: &mut ShellContext<'_>) {
         match action {
             PaintAction::ChoosePart(part) => {
                 let is_other = self.part(cx.session) != Some(&part);
+                if !is_other && !self.is_planning() && self.is_old(cx.session) {
+                    // Choosing it again repeats what was cancelled or has failed.
+                    self.asked = None;
+                }
                 self.change(|design| {
                     design.part = Some(part);
                     if is_other {
@@ -231,7 +266,7 @@ impl PaintState {
             PaintAction::Store => self.store_shown(cx),
             PaintAction::ToggleFilm => self.is_film_shown = !self.is_film_shown,
             PaintAction::Ask(file) => {
-                // Rather than after a file was chosen.
+                // Refuse before the user chooses a file.
                 if file == PaintFile::Program
                     && let Some(error) = self.why_no_program(cx.session)
                 {
@@ -375,6 +410,7 @@ impl PaintState {
         if self.shown_path == ShownPath::Stored && self.stored(cx.session).is_none() {
             self.shown_path = ShownPath::Planned;
         }
+        self.forget_other_part(cx.session);
         let is_front = cx.session.workspace == WorkspaceKind::Paint;
         if is_front && self.request(cx.session) != self.asked {
             self.plan(false, cx);
@@ -392,6 +428,7 @@ impl PaintState {
     fn show(&mut self, planned: Arc<Planned>) {
         self.failed = None;
         self.planned = Some(planned);
+        self.answered.clone_from(&self.asked);
         self.go_to(self.time);
     }
 

@@ -12,7 +12,7 @@ use crate::{
     units::Metres,
 };
 
-/// The last scale is at least so many standard deviations of the noise.
+/// Minimum of the last scale, in standard deviations of the noise.
 const NOISE_PER_SCALE: f64 = 2.5;
 /// Root mean square distance of pairs below which they are the same points, in spacings.
 const SAME_POINTS: f64 = 0.3;
@@ -80,7 +80,7 @@ impl GlobalSearch<'_> {
         let mut level = finest;
         let last = best.refined.iterations.last();
         if last.is_some_and(|last| last.e_m2.sqrt() < SAME_POINTS * self.prepared.spacing()) {
-            // Copies of the same points: they say where they belong better than any edge.
+            // Copies of the same points: they locate the cloud better than any edge.
             edges.clear();
             level = Level {
                 num_edges: 0,

@@ -1,7 +1,7 @@
-//! What else a pose may be: the best one put aside, and tried there.
+//! Other poses that may fit: the best ones, shifted.
 //!
-//! Half a part lies on a whole one in many places: a sheet slides along itself, the bars of a grille lie on the next
-//! ones, and both fit nearly as well the other way round.
+//! Half a part fits a whole one in many places: a sheet slides along itself, the bars of a grille fit the next ones, and
+//! both fit nearly as well turned by half a turn.
 
 use nalgebra::{Translation3, Unit, UnitQuaternion};
 
@@ -14,17 +14,18 @@ use crate::{
     },
 };
 
-/// A pose is put aside so many times either way, by so many extents of the target each.
+/// Number of shifts tried in each direction, and the size of each in extents of the target.
 const SLIDES: i32 = 10;
 const SLIDE: f64 = 0.06;
-/// A start of another race lies so many times this many extents along the target's two longest axes, either way.
+/// Further searches start on a grid along the target's two longest axes: its spacing in extents of the target, and the
+/// number of steps in each direction.
 const ELSEWHERE: f64 = 0.35;
 const STEPS_ELSEWHERE: [i32; 2] = [3, 2];
-/// So often at most: each time costs as much as the race.
+/// Maximum number of rounds of shifts: each costs as much as the search before.
 const MOST_ROUNDS: usize = 4;
 
 impl GlobalSearch<'_> {
-    /// Tries the best elsewhere, as long as something better is found and there is something to be found.
+    /// Shifts the best pose, as long as this finds a better one and the overlap is not complete.
     pub(super) fn try_translations(&self, finished: &mut Vec<PoseTrial>) -> Result<(), PoseError> {
         for round in 0..MOST_ROUNDS {
             let Some(best) = finished.first() else {
@@ -57,7 +58,7 @@ impl GlobalSearch<'_> {
         Ok(())
     }
 
-    /// Poses put elsewhere, as they are and turned by half a turn: starts of another race.
+    /// Shifts the best poses, as they are and turned by half a turn: the starts of another search.
     pub(super) fn put_elsewhere(&self, finished: &[PoseTrial]) -> Vec<RigidTransform> {
         let extent = self.prepared.extent();
         let axes = &self.prepared.axes.axes;
@@ -77,7 +78,7 @@ impl GlobalSearch<'_> {
         starts
     }
 
-    /// A pose put aside along the target's two longest axes: the cheapest places.
+    /// Shifts a pose along the target's two longest axes; returns the shifts of least cost.
     fn slid(&self, pose: &RigidTransform) -> Vec<PoseTrial> {
         let (extent, target) = (self.prepared.extent(), self.prepared.target());
         let level = Level {

@@ -1,4 +1,4 @@
-//! What Algorithm 3 can be told.
+//! Parameters of Algorithm 3.
 
 use crate::{
     stages::pose::{genetic::GeneticParams, icp::IcpParams},
@@ -27,7 +27,7 @@ pub struct IcpGaParams {
     /// Range of the shifts elsewhere, as a share of the target's extent (its standard deviation along its longest axis),
     /// 0..2. Raising it finds smaller overlaps, and needs a larger population.
     pub shift_range: f64,
-    /// Points of the source that a pose is tried on where it is to be told by millimetres, 20..1000. Raising it costs
+    /// Points of the source with which a pose is scored where millimetres matter, 20..1000. Raising it costs
     /// time in proportion.
     pub num_fine_points: usize,
     /// Points of the source that a pose is tried on elsewhere, 20..1000. Raising it costs time in proportion.

@@ -19,7 +19,7 @@ pub enum FreeMotion {
 }
 
 impl FreeMotion {
-    /// The turn or shift about the middle of some points that a transform of them mainly is.
+    /// Describes a transform of some points as its main component: a turn about their middle, or a shift.
     pub(crate) fn of(transform: &RigidTransform, points: &[Point3<f32>]) -> Self {
         let num = points.len().max(1) as f64;
         let sum: Vector3<f64> = points.iter().map(|p| p.coords.cast::<f64>()).sum();

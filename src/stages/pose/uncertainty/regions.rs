@@ -64,7 +64,7 @@ impl Regions {
             .by_place
             .values()
             .map(|r| r.moment * r.moment.transpose());
-        // What six parameters fit of so many regions is missing in the residuals.
+        // The fit of six parameters reduces the residuals: correct for the lost degrees of freedom.
         moments.sum::<Matrix6<f64>>() * (num / (num - 6.0).max(1.0))
     }
 
@@ -73,7 +73,7 @@ impl Regions {
         let regions = || self.by_place.values().filter(|region| region.weight > 0.0);
         let weight_sum: f64 = regions().map(|region| region.weight).sum();
         let squares = regions().map(|region| region.pull * region.pull / region.weight);
-        // What the pose could fit of so many regions is missing in the residuals: half of its six parameters each.
+        // The fit of the pose reduces these residuals as well; half of its six parameters count here.
         let num = regions().count() as f64;
         let seen_sq =
             squares.sum::<f64>() / weight_sum.max(f64::MIN_POSITIVE) * num / (num - 3.0).max(1.0);

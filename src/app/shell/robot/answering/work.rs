@@ -31,7 +31,7 @@ use crate::{
     library::{GivenNumbers, LibraryPlace, PartNumbers},
     pipeline::{self, Inspection, NamedRecipe, ProgressObserver as _, Unwatched},
     report::{CaptureLine, InspectionLine, segmentation_picture},
-    robot::RobotFrame,
+    robot::{RobotFrame, spray::off_the_part},
     serve::{
         Answer, Asked, Camera, CameraState, ClientEvent, Found, FrameOrigin, InspectionRecord,
         Inspector, ListenAddress, Listener, NewFrame, NumberedPart, PartFinder, PoseKind,
@@ -371,11 +371,13 @@ impl AnsweringSession<'_> {
         if !self.library.as_ref().is_some_and(is_it) {
             self.library = Some(Arc::clone(loaded));
             let numbers = self.numbers_of(loaded);
+            self.library_cache.note_numbers(&numbers);
             let shown = &loaded.shown;
             let parts = shown.parts.iter().zip(&shown.spray_paths);
-            let parts = parts.map(|(part, path)| NumberedPart {
+            let parts = parts.zip(&loaded.library.references);
+            let parts = parts.map(|((part, path), reference)| NumberedPart {
                 number: numbers.of(&part.name).unwrap_or(0),
-                path: path.clone(),
+                path: (path.clone()).filter(|path| off_the_part(path, reference).is_none()),
                 is_simulated: part.simulated,
             });
             self.finder.parts = parts.collect();

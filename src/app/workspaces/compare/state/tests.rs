@@ -2,8 +2,10 @@ use jiff::Timestamp;
 
 use super::*;
 use crate::{
-    app::shell::context::TestShell,
-    cases::{CaseDescription, CaseMeta, FoundVerdict, SCHEMA_VERSION},
+    app::{shell::context::TestShell, workspaces::compare::matrix::Matrix},
+    cases::{
+        Calibration, CaseDescription, CaseMeta, Confusion, FoundVerdict, SCHEMA_VERSION, TradeOff,
+    },
     history::FrameRecord,
     stages::scene::PictureEdge,
 };
@@ -43,9 +45,13 @@ fn kept(name: &str) -> KeptCase {
 }
 
 fn listed(done: CaseDone) -> CompareResult {
+    listed_as(&["a", "b"], done)
+}
+
+fn listed_as(names: &[&str], done: CaseDone) -> CompareResult {
     CompareResult::Cases {
         folder: CaseFolder::at("cases"),
-        cases: [kept("a"), kept("b")].into(),
+        cases: names.iter().map(|name| kept(name)).collect(),
         troubles: Vec::new(),
         done,
     }
@@ -137,6 +143,76 @@ fn another_recipe_gives_a_run_up_and_another_part_waits_for_its_end() {
     assert_eq!(request.recipe.project.pixel, crate::units::Metres(0.004));
     assert_eq!(request.against.as_deref(), Some("grille"));
     assert!(!bench.compare.is_running_cases());
+}
+
+#[test]
+fn a_run_is_outdated_until_it_covers_the_cases_that_are_kept_now() {
+    let mut bench = Bench::with_a_case();
+    let run = |bench: &Bench, names: &[&str]| {
+        CompareResult::Ran(Arc::new(CaseRun {
+            recipe: Arc::clone(&bench.shell.session.recipe),
+            results: Vec::new(),
+            troubles: Vec::new(),
+            total: names.len(),
+            cases: names.iter().map(|name| kept(name)).collect(),
+            matrix: Matrix::of(Confusion::of(&[], &[])),
+            calibration: Calibration::of(&[]),
+            trade_off: TradeOff::of(&[]),
+            ended: Some(Timestamp::UNIX_EPOCH),
+        }))
+    };
+    let of_two = run(&bench, &["a", "b"]);
+    bench.done(of_two);
+    assert_eq!(bench.compare.num_covered, None);
+    let c_kept = CaseDone::Kept(Box::new(kept("c")));
+    bench.done(listed_as(&["a", "b", "c"], c_kept));
+    assert_eq!(bench.compare.num_covered, Some(2));
+    let of_three = run(&bench, &["a", "b", "c"]);
+    bench.done(of_three);
+    assert_eq!(bench.compare.num_covered, None);
+    let removed = |name: &str| CaseDone::Removed {
+        name: name.into(),
+        trash: "trash".into(),
+    };
+    bench.done(listed_as(&["a", "c"], removed("b")));
+    assert_eq!(bench.compare.num_covered, Some(2));
+    // Another case of the same name.
+    let CompareResult::Cases { mut cases, .. } = listed_as(&["a", "b", "c"], CaseDone::Listed)
+    else {
+        unreachable!()
+    };
+    let other = Arc::get_mut(&mut cases).expect("the only one");
+    other[1].meta.about.truth = Truth::NotEnrolled;
+    bench.done(CompareResult::Cases {
+        folder: CaseFolder::at("cases"),
+        cases,
+        troubles: Vec::new(),
+        done: CaseDone::Listed,
+    });
+    assert_eq!(bench.compare.num_covered, Some(2));
+    bench.done(listed_as(&["a", "b", "c"], CaseDone::Restored("b".into())));
+    assert_eq!(bench.compare.num_covered, None);
+}
+
+#[test]
+fn why_no_case_was_kept_is_shown_until_its_truth_is_chosen_or_another_case_is_in_front() {
+    let mut bench = Bench::with_a_case();
+    bench.act(CompareAction::Keep);
+    let Some(Message::Notify(notice)) = bench.shell.messages.last() else {
+        panic!("{:?}", bench.shell.messages);
+    };
+    assert_eq!(notice.topic, NoticeTopic::Case);
+    for action in [
+        CompareAction::SetTruth(Truth::NotEnrolled),
+        CompareAction::OpenCase("b".into()),
+    ] {
+        bench.shell.messages.clear();
+        bench.act(action);
+        assert!(matches!(
+            bench.shell.messages[..],
+            [Message::RemoveNotices(NoticeTopic::Case)]
+        ));
+    }
 }
 
 #[test]

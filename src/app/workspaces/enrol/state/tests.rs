@@ -273,9 +273,37 @@ fn a_saved_part_replaced_and_taken_back_twice_is_the_first_one_again() {
     bench.act(EnrolAction::Undo);
     // Undo the draft's own steps, then the first save.
     while enrolled_from(&bench).is_some() {
-        bench.act(EnrolAction::Undo);
+        bench.act(EnrolAction::UndoChange);
     }
     assert_eq!(bench.from().as_deref(), Some("80.pcd"));
+}
+
+#[test]
+fn undo_with_a_draft_takes_back_its_corrections_and_no_change_of_the_library() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.named("Plate");
+    bench.act(EnrolAction::Save);
+    bench.take(90);
+    let whole = bench.kept();
+    bench.act(EnrolAction::Undo);
+    assert!(
+        bench.enrol.next_undo().is_none(),
+        "the choice of all points"
+    );
+    bench.act(EnrolAction::Undo);
+    assert_eq!(bench.names(), ["plate"]);
+    assert_eq!(bench.from().as_deref(), Some("90.pcd"));
+
+    bench.act(EnrolAction::Redo);
+    bench.act(EnrolAction::Correct(corner(OutlineMode::Drop)));
+    bench.act(EnrolAction::Remove(PartName::new("plate").expect("a name")));
+    bench.act(EnrolAction::Undo);
+    assert_eq!(bench.kept(), whole);
+    assert!(bench.names().is_empty());
+    bench.act(EnrolAction::UndoChange);
+    assert_eq!(bench.names(), ["plate"]);
+    assert_eq!(bench.from().as_deref(), Some("90.pcd"));
 }
 
 #[test]

@@ -209,7 +209,7 @@ fn a_frame_that_is_gone_is_called_as_the_list_calls_it() {
     let why = bench.history.why_no_scene(&record);
     Language::English.make_current();
     let [what, _] = why.expect("nobody has the frame");
-    assert!(what.contains("Simuliertes Bild 7"), "{what}");
+    assert!(what.contains("„Simuliertes Bild 7“"), "{what}");
 }
 
 #[test]

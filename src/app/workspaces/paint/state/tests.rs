@@ -223,6 +223,60 @@ fn a_part_that_cannot_be_painted_says_why_and_the_former_path_stays() {
 }
 
 #[test]
+fn nothing_of_another_part_is_shown_under_the_name_of_the_part_to_paint() {
+    let mut bench = Bench::new();
+    bench.act(PaintAction::Scrub(3.0));
+    let lid = PartName::new("trunk_lid").expect("a name");
+    bench.act(PaintAction::ChoosePart(lid.clone()));
+    assert_eq!(bench.paint.part(&bench.shell.session), Some(&lid));
+    assert!(bench.paint.planned.is_none());
+    // While it is planned, and if that is cancelled.
+    bench.paint.update(&mut bench.shell.context());
+    assert!(bench.paint.is_planning() && bench.paint.planned.is_none());
+    assert_eq!((bench.paint.time, bench.paint.duration()), (0.0, 0.0));
+    bench.paint.cancel();
+    bench.settle();
+    assert!(bench.paint.planned.is_none() && bench.paint.is_old(&bench.shell.session));
+    bench.run(PaintAction::ChoosePart(lid.clone()));
+    assert_eq!(bench.planned().part, lid);
+    assert!(!bench.paint.is_old(&bench.shell.session));
+    bench.act(PaintAction::Undo);
+    assert!(bench.paint.planned.is_none());
+    // Why one part has no path is no reason for another.
+    bench.settle();
+    let everything = KeepOut::Sphere {
+        centre: bench.planned().surface.middle,
+        radius: 5.0,
+    };
+    bench.run(PaintAction::Add(vec![everything]));
+    assert!(bench.paint.failed.is_some());
+    bench.act(PaintAction::ChoosePart(lid));
+    assert_eq!(bench.paint.failed, None);
+}
+
+#[test]
+fn the_former_path_of_a_part_stays_and_is_marked_until_the_next_is_there() {
+    let mut bench = Bench::new();
+    let before = bench.planned().path.clone();
+    assert!(!bench.paint.is_old(&bench.shell.session));
+    let closer = PaintAction::Change("spacing", ParameterChange::Set(40.0));
+    bench.act(closer);
+    bench.paint.update(&mut bench.shell.context());
+    assert_eq!(bench.planned().path, before);
+    assert!(bench.paint.is_old(&bench.shell.session));
+    // A path that was not planned for these parameters is not stored with the part.
+    bench.paint.cancel();
+    bench.settle();
+    assert!(bench.paint.is_old(&bench.shell.session));
+    bench.run(PaintAction::Store);
+    assert_eq!(bench.stored(), None);
+    let fender = PartName::new("fender").expect("a name");
+    bench.run(PaintAction::ChoosePart(fender));
+    assert_ne!(bench.planned().path, before);
+    assert!(!bench.paint.is_old(&bench.shell.session));
+}
+
+#[test]
 fn a_coat_is_kept_by_name_and_chosen_again() {
     let mut bench = Bench::new();
     bench.set("spacing", 45.0);

@@ -40,8 +40,8 @@ pub enum HistoryEvent {
         /// What to do about it.
         advice: String,
     },
-    /// Rows may have changed: another program may have written, keeping a case labelled a part, or a serial number came
-    /// after its part's verdict.
+    /// Rows may have changed: another program wrote, keeping a case labelled a part, or a serial number arrived after the
+    /// verdict of its part.
     FilesChanged,
     /// The retention rule changed.
     RuleChanged,
