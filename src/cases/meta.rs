@@ -101,6 +101,7 @@ impl From<FirstScene> for FrameRecord {
             metres_per_unit: None,
             block_side: None,
             is_simulated: false,
+            is_only_recent: false,
             empty_cell: first.empty_cell_crc32.map(|_| "empty-cell.pcd".into()),
             empty_cell_crc32: first.empty_cell_crc32,
             shots: Vec::new(),

@@ -7,7 +7,7 @@
 //! ```text
 //! cases/
 //!   simulated_frame_7/
-//!     case.toml     what it truly is, what was found, where it came from (see CaseMeta)
+//!     case.toml     what it is, what was found, where it came from (see CaseMeta)
 //!     scene.png     16-bit depth, written as the history writes frames; a scene without a depth image is
 //!                   scene.pcd: binary, metres, camera space, with rows and columns
 //!     intrinsics.json  the camera of a depth image, for other programs
@@ -34,7 +34,7 @@
 //! accepted = true
 //! reason = "..."                    # only if not accepted
 //!
-//! [pose]                            # where the part truly is; absent if unknown
+//! [pose]                            # true pose of the part; absent if unknown
 //! camera_from_part = [16 numbers]   # row after row, metres
 //! cloud_crc32 = "4d355f87"          # the cloud of the enrolled part whose coordinates these are
 //!

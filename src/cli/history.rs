@@ -23,7 +23,8 @@ use super::{
 };
 use crate::{
     history::{
-        Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict, Summary, Traceability,
+        ACCEPTED_KEPT, Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict,
+        Summary, Traceability,
     },
     library::Truth,
     stages::reference::ReferenceParams,
@@ -227,7 +228,7 @@ struct KeepArgs {
 enum KeepChoice {
     /// All inspections
     All,
-    /// Those that were not accepted, and the newest 200 accepted ones
+    /// Those that were not accepted and the newest 200 accepted ones
     NotAccepted,
     /// None
     None,
@@ -462,11 +463,15 @@ fn keep(history: &mut History, asked: &KeepArgs, console: &mut Console) -> anyho
     }
     let usage = history.usage().advised()?;
     let gigabytes = |bytes: u64| bytes as f64 / 1e9;
+    let kept = match rule.keep {
+        KeepFrames::NotAccepted => {
+            format!("not accepted, and the newest {ACCEPTED_KEPT} accepted")
+        }
+        keep => keep.title().to_lowercase(),
+    };
     console.line(&format_args!(
-        "frames kept: {}, at most {} days and {} GB",
-        rule.keep.title().to_lowercase(),
-        rule.max_days,
-        rule.max_gigabytes
+        "frames kept: {kept}, at most {} days and {} GB",
+        rule.max_days, rule.max_gigabytes
     ));
     console.line(&format_args!(
         "now: {} frames, {:.3} GB, of which {:.3} GB stay because of a remark or a true label",

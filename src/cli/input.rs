@@ -139,7 +139,7 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
     Ok((scene, warnings))
 }
 
-/// Every name of a part or a recipe among the arguments is parsed like this, so that a bad one comes with the rule.
+/// Every name of a part or a recipe among the arguments is parsed like this, so that the error for a bad one states the rule.
 impl ValueParserFactory for PartName {
     type Parser = ValueParser;
 

@@ -117,7 +117,7 @@ pub(super) fn show_card(
             ),
         );
     }
-    // Without a name, nobody could tell which part the pose is of.
+    // Without the part's name, the figures of its pose are of no use.
     let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
     let pose = pose.filter(|_| is_named);
     if let Some(pose) = pose {

@@ -58,6 +58,9 @@ pub struct FrameRecord {
     /// True if the frame does not come from a camera.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_simulated: bool,
+    /// True if it is kept only while it is one of the newest accepted ones.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_only_recent: bool,
     /// File of the empty cell, if one was known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub empty_cell: Option<String>,
@@ -180,6 +183,7 @@ pub fn write_as(folder: &Path, stem: &str, scene: &SceneCloud) -> Result<FrameRe
         metres_per_unit: depth.map(|frame| frame.metres_per_unit),
         block_side: scene.reduced.as_ref().map(|reduced| reduced.block_side),
         is_simulated: scene.cloud.is_simulated,
+        is_only_recent: false,
         empty_cell,
         empty_cell_crc32,
         shots: Vec::new(),

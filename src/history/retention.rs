@@ -2,8 +2,8 @@
 //! frames.
 //!
 //! The oldest frames are removed first, by age and then by size. A frame whose inspection has a remark or a true label
-//! has been looked at by a person: no rule removes it, but it counts towards the size. That a part was wrongly accepted is
-//! noticed a few parts later, so the newest accepted parts keep their frames, too.
+//! has been looked at by a person: no rule removes it, but it counts towards the size. A wrong acceptance is often noticed
+//! only a few parts later, so the frames of the newest accepted inspections are kept too; they never displace others.
 
 use std::collections::BTreeSet;
 
@@ -11,14 +11,13 @@ use jiff::{SignedDuration, Timestamp};
 use rusqlite::{OptionalExtension as _, TransactionBehavior};
 
 use super::{
-    entry::StoredVerdict,
     error::HistoryError,
     frames::{self, FrameRecord},
     store::History,
 };
 
-/// Number of the newest accepted inspections whose frames are kept by [`KeepFrames::NotAccepted`]; fewer than 100 MB of a
-/// Kinect.
+/// Number of the newest accepted inspections whose frames are kept by [`KeepFrames::NotAccepted`]. Frames of a Kinect take
+/// less than 100 MB together.
 pub const ACCEPTED_KEPT: usize = 200;
 
 /// Which frames are kept, and for how long.
@@ -111,7 +110,7 @@ struct PrunableFrame {
     number: i64,
     at: i64,
     bytes: u64,
-    is_accepted: bool,
+    is_only_recent: bool,
 }
 
 /// Name under which the file stores the rule, so that window and commands apply the same.
@@ -173,29 +172,27 @@ impl History {
             .checked_sub(days)
             .map_or(i64::MIN, Timestamp::as_microsecond);
         let candidates = self.candidates().map_err(|error| self.error(error))?;
-        let num_accepted = candidates.iter().filter(|frame| frame.is_accepted).count();
-        let mut num_over = match keep {
-            KeepFrames::NotAccepted => num_accepted.saturating_sub(ACCEPTED_KEPT),
+        let (recent, others): (Vec<_>, Vec<_>) =
+            (candidates.into_iter()).partition(|frame: &PrunableFrame| frame.is_only_recent);
+        let num_over = match keep {
+            KeepFrames::NotAccepted => recent.len().saturating_sub(ACCEPTED_KEPT),
             KeepFrames::All | KeepFrames::None => 0,
         };
-        let (mut leaving, others): (Vec<_>, Vec<_>) = candidates.into_iter().partition(|frame| {
-            let is_over = frame.is_accepted && num_over > 0;
-            num_over -= usize::from(is_over);
-            is_over
-        });
-        let num_bytes: u64 = leaving.iter().map(|frame| frame.bytes).sum();
-        let mut left = self.usage()?.num_bytes.saturating_sub(num_bytes);
+        let mut left = self.usage()?.num_bytes;
         let most = (max_gigabytes * 1e9) as u64;
-        let goes = |frame: &PrunableFrame| {
-            let goes = frame.at < oldest || left > most;
-            if goes {
-                left = left.saturating_sub(frame.bytes);
-            }
-            goes
-        };
-        // The oldest come first: once one frame stays, all later ones stay.
-        let mut goes = goes;
-        leaving.extend(others.into_iter().take_while(|frame| goes(frame)));
+        // The oldest come first, and those that are only recent before all others.
+        let leaving = recent
+            .into_iter()
+            .chain(others)
+            .enumerate()
+            .filter(|(place, frame)| {
+                let goes = *place < num_over || frame.at < oldest || left > most;
+                if goes {
+                    left = left.saturating_sub(frame.bytes);
+                }
+                goes
+            });
+        let leaving: Vec<PrunableFrame> = leaving.map(|(_, frame)| frame).collect();
         if leaving.is_empty() {
             return Ok(PruneResult::default());
         }
@@ -211,16 +208,18 @@ impl History {
     /// Returns the frames that a rule may remove, the oldest first.
     fn candidates(&self) -> rusqlite::Result<Vec<PrunableFrame>> {
         let mut asked = self.file.prepare(
-            "SELECT number, at, frame_bytes, verdict = ? FROM inspection
+            "SELECT number, at, frame_bytes,
+                CASE WHEN json_valid(frame) THEN coalesce(json_extract(frame, '$.is_only_recent'), 0) ELSE 0 END
+            FROM inspection JOIN detail USING (number)
             WHERE frame_bytes IS NOT NULL AND remark = '' AND label IS NULL ORDER BY at",
         )?;
-        let rows = asked.query_map([StoredVerdict::Accepted.name()], |row| {
+        let rows = asked.query_map([], |row| {
             let bytes: i64 = row.get(2)?;
             Ok(PrunableFrame {
                 number: row.get(0)?,
                 at: row.get(1)?,
                 bytes: bytes as u64,
-                is_accepted: row.get(3)?,
+                is_only_recent: row.get(3)?,
             })
         })?;
         rows.collect()

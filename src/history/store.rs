@@ -8,7 +8,7 @@ use rusqlite::{
 };
 
 use super::{
-    entry::{NewEntry, Record, Summary},
+    entry::{NewEntry, Record, StoredVerdict, Summary},
     error::HistoryError,
     filter::Filter,
     frames::{self, FrameRecord},
@@ -72,6 +72,12 @@ impl History {
             Some(scene) => shots::write_shots(&self.frames, scene, &entry.shots, summary.at)?,
             None => None,
         };
+        let is_only_recent =
+            retention.keep == KeepFrames::NotAccepted && summary.verdict == StoredVerdict::Accepted;
+        let frame = frame.map(|frame| FrameRecord {
+            is_only_recent,
+            ..frame
+        });
         let written = match begin(&mut self.file, entry, frame.as_ref()) {
             // If the commit fails, the row may still be in the log and reappear with the next opening; otherwise that
             // opening removes the frame.

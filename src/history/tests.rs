@@ -372,16 +372,36 @@ fn the_newest_accepted_parts_keep_their_frames_until_they_are_labelled() {
     }
     let refused = history_entry(0, StoredVerdict::Rejected, "grille");
     let refused = history.add(&refused, &rule).expect("written");
+    // Another program keeps all frames; this one does not know.
+    let all = history_entry(0, StoredVerdict::Accepted, "grille");
+    let all = history.add(&all, &ALL).expect("written");
     // What was wrongly accepted is said two parts later.
     let truth = Truth::Part("fender".into());
     history.set_label(1, Some(&truth)).expect("labelled");
     let swept = history.sweep(&rule, moment(num)).expect("swept");
     assert_eq!(swept.num_frames, 2);
-    let kept = [1, 2, 3, 4, num, refused].map(|number| {
-        let frame = history.known(number).expect("there").summary.frame_bytes;
-        frame.is_some()
-    });
-    assert_eq!(kept, [true, false, false, true, true, true]);
+    let has_frame = |history: &History, number| {
+        let summary = history.known(number).expect("there").summary;
+        summary.frame_bytes.is_some()
+    };
+    let kept = [1, 2, 3, 4, num, refused, all].map(|number| has_frame(&history, number));
+    assert_eq!(kept, [true, false, false, true, true, true, true]);
+    // Where space is short they go first, although others are older.
+    let least = Retention {
+        max_gigabytes: 0.1,
+        ..rule
+    };
+    let bytes = 110_000_000 - history.usage().expect("read").num_bytes as i64;
+    history
+        .file
+        .execute(
+            "UPDATE inspection SET frame_bytes = ? WHERE number = ?",
+            [bytes, num],
+        )
+        .expect("grown");
+    history.sweep(&least, moment(num)).expect("swept");
+    assert!(!has_frame(&history, num) && has_frame(&history, all));
+    assert!(has_frame(&history, refused));
 }
 
 #[test]

@@ -12,7 +12,10 @@ use std::{
 };
 
 use super::{
-    buffer::HistoryBuffer, entry::NewEntry, hung::HungId, retention::Retention,
+    buffer::HistoryBuffer,
+    entry::{NewEntry, StoredVerdict},
+    hung::HungId,
+    retention::Retention,
     traceability::Traceability,
 };
 use crate::library::Truth;
@@ -88,7 +91,14 @@ impl Writer {
     /// Queues an inspection. Never waits.
     pub fn add(&self, ticket: u64, mut entry: NewEntry) {
         let counts = &self.counts;
-        if entry.scene.is_some() && counts.scenes.load(Ordering::Relaxed) >= MAX_SCENES {
+        // Half of the room is for what is not accepted.
+        let is_accepted = entry.record.summary.verdict == StoredVerdict::Accepted;
+        let most = if is_accepted {
+            MAX_SCENES / 2
+        } else {
+            MAX_SCENES
+        };
+        if entry.scene.is_some() && counts.scenes.load(Ordering::Relaxed) >= most {
             entry.drop_frames();
             counts.bare.fetch_add(1, Ordering::Relaxed);
         }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What truly hung in front of the camera.
+/// What hung in front of the camera, as a person states it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(tag = "is", content = "part", rename_all = "snake_case")]
 pub enum Truth {

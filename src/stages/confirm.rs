@@ -149,10 +149,6 @@ const HOPELESS: f64 = 2.5;
 /// The ranking by confirmed scores, and the pose of the first.
 type Confirmed = (ConfirmedRanking, Result<PoseEstimate, PoseError>);
 
-/// Maximum number of draws of a piece's border: one in three misses a part that is half hidden and noisy. Some 200 second
-/// draws led to four acceptances, as many third ones to none. Where there is a score to beat, one draw is enough: none of
-/// 130 further draws led to an acceptance, and they took a tenth of the time.
-const MOST_DRAWS: u64 = 2;
 /// A best score below this says that a draw may have missed the part.
 const MISSED_BELOW: f64 = 0.1;
 /// It is drawn again only for references on which a start cost less than this: 0.6 is a good fit, and where nothing is
@@ -191,24 +187,23 @@ pub fn confirm(
     };
     let (looked_at, others) = entries.split_at(num_looked_at);
     let mut tried = seen.examine(looked_at, references, least_score);
-    let num_draws = if least_score > 0.0 { 1 } else { MOST_DRAWS };
-    // As long as it may be drawn again, only what may make that needless is refined to the end.
-    let least_of_a_draw = if num_draws > 1 {
+    // One draw of a piece's border in three misses a part that is half hidden and noisy. About 200 second draws gave four
+    // acceptances; as many third draws gave none. Where there is a score to beat, none of 130 second draws led to an acceptance.
+    let may_draw_again = least_score <= 0.0;
+    // While another draw is possible, refine only candidates that could make it unnecessary.
+    let least_of_a_draw = if may_draw_again {
         MISSED_BELOW
     } else {
         least_score
     };
     seen.finish(&mut tried, references, least_of_a_draw);
-    for draw in 1..num_draws {
-        let best = tried.first().map_or(0.0, |first| first.score);
-        let costs = tried.iter().map(|tried| tried.piece_cost);
-        let least_cost = costs.fold(f64::INFINITY, f64::min);
-        if best >= MISSED_BELOW || !(WELL_LAID..NEARLY).contains(&least_cost) {
-            break;
-        }
+    let best = tried.first().map_or(0.0, |first| first.score);
+    let costs = tried.iter().map(|tried| tried.piece_cost);
+    let least_cost = costs.fold(f64::INFINITY, f64::min);
+    if may_draw_again && best < MISSED_BELOW && (WELL_LAID..NEARLY).contains(&least_cost) {
         let nearly = tried.iter().filter(|tried| tried.piece_cost < NEARLY);
         let nearly: Vec<&MatchEntry> = nearly.map(|tried| tried.entry).collect();
-        seen.draw_again(params.seed + draw);
+        seen.draw_again(params.seed + 1);
         let mut again = seen.examine(&nearly, references, least_score);
         seen.finish(&mut again, references, least_of_a_draw);
         for again in again {
@@ -350,7 +345,7 @@ fn sort_by_score(tried: &mut [Tried<'_>]) {
 const CONTENDS: f64 = 1.0 / MOST_GAINED;
 /// What scores less will not be accepted however exactly it is placed.
 const HOPELESS_SCORE: f64 = 1e-4;
-/// The same for a piece, which is like nothing enrolled below 0.05: of a whole part the likeness counts as well.
+/// The same for a piece: below 0.05 it counts as unlike every enrolled part. Of a whole part, lower scores count as well.
 const HOPELESS_PIECE: f64 = 0.05 / MOST_GAINED;
 /// Where the best scores less than this, none will score the 0.9 that is asked for: the others are scored where they are.
 const UNACCEPTABLE: f64 = 0.9 / MOST_GAINED;

@@ -426,7 +426,7 @@ fn no_program_is_written_of_a_path_that_does_not_aim_at_the_part_unless_forced()
     );
     for path in ["grille.csv", "far.csv"] {
         let ran = shop.coded(1, &["library", "path", "front_door", path]);
-        let doubt = "the spray path does not aim at the part: of its ";
+        let doubt = "the spray path does not aim at the part: ";
         assert!(ran.err.contains(doubt), "{}", ran.err);
         for write in [
             ["path", "export", "front_door", "--output", "paint.src"].as_slice(),

@@ -125,16 +125,19 @@ fn cancel_gives_up_at_once_and_keeps_the_last_result() {
     assert!(window.state().session.is_old());
     harness.step();
     // On a quick machine the result may have arrived, and there is nothing to cancel.
+    let mut is_cancelled = false;
     if let Some(cancel) = harness.query_by_label("Cancel") {
         harness.get_by_label_contains("Previous result");
         cancel.click();
         harness.run_steps(2);
         assert_eq!(generation(&harness), before);
+        is_cancelled = true;
     }
     assert!(harness.state().state().inspector.running().is_none());
     thread::sleep(Duration::from_millis(300));
     harness.run_steps(2);
-    assert!(!harness.state().state().session.is_old());
+    // Another part may hang there now.
+    assert_eq!(harness.state().state().session.is_old(), is_cancelled);
 }
 
 #[test]

@@ -324,7 +324,7 @@ fn a_source_that_has_delivered_nothing_has_no_verdict() {
     });
     harness.run_steps(2);
     harness.get_by_label("Waiting for a new file");
-    harness.get_by_label("Save a capture to the folder: it is inspected by itself");
+    harness.get_by_label("Save a capture to the folder: it is inspected automatically");
     assert!(harness.query_by_label("OK").is_none());
     // Nor has it one when nobody waits any longer.
     toggle(&mut harness);
@@ -589,7 +589,7 @@ fn a_file_of_a_watched_folder_that_cannot_be_read_is_named_and_advice_fits_the_f
     wait_until(&mut harness, |state| state.session.failed.is_none());
     harness.run_steps(2);
     harness.get_by_label("No part hangs in front of the camera");
-    assert!(shows(&harness, "The next file is inspected by itself"));
+    assert!(shows(&harness, "The next file is inspected automatically"));
     assert!(!shows(&harness, "press Capture"));
     // The part of the other file still has no verdict.
     assert!(shows(&harness, "text.png: found"));

@@ -193,8 +193,14 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
     press(&mut harness, "Mark what shot 2 alone sees");
     assert_eq!(inspect_of(&harness).shots.looked_at, Some(1));
 
+    let hung = |harness: &WindowHarness| {
+        let shown = state(harness).session.shown.as_ref().expect("a result");
+        shown.inspected.entry.record.summary.hung.clone()
+    };
+    let before = hung(&harness);
     press(&mut harness, "Use shot-2.png");
     assert_eq!(used(&harness), [0, 2]);
+    assert_eq!(hung(&harness), before, "it is the same part");
     assert!(fused(&harness).scan.cloud.cloud.points.len() < all_three);
     harness.get_by_label_contains("2 of 3 shots used");
     // The result stays if too few shots are left for a scan.
@@ -233,6 +239,7 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
         spare.clone(),
     );
     assert_eq!(used(&harness), [0, 2, 3]);
+    assert_eq!(hung(&harness), before);
     choose_in_inspect(&mut harness, InspectFile::Shots(ShotsFile::Shot), spare);
     harness.get_by_label_contains("shot-9.png is among the shots already");
     assert_eq!(used(&harness), [0, 2, 3]);

@@ -109,7 +109,7 @@ history-key-again = Inspect it again with the current recipe and library
 
 ## Frames to keep
 history-keep-title = Frames to keep
-history-keep-why = With its frame an inspection can be opened again with every stage. The inspections themselves are kept for good. “Not accepted” also keeps the frames of the newest { $num } accepted parts, so that a wrong one can be labelled later.
+history-keep-why = With its frame an inspection can be opened again with every stage. The inspections themselves are kept for good. "Not accepted" also keeps the frames of the newest { $num } accepted parts, so that a wrong one can be labelled later.
 history-keep-which = From which inspections
 history-keep-days = At most, days
 history-keep-gigabytes = At most, gigabytes

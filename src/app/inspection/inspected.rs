@@ -35,7 +35,7 @@ use crate::{
     report::InspectionLine,
     robot::{
         RobotFrame,
-        spray::{CarriedPath, OffThePart, carry, off_the_part},
+        spray::{CarriedPath, OffThePart, carry},
     },
     stages::{
         reference::Reference,
@@ -331,13 +331,13 @@ impl FinishedInspection {
         });
         let path = inspection.ranking.entries.first();
         let path = path.and_then(|first| shown.spray_paths.get(first.reference)?.as_ref());
-        let spray = sprayed.and_then(|(_, pose)| {
+        let spray = sprayed.zip(path).and_then(|((_, pose), stored)| {
             let seen = match &seen_by_all {
                 Some(cloud) => cloud,
                 None => &inspection.segmentation.part.as_ref().ok()?.cloud,
             };
-            let camera_from_part = pose.camera_from_part();
-            Some(carry(path?, &camera_from_part, seen, &recipe.stand_off))
+            let hangs = pose.camera_from_part();
+            Some(carry(&stored.path, &hangs, seen, &recipe.stand_off))
         });
         let carried_onto = best.filter(|_| spray.is_some());
         let view = SceneFigure::of(&SceneFigureInput {
@@ -396,8 +396,7 @@ impl FinishedInspection {
             stand_off,
             spray,
             part_points: carried_onto.map_or_else(Vec::new, |best| best.cloud.points.clone()),
-            off_the_part: (carried_onto.zip(path))
-                .and_then(|(best, path)| off_the_part(path, best)),
+            off_the_part: path.and_then(|path| path.off),
             view,
             followed,
             scan,

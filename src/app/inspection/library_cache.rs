@@ -21,7 +21,7 @@ use crate::{
         Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, PartNumbers,
         SprayPath, open_library,
     },
-    robot::spray::off_the_part,
+    robot::spray::{OffThePart, off_the_part},
     stages::reference::ReferenceParams,
 };
 
@@ -82,7 +82,7 @@ pub struct LibraryView {
     /// Thumbnails of the parts, in the same order, where there is one.
     pub thumbnails: Vec<Option<RgbaImage>>,
     /// Spray paths of the parts, in the same order, where one is stored.
-    pub spray_paths: Vec<Option<SprayPath>>,
+    pub spray_paths: Vec<Option<StoredPath>>,
     /// The stored numbers by which robots know the parts.
     pub numbers: PartNumbers,
     /// Parts that could not be loaded.
@@ -96,6 +96,15 @@ pub struct LibraryView {
     /// The published version that it was taken from, if it was, in words.
     #[cfg(feature = "plant")]
     pub version: Option<String>,
+}
+
+/// The spray path stored with a part.
+#[derive(Clone, Debug)]
+pub struct StoredPath {
+    /// The path.
+    pub path: SprayPath,
+    /// Why robots do not get it, if it does not aim at the part.
+    pub off: Option<OffThePart>,
 }
 
 /// A part that could not be loaded.
@@ -306,12 +315,16 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
             .map(|_| place.spray_path(part.name.as_str()));
         spray_paths.push(match stored.transpose() {
             Ok(path) => {
-                let path = path.flatten();
-                let off = path.as_ref().and_then(|path| off_the_part(path, reference));
-                troubles.extend(off.map(|_| UserError {
-                    what: text!("shell-path-off-part", part = part.shown_title()),
-                    advice: text!("program-off-part-advice"),
-                }));
+                let path = path.flatten().map(|path| StoredPath {
+                    off: off_the_part(&path, reference),
+                    path,
+                });
+                if path.as_ref().is_some_and(|path| path.off.is_some()) {
+                    troubles.push(UserError {
+                        what: text!("shell-path-off-part", part = part.shown_title()),
+                        advice: text!("program-off-part-advice"),
+                    });
+                }
                 path
             }
             Err(error) => {

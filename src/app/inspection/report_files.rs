@@ -92,7 +92,10 @@ pub(in crate::app) fn spray_path(
                 is_stale(inspected.at.into())
             }
         };
-        let refused = if is_stale {
+        // Another capture does not help a path that does not aim at the part: that is said first.
+        let refused = if subject.off.is_some() {
+            None
+        } else if is_stale {
             Some((text!("program-stale"), text!("program-stale-advice")))
         } else if pose.is_ambiguous() {
             let advice = text!("program-ambiguous-advice");

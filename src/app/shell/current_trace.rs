@@ -1,11 +1,14 @@
 //! Traceability of the inspections: serial number, production order and operator, typed in the operator's view or sent by a
 //! scanner.
 //!
-//! A serial number is of the part on the screen if its verdict counts and it has no number yet, else of the part that is
-//! inspected next. That is right for whoever scans each label after the verdict, and for whoever scans each before it. A number
+//! A serial number belongs to the part on the screen if its verdict counts and it has no number yet, else to the part that is
+//! inspected next. This suits operators who scan each label after the verdict as well as those who scan it before. A number
 //! that came after the verdict can be moved to the next part until it is written.
 
-use std::sync::{Arc, Mutex};
+use std::{
+    collections::VecDeque,
+    sync::{Arc, Mutex},
+};
 
 use egui::{Align2, Context, RichText, TextEdit, Ui, WidgetInfo, vec2};
 
@@ -24,6 +27,8 @@ use crate::{
 const NAME: f32 = 76.0;
 /// How long a serial number that came after the verdict can be moved to the next part, seconds: until then it is not written.
 const MOVABLE: f64 = 30.0;
+/// Maximum number of parts whose written late serial number is kept, for their inspections that are still in memory.
+const MAX_WRITTEN: usize = 100;
 
 /// Traceability of the next inspection. Clones share it; whoever inspects takes it when the verdict counts.
 #[derive(Clone, Debug, Default)]
@@ -36,6 +41,8 @@ struct EnteredTrace {
     is_complete: bool,
     /// The last serial number that came after the verdict on its part.
     late: Option<LateSerial>,
+    /// Traceability of earlier parts whose serial number came after the verdict, newest first.
+    written: VecDeque<(HungId, Traceability)>,
 }
 
 /// A serial number that came after the verdict on its part.
@@ -131,9 +138,13 @@ impl CurrentTrace {
     /// Traceability of a part, with its serial number also if that came after the verdict.
     pub(in crate::app) fn of_part(&self, part: &Inspected) -> Traceability {
         let own = part.trace().clone();
-        match &lock(&self.0).late {
-            Some(late) if late.hung == *part.hung() => own.or(&late.trace),
-            _ => own,
+        let entered = lock(&self.0);
+        let late = entered.late.iter().map(|late| (&late.hung, &late.trace));
+        let written = entered.written.iter().map(|(hung, trace)| (hung, trace));
+        let mut all = late.chain(written);
+        match all.find(|(hung, _)| *hung == part.hung()) {
+            Some((_, late)) => own.or(late),
+            None => own,
         }
     }
 
@@ -152,7 +163,10 @@ impl CurrentTrace {
             return None;
         }
         late.until = None;
-        Some((late.hung.clone(), late.trace.clone()))
+        let written = (late.hung.clone(), late.trace.clone());
+        entered.written.push_front(written.clone());
+        entered.written.truncate(MAX_WRITTEN);
+        Some(written)
     }
 
     /// Replaces an entry by an edited text, unless it has changed since the user saw it as `before`: a serial number that was
@@ -170,10 +184,12 @@ impl CurrentTrace {
     }
 
     /// Takes the values for an inspection. Uses up the serial number, so that the next part never gets it; if no part was
-    /// found, the number waits for one.
+    /// found, or while the number is still being typed, it waits.
     pub fn take(&self, is_part: bool) -> Traceability {
-        let trace = &mut lock(&self.0).trace;
-        let serial = if is_part {
+        let EnteredTrace {
+            trace, is_complete, ..
+        } = &mut *lock(&self.0);
+        let serial = if is_part && *is_complete {
             std::mem::take(&mut trace.serial)
         } else {
             String::new()
@@ -232,8 +248,8 @@ impl Session {
     /// Enters a scanned serial number, unless the part on the screen has it already. Returns what to tell the user.
     pub(in crate::app) fn enter_scanned(&self, code: &str, now: f64) -> Option<Notice> {
         let serial = Traceability::cleaned(code);
-        let shown = self.shown.as_ref().filter(|shown| !shown.is_past);
-        if shown.is_some_and(|shown| self.trace.of_part(&shown.inspected).serial == serial) {
+        let latest = self.latest(|shown| !shown.is_past);
+        if latest.is_some_and(|part| self.trace.of_part(part).serial == serial) {
             return Some(Notice::done(text!(
                 "operator-serial-known",
                 serial = serial
@@ -273,9 +289,8 @@ impl Session {
 
 /// Returns the event that writes a serial number which came after the verdict on its part, once it can no longer be moved.
 pub(in crate::app) fn settle(session: &Session, now: f64) -> Option<Event> {
-    let shown = session.shown.as_ref();
-    let shown = shown.map(|shown| shown.inspected.hung());
-    let (hung, trace) = session.trace.settle(shown, now)?;
+    let latest = session.latest(|_| true).map(Inspected::hung);
+    let (hung, trace) = session.trace.settle(latest, now)?;
     // Live's next frames of this part have it.
     lock(&session.live.parts).traced(&hung, &trace);
     Some(Event::TracedLate(hung, trace))
@@ -414,8 +429,15 @@ mod tests {
         let Some(Event::TracedLate(part, trace)) = settle(&session, 4.0) else {
             panic!("not written");
         };
-        assert_eq!((part, &*trace.serial), (first, "4711"));
+        assert_eq!((&part, &*trace.serial), (&first, "4711"));
         assert!(settle(&session, 99.0).is_none(), "once");
+        // An inspection that is still in memory shows it.
+        let inspected = Arc::clone(&session.shown.as_ref().expect("shown").inspected);
+        session.enter_scanned("4713", 5.0);
+        let mut before = inspected_cell(CellChoice::InTurn, 1);
+        before.entry.record.summary.hung = part;
+        assert_eq!(session.trace.of_part(&before).serial, "4711");
+        assert_eq!(session.trace.of_part(&inspected).serial, "4713");
         // An empty cell, or a result that does not count any more, takes none.
         let empty = showing(Session::default(), CellChoice::Empty);
         let mut past = showing(Session::default(), CellChoice::InTurn);
@@ -460,6 +482,8 @@ mod tests {
     fn a_typed_serial_number_is_entered_when_its_field_is_left() {
         let trace = CurrentTrace::default();
         trace.edit(|trace| &mut trace.serial, "", "47".into());
+        // Live does not take half of it.
+        assert_eq!(trace.take(true).serial, "");
         assert_eq!(trace.take_typed().as_deref(), Some("47"));
         trace.set_serial("4712");
         assert_eq!(trace.take_typed(), None, "it waits for the next part");

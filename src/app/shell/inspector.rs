@@ -179,6 +179,10 @@ impl State {
     /// Inspects a scene or a scan, as the part that Live sees if it follows the same source, else as a hung part of its own;
     /// stops following the source.
     fn inspect(&mut self, title: String, job: InspectJob) {
+        if self.session.source.followed().is_some() {
+            // Another part may hang there now, even if the capture fails.
+            live::outdate_shown(self);
+        }
         let trace = self.session.trace.clone();
         let part = if self.inspector.is_start {
             PartAtHand::MaybeSeen(CurrentTrace::default())
@@ -190,7 +194,7 @@ impl State {
         self.inspect_part(title, job, ReinspectionPurpose::New, part);
     }
 
-    /// Inspects something again, as an inspection of `hung` if given, else as a hung part of its own; stops following the
+    /// Inspects something again as an inspection of `hung`; without one, inspects it as something new. Stops following the
     /// source.
     pub(in crate::app) fn inspect_again_as(
         &mut self,
@@ -200,14 +204,13 @@ impl State {
         hung: Option<HungId>,
         trace: Traceability,
     ) {
+        let Some(hung) = hung else {
+            return self.inspect(title, job);
+        };
         if purpose == ReinspectionPurpose::Past {
             self.tell_what_ends_live(text!("live-ended-past"));
         }
-        let part = match hung {
-            Some(hung) => PartAtHand::Known(hung, trace),
-            None => PartAtHand::Past(trace),
-        };
-        self.inspect_part(title, job, purpose, part);
+        self.inspect_part(title, job, purpose, PartAtHand::Known(hung, trace));
     }
 
     fn inspect_part(
@@ -247,11 +250,12 @@ impl State {
         }
     }
 
-    /// Inspects the scene in front again with the current settings: another verdict on the same hung part. A scene from the
-    /// history hangs there no longer, so its inspection is only repeated, not new.
+    /// Inspects the scene in front again with the current settings: another verdict on the same hung part. The part of a scene
+    /// from the history hangs there no longer, nor may that of an outdated one: its inspection is only repeated, not new.
     pub(in crate::app) fn inspect_shown(&mut self, title: &str, purpose: ReinspectionPurpose) {
+        live::show_unseen(self);
         if let Some(shown) = &self.session.shown {
-            let purpose = if shown.is_past {
+            let purpose = if shown.is_past || shown.is_outdated {
                 ReinspectionPurpose::Repeated
             } else {
                 purpose
@@ -335,6 +339,7 @@ impl State {
     pub(in crate::app) fn show_past(&mut self, inspected: Arc<Inspected>) {
         self.tell_what_ends_live(text!("live-ended-past"));
         self.generation += 1;
+        self.session.live.unseen = None;
         self.session.shown = Some(Shown {
             generation: self.generation,
             inspected,
@@ -529,23 +534,23 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         ..
     } = state.inspector;
     state.session.failed = None;
-    // A result from the history stays past, with whatever recipe or library it is inspected again.
-    let was_past = state
-        .session
-        .shown
-        .as_ref()
-        .is_some_and(|shown| shown.is_past);
-    let is_past = match purpose {
-        ReinspectionPurpose::Past => true,
-        ReinspectionPurpose::Repeated | ReinspectionPurpose::Shots => was_past,
-        ReinspectionPurpose::New => false,
+    state.session.live.unseen = None;
+    // A result from the history stays past and an outdated one outdated, with whatever recipe or library it is inspected again.
+    let former = state.session.shown.as_ref();
+    let marks = |former: &Shown| (former.is_past, former.is_outdated);
+    let (is_past, is_outdated) = match purpose {
+        ReinspectionPurpose::Past => (true, false),
+        ReinspectionPurpose::Repeated | ReinspectionPurpose::Shots => {
+            former.map_or((false, false), marks)
+        }
+        ReinspectionPurpose::New => (false, false),
     };
     state.session.shown = Some(Shown {
         generation,
         inspected: Arc::clone(&inspected),
         is_past,
         session: None,
-        is_outdated: false,
+        is_outdated,
     });
     Event::Inspected { inspected, purpose }
 }
@@ -564,7 +569,7 @@ fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
 mod tests {
     use super::*;
     use crate::{
-        app::shell::action::{Action, apply},
+        app::shell::action::{Action, DialogRequest, apply},
         files::write_depth_png,
         kit::small_frame,
     };
@@ -587,7 +592,46 @@ mod tests {
         update(&mut state);
         assert!(state.session.is_old(), "nothing has come yet");
         apply(&mut state, Action::CancelInspection);
-        assert!(!state.session.is_old() && state.session.shown.is_some());
+        // Another part may hang there now.
+        assert!(state.session.is_old() && state.session.shown.is_some());
+        assert!(state.session.current_result().is_none());
+        apply(&mut state, Action::Capture);
+        assert!(state.inspector.run_waiting());
+        update(&mut state);
+        assert!(state.session.current_result().is_some());
+    }
+
+    #[test]
+    fn an_outdated_result_stays_outdated_when_its_scene_is_inspected_again() {
+        let mut state = State::default();
+        apply(&mut state, Action::Capture);
+        assert!(state.inspector.run_waiting());
+        update(&mut state);
+        live::outdate_shown(&mut state);
+        let library = state.session.library.clone().expect("loaded");
+        for step in 0..4 {
+            match step {
+                0 => state.inspect_again(),
+                1 => state.inspect_shown("Again", ReinspectionPurpose::New),
+                2 => state.library_changed(&library, None),
+                // It is loaded, and then the scene is inspected again.
+                _ => {
+                    let chosen = Action::Chosen(DialogRequest::Library, "reference_parts".into());
+                    apply(&mut state, chosen);
+                    assert!(state.inspector.run_waiting());
+                    assert!(update(&mut state).is_none());
+                }
+            }
+            assert!(state.inspector.run_waiting());
+            let event = update(&mut state);
+            // The history keeps only new inspections.
+            let Some(Event::Inspected { purpose, .. }) = event else {
+                panic!("{step}: {event:?}");
+            };
+            assert_eq!(purpose, ReinspectionPurpose::Repeated);
+            assert!(state.session.is_old(), "{step}");
+            assert!(state.session.current_result().is_none(), "{step}");
+        }
     }
 
     #[test]

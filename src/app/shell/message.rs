@@ -65,9 +65,9 @@ pub enum Message {
         job: InspectJob,
         /// Purpose of the inspection.
         purpose: ReinspectionPurpose,
-        /// The hung part in the history, if this is an inspection of it.
+        /// The hung part, if this is another inspection of it; `None` for something new.
         hung: Option<HungId>,
-        /// Traceability of the inspection that is repeated.
+        /// Traceability of that part.
         trace: Traceability,
     },
     /// Inspect the scene in front again, as a new inspection.

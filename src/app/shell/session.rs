@@ -121,12 +121,21 @@ impl Session {
         shown.is_some_and(|shown| self.inspecting.is_some() || shown.is_outdated)
     }
 
-    /// The result in front while its verdict counts: not while the part moves or is only looked at, nor for a past inspection,
+    /// The latest inspection: what Live inspected behind another workspace, else the result in front if it is wanted.
+    pub(in crate::app) fn latest(
+        &self,
+        is_wanted: impl FnOnce(&Shown) -> bool,
+    ) -> Option<&Inspected> {
+        let shown = self.shown.as_ref().filter(|shown| is_wanted(shown));
+        let unseen = self.live.unseen.as_ref();
+        let latest = unseen.or_else(|| shown.map(|shown| &shown.inspected));
+        latest.map(|inspected| &**inspected)
+    }
+
+    /// The latest result while its verdict counts: not while the part moves or is only looked at, nor for a past inspection,
     /// nor once it is outdated, nor while another inspection runs or after one has failed. In the history it is the newest one.
     pub(in crate::app) fn current_result(&self) -> Option<&Inspected> {
-        let shown = self.shown.as_ref();
-        let shown = shown.filter(|shown| !shown.is_past && !shown.is_outdated)?;
-        let inspected = &*shown.inspected;
+        let inspected = self.latest(|shown| !shown.is_past && !shown.is_outdated)?;
         let has_come = !self.is_live()
             || self.live.status.as_ref().is_some_and(|status| {
                 status.source == SourceState::Running && status.num_inspected > 0
@@ -209,7 +218,7 @@ pub struct Shown {
     pub is_past: bool,
     /// The session of following that it belongs to, if it is a frame of a followed source.
     pub session: Option<u64>,
-    /// True once the source was changed, lost or followed anew: another part may hang there now.
+    /// True once the source was changed, lost, followed anew or captured from: another part may hang there now.
     pub is_outdated: bool,
 }
 

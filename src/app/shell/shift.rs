@@ -95,7 +95,7 @@ pub struct ShiftParts {
     pub num_not_ok: usize,
     /// The last parts, accepted or not, newest first.
     pub last: Vec<Summary>,
-    /// The part on the screen with its true label, if it had one when the parts were counted.
+    /// The part inspected last with its true label, if it had one when the parts were counted.
     pub labelled: Option<(HungId, Truth)>,
 }
 
@@ -160,12 +160,12 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
         state.shift_watch.counted = wanted;
         state.shift_watch.retry_at = None;
         let history = Arc::clone(history);
-        let shown = state.session.shown.as_ref();
-        let shown = shown.map(|shown| shown.inspected.hung().clone());
+        let latest = state.session.latest(|_| true);
+        let latest = latest.map(|part| part.hung().clone());
         let count = move |_: &_| {
             let followed = source.as_ref().and_then(Source::followed);
             let followed = followed.map_or_else(String::new, |spec| spec.to_string());
-            let labelled = shown.map_or(Ok(None), |hung| label_of(&history, hung));
+            let labelled = latest.map_or(Ok(None), |hung| label_of(&history, hung));
             let parts = count(&history, since.clone(), &followed).and_then(|parts| {
                 Ok(ShiftParts {
                     source,

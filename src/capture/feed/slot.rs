@@ -107,7 +107,7 @@ impl Slot {
         let tap = Arc::new(Self::new(BackpressurePolicy::Newest, Box::new(|| ())));
         let mut inner = self.lock();
         {
-            // This lock cannot block: nobody else has the tap yet.
+            // This lock cannot block: no other thread has the tap yet.
             let mut theirs = tap.lock();
             theirs.status.state = inner.status.state.clone();
             theirs.status.title.clone_from(&inner.status.title);

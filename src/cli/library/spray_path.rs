@@ -33,7 +33,8 @@ enrolled (x right, y down, z forward). Its heading names columns and units, in o
   x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm
   12.0,-40.5,1291.0,0,0,-1,150                 a point of the surface, its normal towards the nozzle, the distance
 
-Exit code 1 if the path does not aim at the part: it is stored nevertheless, but no robot gets it.")]
+Exit code 1 if the path does not aim at the part: it is stored, but programs of it
+are refused, and `serve` does not send it.")]
 pub(super) struct PathArgs {
     /// Name of the part
     name: PartName,

@@ -1,4 +1,4 @@
-//! Writes the page as a PDF file: fonts with the glyphs in use, pictures, and what the file says of itself.
+//! Writes the page as a PDF file: fonts with the glyphs in use, pictures, and the file's metadata.
 //!
 //! `pdf-writer` writes the objects (ISO 32000-1), `subsetter` cuts the fonts down.
 
@@ -13,7 +13,10 @@ use pdf_writer::{
 use skrifa::{FontRef, GlyphId, Tag};
 use subsetter::GlyphRemapper;
 
-use crate::report::lettering::{BOLD, Lettering, REGULAR};
+use crate::{
+    files::crc32,
+    report::lettering::{BOLD, Lettering, REGULAR},
+};
 
 /// Codes of a font are glyphs of its subset, in the order of their first use.
 const CODES: SystemInfo<'_> = SystemInfo {
@@ -48,12 +51,11 @@ impl Weight {
         })
     }
 
-    /// Name of the font in the file. PDF asks for a tag before the name of a subset.
-    fn base_font(self) -> Name<'static> {
-        Name(match self {
-            Self::Regular => b"PARTSR+Inter-Regular",
-            Self::Bold => b"PARTSB+Inter-SemiBold",
-        })
+    fn name(self) -> &'static str {
+        match self {
+            Self::Regular => "Inter-Regular",
+            Self::Bold => "Inter-SemiBold",
+        }
     }
 }
 
@@ -73,9 +75,21 @@ impl UsedGlyphs {
         let (first, _) = *self.letters.entry(code).or_insert((letter, width));
         (code, first == letter)
     }
+
+    /// Returns the tag before the name of a subset: six letters, others for other glyphs (ISO 32000-1, 9.6.4).
+    fn tag(&self) -> String {
+        let letters: String = self.letters.values().map(|(letter, _)| letter).collect();
+        let mut rest = crc32(letters.as_bytes());
+        let letter = |_| {
+            let letter = char::from(b'A' + (rest % 26) as u8);
+            rest /= 26;
+            letter
+        };
+        (0..6).map(letter).collect()
+    }
 }
 
-/// What a file says of itself.
+/// The file's metadata.
 pub(super) struct About<'a> {
     pub(super) title: String,
     /// Program that made the report.
@@ -157,7 +171,8 @@ fn write_font(
     next: &mut impl FnMut() -> Ref,
 ) {
     let [cid_font, descriptor, to_unicode, outlines] = std::array::from_fn(|_| next());
-    let name = weight.base_font();
+    let name = format!("{}+{}", used.tag(), weight.name());
+    let name = Name(name.as_bytes());
     pdf.type0_font(font)
         .base_font(name)
         .encoding_predefined(Name(b"Identity-H"))
@@ -212,5 +227,5 @@ fn write_font(
 fn deflated(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
     let written = encoder.write_all(bytes).and_then(|()| encoder.finish());
-    written.expect("memory takes all")
+    written.expect("writing to memory cannot fail")
 }

@@ -39,7 +39,7 @@ use crate::{
             ray::{Ray, ReferenceSurface, SeenSurface},
         },
     },
-    units::{Metres, Radians},
+    units::{Metres, Radians, counted},
 };
 
 pub use self::export::{SprayExport, SprayFormat, remove_previous_export};
@@ -210,7 +210,9 @@ pub fn against_reference(
 /// A path that does not belong to the part with which it is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the spray path does not aim at the part: of its {num_spraying} points with the gun on, {num_aiming} have the enrolled part before them, at about their stand-off"
+    "the spray path does not aim at the part: {num_aiming} of {} with the gun on {} the enrolled part in front of the nozzle at about the stand-off",
+    counted(*.num_spraying, "point", "points"),
+    if *.num_aiming == 1 { "has" } else { "have" }
 )]
 pub struct OffThePart {
     /// Number of points with the gun on.
@@ -233,6 +235,9 @@ const LEAST_AT_STAND_OFF: f64 = 0.5;
 /// A stand-off may be off by half of it, or by this, metres, if that is more.
 const LEAST_SLACK: f64 = 0.05;
 
+/// Where a path names no stand-off, the surface is looked for as well around this distance: up to 1.15 m.
+const FAR: Metres = Metres(0.75);
+
 /// Compares a path with the part as it was enrolled; `None` if it belongs to it, or if the part has no normals. Where the
 /// path names no stand-off, the nozzle only has to be in front of the part.
 pub fn off_the_part(path: &SprayPath, reference: &Reference) -> Option<OffThePart> {
@@ -244,8 +249,12 @@ pub fn off_the_part(path: &SprayPath, reference: &Reference) -> Option<OffThePar
     let (mut num_spraying, mut num_met, mut num_aiming) = (0_usize, 0_usize, 0_usize);
     for point in points.iter().filter(|point| point.is_gun_on || !sprays) {
         num_spraying += 1;
-        let expected = point.stand_off.unwrap_or(taught);
-        let Some(met) = meeting(&tool_frame(point), &surface, expected) else {
+        let nozzle = tool_frame(point);
+        let met = match point.stand_off {
+            Some(expected) => meeting(&nozzle, &surface, expected),
+            None => meeting(&nozzle, &surface, taught).or_else(|| meeting(&nozzle, &surface, FAR)),
+        };
+        let Some(met) = met else {
             continue;
         };
         num_met += 1;

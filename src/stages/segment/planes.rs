@@ -98,8 +98,7 @@ pub(super) fn label_background(
     noise_at_1m: Metres,
     params: &SegmentParams,
 ) -> Vec<PointLabel> {
-    let base = params.plane_distance.0 as f32;
-    let noise = (params.noise_factor * noise_at_1m.0) as f32;
+    let tolerance = PlaneTolerance::new(noise_at_1m, params);
     let planes: Vec<([f32; 3], f32)> = planes
         .iter()
         .map(|b| {
@@ -113,9 +112,7 @@ pub(super) fn label_background(
         }
         for (k, (n, offset)) in planes.iter().enumerate() {
             let along_normal = n[0] * p.x + n[1] * p.y + n[2] * p.z;
-            // Depth noise of `noise · z²` moves the point along its ray, and so along the normal by `noise · z² ·
-            // (normal · ray)` for a ray with z = 1: little for a floor seen at a grazing angle.
-            if along_normal + offset < base + noise * p.z.abs() * along_normal.abs() {
+            if along_normal + offset < tolerance.at(p.z, along_normal) {
                 return PointLabel::Background(k as u8);
             }
         }
@@ -124,17 +121,27 @@ pub(super) fn label_background(
     points.iter().map(label).collect()
 }
 
-/// Returns the distance from a background plane within which a point belongs to it.
-pub(super) fn reach_of(
-    plane: &Plane,
-    noise_at_1m: Metres,
-    params: &SegmentParams,
-) -> impl Fn(&Point3<f32>) -> f64 {
-    let (normal, noise) = (plane.normal, params.noise_factor * noise_at_1m.0);
-    let base = params.plane_distance.0;
-    move |p| {
-        let p = p.cast::<f64>();
-        base + noise * p.z.abs() * normal.dot(&p.coords).abs()
+/// Distance from a background plane within which a point belongs to it, metres.
+#[derive(Clone, Copy)]
+pub(super) struct PlaneTolerance {
+    base: f32,
+    noise: f32,
+}
+
+impl PlaneTolerance {
+    pub(super) fn new(noise_at_1m: Metres, params: &SegmentParams) -> Self {
+        Self {
+            base: params.plane_distance.0 as f32,
+            noise: (params.noise_factor * noise_at_1m.0) as f32,
+        }
+    }
+
+    /// Returns the tolerance of a point at depth `z` whose position along the plane's normal is `along_normal`.
+    ///
+    /// Depth noise of `noise · z²` moves the point along its ray, and so along the normal by `noise · z² · (normal · ray)` for a
+    /// ray with z = 1: little for a floor seen at a grazing angle.
+    pub(super) fn at(self, z: f32, along_normal: f32) -> f32 {
+        self.base + self.noise * z.abs() * along_normal.abs()
     }
 }
 

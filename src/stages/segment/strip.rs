@@ -5,9 +5,9 @@
 //! lie on the wall, however thin the part looks.
 //!
 //! Known limits: a strip of background stays a surface if something else touches it, if the plane it continues was fitted
-//! across the corner of wall and floor, if the picture has so few pixels that the strip
-//! leaves the tolerance within one, or without a picture. An edge of a flat part that reaches both the wall's tolerance and the
-//! side of the view, and that is seen nearly edge-on, is taken for a strip.
+//! across the corner of wall and floor, if the picture is so coarse that the strip leaves the plane's tolerance within one
+//! pixel, or without a picture. An edge of a flat part that reaches both the wall's tolerance and the side of the view, and
+//! that is seen nearly edge-on, is taken for a strip.
 
 use nalgebra::Point3;
 
@@ -15,7 +15,7 @@ use super::{
     BackgroundPlane, PointLabel, SegmentParams,
     clusters::{BRIDGED_PIXELS, MARGIN, Members},
     part::is_flat,
-    planes::reach_of,
+    planes::PlaneTolerance,
 };
 use crate::{
     geometry::{cloud::Grid, principal::principal_axes},
@@ -62,12 +62,14 @@ pub(super) fn is_strip(
         return false;
     }
     let points = &scene.cloud.points;
+    let tolerance = PlaneTolerance::new(noise_at_1m, params);
     let continued_at = |pixel: usize| match labels[pixel] {
         PointLabel::Background(number) => {
             let plane = planes.get(usize::from(number))?.plane;
-            let (p, reach) = (points[pixel], reach_of(&plane, noise_at_1m, params));
-            let off = plane.signed_distance(&p.cast());
-            Some((off > LIFTED * reach(&p), plane))
+            let p = points[pixel].cast::<f64>();
+            let along_normal = plane.normal.dot(&p.coords) as f32;
+            let tolerance = f64::from(tolerance.at(p.z as f32, along_normal));
+            Some((plane.signed_distance(&p) > LIFTED * tolerance, plane))
         }
         _ => None,
     };
@@ -88,7 +90,7 @@ pub(super) fn is_strip(
             return false;
         }
         [false, true].into_iter().any(|at_end| {
-            let (mut num_at_edge, mut num_continued) = (0.0, 0.0);
+            let (mut num_at_edge, mut num_continued) = (0_usize, 0_usize);
             let mut continues = None;
             for (line, span) in spans.iter().enumerate() {
                 let Some(Span { first, last }) = *span else {
@@ -106,7 +108,7 @@ pub(super) fn is_strip(
                         first <= (start + MARGIN) as usize
                     }
                 });
-                num_at_edge += f64::from(u8::from(is_at_edge));
+                num_at_edge += usize::from(is_at_edge);
                 let pixel_at = |at: usize| {
                     if by_column {
                         at * grid.width + line
@@ -122,12 +124,12 @@ pub(super) fn is_strip(
                     }
                 });
                 if let Some((true, plane)) = beside.map(pixel_at).find_map(continued_at) {
-                    num_continued += 1.0;
+                    num_continued += 1;
                     continues = Some(plane);
                 }
             }
-            num_at_edge >= LEAST_AT_EDGE * num
-                && num_continued >= LEAST_CONTINUED * num
+            num_at_edge as f64 >= LEAST_AT_EDGE * num
+                && num_continued as f64 >= LEAST_CONTINUED * num
                 && continues.is_some_and(|plane| {
                     let own = surface.indices.iter().map(|i| points[*i as usize]);
                     let own = own.map(|p: Point3<f32>| (p.cast(), 1.0));

@@ -12,7 +12,10 @@ mod work;
 pub(in crate::app) use self::{
     parts::FollowedParts,
     set_up::set_up,
-    state::{apply, close, give_way, restart_consensus, show_unseen, source_changed, update},
+    state::{
+        apply, close, give_way, outdate_shown, restart_consensus, show_unseen, source_changed,
+        update,
+    },
     status::{card, chip, words},
 };
 pub use self::{

@@ -49,6 +49,8 @@ pub struct LiveState {
     pub setup: Option<crate::capture::SimulatedSpec>,
     /// The parts that hang before it.
     pub(in crate::app) parts: Arc<Mutex<FollowedParts>>,
+    /// The latest inspection, if another workspace was in front and nothing newer has been shown since.
+    pub(in crate::app) unseen: Option<Arc<Inspected>>,
 }
 
 /// Follows the source.
@@ -61,10 +63,10 @@ pub struct Follower {
     library_cache: LibraryCache,
     /// Incremented when following starts with another view; within one session the 3-D view keeps its camera.
     session: u64,
+    /// Incremented when following starts over: what came before is only recorded.
+    run: u64,
     /// The notice shown while the source is lost.
     lost: Option<Notice>,
-    /// The latest inspection while another workspace was in front, and the generation of what was shown then.
-    unseen: Option<(u64, Arc<Inspected>)>,
 }
 
 impl Follower {
@@ -77,8 +79,8 @@ impl Follower {
             task: Task::new("live", runner),
             library_cache: library_cache.clone(),
             session: 0,
+            run: 0,
             lost: None,
-            unseen: None,
         }
     }
 
@@ -173,7 +175,10 @@ pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Eff
         }
         LiveAction::ToggleRecording => {
             end_recording(state);
-            restart_consensus(state);
+            // No verdict depends on it.
+            if state.session.is_live() {
+                follow_source(state);
+            }
         }
         LiveAction::SetUp(spec) => state.session.live.setup = spec,
     }
@@ -204,13 +209,19 @@ fn start(state: &mut State) {
         return;
     }
     state.follower.session += 1;
-    outdate_shown(state);
     state.session.failed = None;
     remove_notices(state, NoticeTopic::Following);
     remove_notices(state, NoticeTopic::LiveEnded);
     remove_notices(state, NoticeTopic::Scene);
     dismiss_lost_notice(state);
     state.cancel_inspection();
+    follow_anew(state);
+}
+
+/// Follows the source from now on: nothing that came before is current any more.
+fn follow_anew(state: &mut State) {
+    outdate_shown(state);
+    state.follower.run += 1;
     follow_source(state);
 }
 
@@ -228,7 +239,7 @@ fn follow_source(state: &mut State) {
         trace: state.session.trace.clone(),
         parts: Arc::clone(&state.session.live.parts),
         recorder: state.follower.recorder.clone(),
-        session: state.follower.session,
+        run: state.follower.run,
     };
     state.session.live.is_on = true;
     state.session.live.status = None;
@@ -241,7 +252,7 @@ fn follow_source(state: &mut State) {
 /// source is followed.
 pub(in crate::app) fn restart_consensus(state: &mut State) {
     if state.session.is_live() {
-        follow_source(state);
+        follow_anew(state);
     }
 }
 
@@ -316,7 +327,8 @@ pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
     let answers: Vec<_> = std::iter::from_fn(|| task.poll()).collect();
     let records: Vec<_> = state.follower.records.try_iter().collect();
     let records = records.into_iter();
-    let events = records.map(|record| take_record(state, record)).collect();
+    let events = records.filter_map(|record| take_record(state, record));
+    let events = events.collect();
     for answer in answers {
         match answer {
             TaskEvent::Partial(answer) | TaskEvent::Done(answer) => receive(state, answer),
@@ -329,20 +341,45 @@ pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
     events
 }
 
-/// Shows a verdict that counts; returns the event by which it is recorded.
-fn take_record(state: &mut State, record: LiveRecord) -> Event {
+/// Shows a verdict that counts, or that there is none; returns the event by which an inspection is recorded.
+fn take_record(state: &mut State, record: LiveRecord) -> Option<Event> {
     match record {
-        LiveRecord::Counts { inspected, session } => {
+        LiveRecord::Counts { inspected, run } => {
             for warning in &inspected.warnings {
                 notify(state, UserError::of(warning).into());
             }
-            if session == state.follower.session {
+            if run == state.follower.run {
                 show(state, Arc::clone(&inspected));
             }
             let purpose = ReinspectionPurpose::New;
-            Event::Inspected { inspected, purpose }
+            Some(Event::Inspected { inspected, purpose })
         }
-        LiveRecord::Left(entry) => Event::Left(entry),
+        LiveRecord::Left(entry) => Some(Event::Left(entry)),
+        LiveRecord::Skipped {
+            name,
+            error,
+            is_fault,
+            run,
+        } => {
+            // In a watched folder it was the capture of another part, which has no verdict now. The notice stays until it is
+            // dismissed: the next capture may come before anybody has looked.
+            if run == state.follower.run && state.session.is_watching() {
+                state.session.live.unseen = None;
+                state.session.failed = Some(if is_fault {
+                    UserError {
+                        what: text!("operator-fault"),
+                        advice: text!("operator-ask"),
+                    }
+                } else {
+                    UserError {
+                        what: text!("operator-unreadable", file = name),
+                        advice: text!("operator-unreadable-next"),
+                    }
+                });
+            }
+            notify(state, error.into());
+            None
+        }
     }
 }
 
@@ -357,24 +394,15 @@ fn receive(state: &mut State, answer: LiveAnswer) {
                 outdate_shown(state);
             }
             state.session.live.status = Some(told.status);
-            if let Some(inspected) = told.inspected {
+            // Every capture of a folder is recorded, and a record may be of a later one that has no verdict.
+            if let Some(inspected) = told.inspected
+                && !state.session.is_watching()
+            {
                 show(state, inspected);
             }
         }
         LiveAnswer::NotRecorded(error) => {
             state.session.live.recording = None;
-            notify(state, error.into());
-        }
-        LiveAnswer::Skipped { name, error } => {
-            // In a watched folder it was the capture of another part, which has no verdict now. The notice stays until it is
-            // dismissed: the next capture may come before anybody has looked.
-            if state.session.is_watching() {
-                state.follower.unseen = None;
-                state.session.failed = Some(UserError {
-                    what: text!("operator-unreadable", file = name),
-                    advice: text!("operator-unreadable-next"),
-                });
-            }
             notify(state, error.into());
         }
         LiveAnswer::AtItsEnd => {
@@ -403,21 +431,20 @@ fn show(state: &mut State, inspected: Arc<Inspected>) {
     if state.session.workspace == WorkspaceKind::Inspect {
         show_latest(state, inspected);
     } else {
-        state.follower.unseen = Some((state.generation, inspected));
+        state.session.failed = None;
+        state.session.live.unseen = Some(inspected);
     }
 }
 
 /// Inspect comes to the front: shows what was inspected meanwhile, unless something newer is shown.
 pub(in crate::app) fn show_unseen(state: &mut State) {
-    if let Some((generation, inspected)) = state.follower.unseen.take()
-        && generation == state.generation
-    {
+    if let Some(inspected) = state.session.live.unseen.take() {
         show_latest(state, inspected);
     }
 }
 
 fn show_latest(state: &mut State, inspected: Arc<Inspected>) {
-    state.follower.unseen = None;
+    state.session.live.unseen = None;
     state.use_library(&inspected.library);
     state.session.failed = None;
     state.generation += 1;
@@ -430,9 +457,9 @@ fn show_latest(state: &mut State, inspected: Arc<Inspected>) {
     });
 }
 
-/// What was inspected so far is of another source, or from before the source was lost or followed anew.
-fn outdate_shown(state: &mut State) {
-    state.follower.unseen = None;
+/// What was inspected so far is of another source, or from before the source was lost, followed anew or captured from.
+pub(in crate::app) fn outdate_shown(state: &mut State) {
+    state.session.live.unseen = None;
     if let Some(shown) = &mut state.session.shown {
         shown.is_outdated = true;
     }
@@ -476,11 +503,12 @@ mod tests {
     use super::*;
     use crate::{
         app::{
-            inspection::{camera::Camera, source::CellChoice},
+            inspection::{camera::Camera, inspected::inspected_cell, source::CellChoice},
             shell::{
                 action::{Action, apply as apply_any},
-                inspector,
+                current_trace, inspector,
                 live::LiveStatusUpdate,
+                roles::RoleAction,
             },
         },
         capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
@@ -551,6 +579,7 @@ mod tests {
             assert_eq!(*purpose, ReinspectionPurpose::New);
             let summary = &inspected.entry.record.summary;
             assert_eq!(summary.verdict, StoredVerdict::Accepted);
+            assert!(state.session.shown.is_none(), "{action:?}: only recorded");
         }
     }
 
@@ -594,19 +623,18 @@ mod tests {
     fn a_capture_of_a_watched_folder_that_cannot_be_read_leaves_no_result() {
         let mut state = watching();
         toggle(&mut state);
-        let error = UserError {
-            what: "the file ends early".into(),
-            advice: "Copy it again".into(),
-        };
-        let skipped = || LiveAnswer::Skipped {
-            name: "door.png".into(),
-            error: error.clone(),
-        };
-        receive(&mut state, skipped());
+        let record = skipped(&state, false);
+        assert!(take_record(&mut state, record).is_none());
         let failed = state.session.failed.take().expect("no result");
         assert!(failed.what.contains("door.png"), "{failed:?}");
         assert!(failed.advice.contains("Save the capture"), "{failed:?}");
-        // Nobody may have looked yet when the next capture comes.
+        // Saving it again would not help where the program has failed.
+        let record = skipped(&state, true);
+        take_record(&mut state, record);
+        let failed = state.session.failed.take().expect("no result");
+        assert!(failed.what.contains("The program failed"), "{failed:?}");
+        assert_eq!(failed.advice, "Ask the engineer");
+        // The next capture may arrive before anyone has looked.
         assert!(state.follower.task.run_waiting());
         update(&mut state);
         assert!(state.session.shown.is_some());
@@ -615,8 +643,100 @@ mod tests {
         // The last frame of a camera stands for the part that hangs there.
         state.session.source = Source::Cell(CellChoice::default());
         toggle(&mut state);
-        receive(&mut state, skipped());
+        let record = skipped(&state, false);
+        take_record(&mut state, record);
         assert!(state.session.failed.is_none() && state.session.is_live());
+    }
+
+    /// A capture without an inspection.
+    fn skipped(state: &State, is_fault: bool) -> LiveRecord {
+        LiveRecord::Skipped {
+            name: "door.png".into(),
+            error: UserError {
+                what: "the file ends early".into(),
+                advice: "Copy it again".into(),
+            },
+            is_fault,
+            run: state.follower.run,
+        }
+    }
+
+    /// A capture that was inspected.
+    fn counts(state: &State, number: u64) -> (Arc<Inspected>, LiveRecord) {
+        let inspected = Arc::new(inspected_cell(CellChoice::InTurn, number));
+        let record = LiveRecord::Counts {
+            inspected: Arc::clone(&inspected),
+            run: state.follower.run,
+        };
+        (inspected, record)
+    }
+
+    /// The records that a job has sent, and then the status with its last inspection, as the window reads them.
+    fn read(state: &mut State, records: Vec<LiveRecord>, inspected: &Arc<Inspected>) {
+        for record in records {
+            state.follower.recorder.send(record).expect("room");
+        }
+        update(state);
+        let told = LiveStatusUpdate {
+            status: told(),
+            inspected: Some(Arc::clone(inspected)),
+        };
+        receive(state, LiveAnswer::Stands(Box::new(told)));
+    }
+
+    #[test]
+    fn of_captures_that_the_window_reads_at_once_the_last_one_has_the_say() {
+        let mut state = watching();
+        toggle(&mut state);
+        let (good, record) = counts(&state, 1);
+        let records = vec![skipped(&state, false), record];
+        read(&mut state, records, &good);
+        assert!(state.session.failed.is_none());
+        assert!(state.session.current_result().is_some());
+
+        for is_read_at_once in [true, false] {
+            let mut state = watching();
+            toggle(&mut state);
+            apply_any(&mut state, Action::GoTo(WorkspaceKind::History));
+            let (good, record) = counts(&state, 1);
+            let bad = skipped(&state, false);
+            if is_read_at_once {
+                read(&mut state, vec![record, bad], &good);
+            } else {
+                read(&mut state, vec![record], &good);
+                assert!(state.session.current_result().is_some());
+                read(&mut state, vec![bad], &good);
+            }
+            assert!(state.session.current_result().is_none());
+            apply_any(&mut state, Action::GoTo(WorkspaceKind::Inspect));
+            assert!(state.session.failed.is_some() && state.session.shown.is_none());
+        }
+    }
+
+    #[test]
+    fn a_serial_number_scanned_behind_another_workspace_is_of_the_part_inspected_last() {
+        let mut state = watching();
+        toggle(&mut state);
+        let hung = |state: &mut State, number| {
+            let (inspected, record) = counts(state, number);
+            read(state, vec![record], &inspected);
+            inspected.hung().clone()
+        };
+        let first = hung(&mut state, 1);
+        state.session.enter_scanned("4711", 0.0);
+        apply_any(&mut state, Action::GoTo(WorkspaceKind::History));
+        let second = hung(&mut state, 2);
+        // The first is not the part at hand any more: its number is written.
+        let Some(Event::TracedLate(part, _)) = current_trace::settle(&state.session, 1.0) else {
+            panic!("not written");
+        };
+        assert_eq!(part, first);
+        state.session.enter_scanned("4712", 2.0);
+        assert!(state.session.trace.is_late_of(&second));
+        assert_eq!(state.session.trace.get().serial, "");
+        assert!(current_trace::settle(&state.session, 3.0).is_none());
+        let known = state.session.enter_scanned("4712", 4.0).expect("said");
+        assert!(known.what.contains("already"), "{known:?}");
     }
 
     #[test]
@@ -630,6 +750,36 @@ mod tests {
         assert!(!state.session.is_live(), "it has ended");
         apply_any(&mut state, Action::GoTo(WorkspaceKind::Inspect));
         assert!(state.session.shown.is_some());
+    }
+
+    #[test]
+    fn what_live_inspects_behind_another_workspace_is_shown_when_the_window_locks() {
+        let mut state = watching();
+        toggle(&mut state);
+        apply_any(&mut state, Action::GoTo(WorkspaceKind::Compare));
+        assert!(state.follower.task.run_waiting());
+        update(&mut state);
+        assert!(state.session.shown.is_none());
+        apply_any(&mut state, Action::Role(RoleAction::Lock));
+        assert_eq!(state.session.workspace, WorkspaceKind::Inspect);
+        assert!(state.session.shown.is_some());
+    }
+
+    #[test]
+    fn a_verdict_from_before_a_change_that_verdicts_depend_on_is_not_current() {
+        let mut state = watching();
+        toggle(&mut state);
+        let (good, record) = counts(&state, 1);
+        read(&mut state, vec![record], &good);
+        assert!(state.session.current_result().is_some());
+        // None depends on a recording.
+        state.session.live.recording = Some("recorded".into());
+        apply_any(&mut state, Action::Live(LiveAction::ToggleRecording));
+        state.session.live.status = Some(told());
+        assert!(state.session.current_result().is_some());
+        apply_any(&mut state, Action::Live(LiveAction::Average(4)));
+        state.session.live.status = Some(told());
+        assert!(state.session.current_result().is_none() && state.session.is_old());
     }
 
     #[test]
@@ -679,7 +829,7 @@ mod tests {
         assert!(!state.session.is_live());
         let said = state.notices.last().expect("said");
         assert!(said.what.starts_with("Live stopped"), "{said:?}");
-        assert!(said.advice.contains("Live again"), "{said:?}");
+        assert!(said.advice.contains("start Live again"), "{said:?}");
         toggle(&mut state);
         assert!(state.notices.is_empty(), "{:?}", state.notices);
     }

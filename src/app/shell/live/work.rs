@@ -49,8 +49,8 @@ pub(super) struct LiveStart {
     pub(super) parts: Arc<Mutex<FollowedParts>>,
     /// Where the inspections to be recorded go.
     pub(super) recorder: SyncSender<LiveRecord>,
-    /// The session of following, for [`LiveRecord::Counts`].
-    pub(super) session: u64,
+    /// Number of the run, for [`LiveRecord`].
+    pub(super) run: u64,
 }
 
 impl LiveStart {
@@ -60,18 +60,30 @@ impl LiveStart {
     }
 }
 
-/// An inspection to be recorded. It has a channel of its own, so that it is recorded even if its job was replaced meanwhile.
+/// An inspection to be recorded, or a frame without one, in the order of the frames. It has a channel of its own, so that it is
+/// recorded even if its job was replaced meanwhile.
 #[derive(Debug)]
 pub(super) enum LiveRecord {
     /// A verdict that counts and was not reported before.
     Counts {
         /// The inspection that it stands on.
         inspected: Arc<Inspected>,
-        /// The session of following that it belongs to.
-        session: u64,
+        /// The run that it belongs to.
+        run: u64,
     },
     /// A part left before its verdict counted, or following stopped before.
     Left(Box<NewEntry>),
+    /// A frame of the source could not be read or inspected.
+    Skipped {
+        /// Name of the frame, or of its file.
+        name: String,
+        /// Why, and what to do.
+        error: UserError,
+        /// True if the program failed at it, although it could be read.
+        is_fault: bool,
+        /// The run that it belongs to.
+        run: u64,
+    },
 }
 
 /// Maximum number of unread records, whose points and pictures take up to 15 MB each; the job waits beyond that.
@@ -101,13 +113,6 @@ pub enum LiveAnswer {
     Stands(Box<LiveStatusUpdate>),
     /// The recording has failed and ended.
     NotRecorded(UserError),
-    /// A frame of the source could not be read or inspected.
-    Skipped {
-        /// Name of the frame, or of its file.
-        name: String,
-        /// Why, and what to do.
-        error: UserError,
-    },
     /// The source has no more frames.
     AtItsEnd,
     /// The camera is closed.
@@ -274,13 +279,12 @@ impl<'a> LiveSession<'a> {
                     let name = captured.name.clone();
                     match guarded(|| self.take(captured)) {
                         Ok(taken) => taken?,
-                        Err(fault) => self.skip(&name, &fault),
+                        Err(fault) => self.fails_at(name, &fault),
                     }
                 }
                 Some(FeedItem::Skipped(skipped)) => {
                     let error = UserError::of(&*skipped.error);
-                    let name = skipped.name;
-                    self.context.partial(LiveAnswer::Skipped { name, error });
+                    self.skip(skipped.name, error, false);
                 }
                 None => match feed.status().state {
                     FeedState::Ended | FeedState::Stopped => return Ok(LiveAnswer::AtItsEnd),
@@ -307,13 +311,23 @@ impl<'a> LiveSession<'a> {
     }
 
     /// Reports a frame at which the program failed; the next one is inspected as usual.
-    fn skip(&mut self, name: &str, fault: &Fault) {
+    fn fails_at(&mut self, name: String, fault: &Fault) {
         self.standing = LiveVerdict::Open;
         let UserError { what, advice } = UserError::of(fault);
         let what = format!("{name}: {what}");
-        let error = UserError { what, advice };
-        let name = name.to_owned();
-        self.context.partial(LiveAnswer::Skipped { name, error });
+        self.skip(name, UserError { what, advice }, true);
+    }
+
+    fn skip(&mut self, name: String, error: UserError, is_fault: bool) {
+        let record = LiveRecord::Skipped {
+            name,
+            error,
+            is_fault,
+            run: self.request.run,
+        };
+        send(&self.request.recorder, record);
+        // The next status is published, which wakes the window.
+        self.told = None;
     }
 
     /// Inspects a frame.
@@ -443,8 +457,8 @@ impl<'a> LiveSession<'a> {
         let inspected = Arc::new(inspected);
         self.inspected = Some(Arc::clone(&inspected));
         if matches!(role, FrameRole::First | FrameRole::Again) {
-            let session = self.request.session;
-            let record = LiveRecord::Counts { inspected, session };
+            let run = self.request.run;
+            let record = LiveRecord::Counts { inspected, run };
             send(&self.request.recorder, record);
         }
     }

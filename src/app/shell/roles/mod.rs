@@ -16,6 +16,7 @@ pub(in crate::app) use self::{chip::chip, dialog::dialog, permits::is_operators}
 pub use super::session::UserRole;
 use super::{
     action::{Action, Effect, apply as apply_any, notify},
+    live,
     notice::Notice,
     session::WorkspaceKind,
     state::State,
@@ -193,6 +194,7 @@ fn switch_to_operator(state: &mut State) {
     state.notices.clear();
     if !is_operators(state.session.workspace) {
         state.session.workspace = WorkspaceKind::Inspect;
+        live::show_unseen(state);
     }
 }
 

@@ -157,6 +157,7 @@ impl CompareState {
             self.task.start(title, move |context| {
                 work::run(job, &library_cache, context)
             });
+            self.compare_run_with_cases();
             return;
         }
         if self.due == StudyNeed::No {
@@ -170,6 +171,7 @@ impl CompareState {
                 let study = study(&request, &library_cache, context)?;
                 Ok(CompareResult::Studied(Arc::new(study)))
             });
+            self.compare_run_with_cases();
         }
     }
 

@@ -173,6 +173,7 @@ impl CompareState {
     /// Cancels the running job.
     pub fn cancel(&mut self) {
         self.task.cancel();
+        self.compare_run_with_cases();
     }
 
     /// Carries out an action.
@@ -248,7 +249,10 @@ impl CompareState {
         while let Some(event) = self.task.poll() {
             match event {
                 TaskEvent::Partial(result) | TaskEvent::Done(result) => self.receive(result, cx),
-                TaskEvent::Failed(error) => cx.notify(error),
+                TaskEvent::Failed(error) => {
+                    cx.notify(error);
+                    self.compare_run_with_cases();
+                }
             }
             self.start_next(cx);
         }
@@ -312,7 +316,7 @@ impl CompareState {
     }
 
     /// Finds out whether the run that has ended, or was stopped, is about the cases kept now.
-    fn compare_run_with_cases(&mut self) {
+    pub(super) fn compare_run_with_cases(&mut self) {
         let is_running = self.is_running_cases();
         let both = self.run.as_ref().zip(self.cases.as_ref());
         let differing = both.filter(|(run, cases)| !is_running && run.cases != cases.list);

@@ -377,13 +377,15 @@ fn empty(ui: &mut Ui, enrol: &EnrolState, session: &Session, actions: &mut Vec<E
         });
         ui.add_space(space::LARGE);
         if let Some(shown) = &session.shown {
-            let origin = &shown.inspected.origin;
+            let inspected = &shown.inspected;
+            let saved = enrol.saved_from.as_ref();
             // What was just saved is not offered again.
-            let (text, label, action) = if enrol.saved_from.as_ref() == Some(origin) {
+            let is_saved = saved.is_some_and(|saved| saved.is_inspected_in(inspected));
+            let (text, label, action) = if is_saved {
                 let text = text!("enrol-see-inspected");
                 (text.clone(), text, EnrolAction::SeeInspected)
             } else {
-                let text = text!("enrol-take-shown", scene = origin.shown_title());
+                let text = text!("enrol-take-shown", scene = inspected.origin.shown_title());
                 (text, text!("enrol-use-shown"), EnrolAction::TakeShown)
             };
             let button = Button::new(RichText::new(text).color(theme.on_accent));

@@ -8,12 +8,14 @@ use super::{
     draft::{Draft, Form, OpenedPart},
     kept::KeptDraft,
     selection::{Corrections, Edit, OutlineMode},
-    undo::{DraftEffect, LastChangedPart, LibraryStep, UndoDirection, UndoStack, UndoStep},
+    undo::{
+        DraftEffect, LastChangedPart, LibraryStep, SavedMatter, UndoDirection, UndoStack, UndoStep,
+    },
     work::{self, DraftEvent},
 };
 use crate::{
     app::{
-        inspection::{library_cache::LibraryView, scan_choice::ShotChoice, source::Origin},
+        inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
         language::{enrolment::bad_name, text},
         shell::{
             context::ShellContext,
@@ -45,8 +47,8 @@ pub struct EnrolState {
     pub replacing: Option<PartName>,
     /// The part changed last, if it is in the library.
     pub latest: Option<LastChangedPart>,
-    /// Where the draft that was saved last came from.
-    pub(super) saved_from: Option<Origin>,
+    /// What the draft that was saved last was made of.
+    pub(super) saved_from: Option<SavedMatter>,
     /// Number of library changes so far.
     pub num_changes: u64,
     /// The enrolled part whose card is open.

@@ -1,6 +1,9 @@
 //! Undo and redo of the draft's steps and the library's changes, in one order.
 
-use std::{mem, sync::Arc};
+use std::{
+    mem,
+    sync::{Arc, Weak},
+};
 
 use super::{
     change::{self, ChangeText, Changed, LibraryChange},
@@ -11,13 +14,16 @@ use super::{
 use crate::{
     app::{
         inspection::{
-            inspected::SceneOrScan, library_cache::LibraryView, scan_choice::ScanOrder,
+            inspected::{Inspected, SceneOrScan},
+            library_cache::LibraryView,
+            scan_choice::{ScanOrder, ShotSet},
             source::SceneSource,
         },
         language::text,
         shell::{context::ShellContext, message::Message, notice::Notice},
     },
     library::PartName,
+    stages::scene::SceneCloud,
 };
 
 /// The steps that can be undone and redone; the latest last.
@@ -67,6 +73,34 @@ pub enum DraftEffect {
     Stays,
     /// The draft is exchanged for this one: a saved draft goes, and comes back when saving is undone.
     MakesWay(Option<Box<Draft>>),
+}
+
+/// What a saved draft was made of. It is compared by identity: two captures may have the same name.
+#[derive(Debug)]
+pub(super) enum SavedMatter {
+    /// A scene.
+    Scene(Weak<SceneCloud>),
+    /// The shots of a scan.
+    Shots(Weak<ShotSet>),
+}
+
+impl SavedMatter {
+    /// `None` for a mesh, which cannot be inspected.
+    fn of(draft: &Draft) -> Option<Self> {
+        if let Some(fused) = draft.subject.scan() {
+            return Some(Self::Shots(Arc::downgrade(&fused.choice.set)));
+        }
+        Some(Self::Scene(Arc::downgrade(draft.subject.scene()?)))
+    }
+
+    /// True if this is an inspection of it.
+    pub(super) fn is_inspected_in(&self, inspected: &Inspected) -> bool {
+        match (self, &inspected.scan) {
+            (Self::Scene(scene), None) => scene.as_ptr() == Arc::as_ptr(&inspected.scene),
+            (Self::Shots(set), Some(scan)) => set.as_ptr() == Arc::as_ptr(&scan.fused.choice.set),
+            _ => false,
+        }
+    }
 }
 
 /// The part changed last, if it is in the library.
@@ -220,7 +254,7 @@ impl EnrolState {
             let coming = other.take();
             let going = self.draft.take().map(Box::new);
             let kept = going.as_ref().filter(|_| way != UndoDirection::Back);
-            self.saved_from = kept.map(|draft| draft.subject.origin.clone());
+            self.saved_from = kept.and_then(|draft| SavedMatter::of(draft));
             if way == UndoDirection::First {
                 saved = going.as_deref().and_then(inspectable);
             }
@@ -291,6 +325,10 @@ impl EnrolState {
 
     /// Undoes that step.
     pub(super) fn undo(&mut self, cx: &mut ShellContext<'_>) {
+        // Otherwise the steps would change their order, and none be undone.
+        if self.is_changing_library() {
+            return;
+        }
         if let Some(place) = self.next_undo() {
             let step = self.steps.done.remove(place);
             self.steps.done.push(step);

@@ -59,7 +59,7 @@ pub(super) fn ui(
         actions.push(InspectAction::ToggleRecording);
     }
     let inspection = &inspected.inspection;
-    // Without a name, nobody could tell which part the pose is of.
+    // Without the part's name, the figures of its pose are of no use.
     let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
     let pose = pose.filter(|_| inspection.verdict.is_named());
     // Keep the buttons visible, however low the window.
@@ -97,7 +97,7 @@ pub(super) fn ui(
                 let text = text!("inspect-approximate");
                 ui.label(RichText::new(text).color(theme.warning));
             }
-            // Beside an accepted part, the figures of a path that nobody has stored would look like a defect.
+            // The figures of a path that was never stored would look like a defect beside an accepted part.
             if shows_nozzle || inspected.spray.is_some() {
                 stand_off::ui(ui, inspected, session.units);
             }

@@ -19,7 +19,7 @@ use crate::{
             widgets::{Mark, fitted_middle, line_mark, mark, sentence, wrapped},
         },
     },
-    history::StoredVerdict,
+    history::{StoredVerdict, Summary},
     pipeline::{Unrecognisable, Verdict},
     stages::pose::PoseEstimate,
 };
@@ -273,8 +273,8 @@ impl Banner {
     }
 }
 
-/// Says that a part reaches the edge of the picture, or that an accepted one may be another model. Of an accepted part only what
-/// is certain: whoever is warned of every other good part heeds no warning.
+/// Says that a part reaches the edge of the picture, or that an accepted one may be another model. For an accepted part, only
+/// warn of what is certain: operators ignore a warning that appears on every other good part.
 fn caution(inspected: &Inspected, tone: Tone) -> String {
     let is_cut = inspected.inspection.touches_edge() && inspected.scan.is_none();
     match tone {
@@ -297,7 +297,13 @@ fn caution(inspected: &Inspected, tone: Tone) -> String {
 fn is_reported_wrong(inspected: &Inspected, session: &Session) -> bool {
     let labelled = session.shift.labelled.as_ref();
     let truth = labelled.filter(|(part, _)| part == inspected.hung());
-    truth.is_some_and(|(_, truth)| truth.part() != inspected.inspection.verdict.guess())
+    truth.is_some_and(|(_, truth)| {
+        let summary = Summary {
+            label: Some(truth.clone()),
+            ..inspected.entry.record.summary.clone()
+        };
+        summary.is_wrongly_accepted()
+    })
 }
 
 /// Draws the operator's view; `picture` draws the part once there is an inspection.

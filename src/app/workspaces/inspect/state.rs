@@ -28,6 +28,7 @@ use crate::{
         ui::viewport::{Colouring, ViewShot},
         user_error::UserError,
     },
+    history::Traceability,
     robot::Convention,
 };
 
@@ -219,17 +220,25 @@ impl InspectState {
             Ok(Some((order, asked))) => {
                 self.shots.started(Some(asked));
                 let shown = cx.session.shown.as_ref();
+                let shown = shown.map(|shown| &*shown.inspected);
+                let (purpose, hung, trace) =
+                    match shown.filter(|inspected| is_of_scan(&order, inspected)) {
+                        Some(inspected) => (
+                            ReinspectionPurpose::Shots,
+                            Some(inspected.hung().clone()),
+                            cx.session.trace.of_part(inspected),
+                        ),
+                        None => (ReinspectionPurpose::New, None, Traceability::default()),
+                    };
                 if let ScanOrder::Open(files) = &order {
                     cx.send(Message::UseSource(Source::Scan(files.clone())));
                 }
                 cx.send(Message::Inspect {
                     title: order.title(),
                     job: InspectJob::Scan(cx.session.scan_request(order)),
-                    purpose: ReinspectionPurpose::Shots,
-                    hung: None,
-                    trace: shown
-                        .map(|shown| shown.inspected.trace().clone())
-                        .unwrap_or_default(),
+                    purpose,
+                    hung,
+                    trace,
                 });
             }
             Err(notice) => cx.notify(notice),
@@ -378,6 +387,17 @@ impl InspectState {
     }
 }
 
+/// True if this is another choice among the shots of the scan that was inspected.
+fn is_of_scan(order: &ScanOrder, inspected: &Inspected) -> bool {
+    let scan = inspected.scan.as_ref();
+    match order {
+        ScanOrder::Known(choice) | ScanOrder::Add(choice, ..) => {
+            scan.is_some_and(|scan| scan.fused.choice.set.files.frames == choice.set.files.frames)
+        }
+        ScanOrder::Open(_) | ScanOrder::Kept(_) => false,
+    }
+}
+
 /// Copies the pose to the clipboard, if there is one.
 fn copy_pose(cx: &mut ShellContext<'_>) {
     let Some(shown) = &cx.session.shown else {
@@ -474,7 +494,8 @@ mod tests {
                 Message::UseSource(Source::Scan(files)),
                 Message::Inspect {
                     job: InspectJob::Scan(request),
-                    purpose: ReinspectionPurpose::Shots,
+                    purpose: ReinspectionPurpose::New,
+                    hung: None,
                     ..
                 }
             ] if *files == with_poses

@@ -465,7 +465,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_measures_in_the_operators_view() {
+    fn measuring_ends_in_the_operators_view() {
         let mut view = view();
         view.viewport.tool = ViewTool::Measure;
         view.viewport.measure.add(glam::Vec3::ZERO);

@@ -206,7 +206,7 @@ impl PaintState {
     pub fn stored<'a>(&self, session: &'a Session) -> Option<&'a SprayPath> {
         let library = session.library.as_ref()?;
         let place = library.place_of(self.part(session)?.as_str())?;
-        library.spray_paths.get(place)?.as_ref()
+        Some(&library.spray_paths.get(place)?.as_ref()?.path)
     }
 
     /// Carries out an action.

@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::{action::ShownPath, course::GunCourse};
 use crate::{
     app::{
-        inspection::library_cache::{LibraryCache, LibraryView, LoadedLibrary},
+        inspection::library_cache::{LibraryCache, LibraryView, LoadedLibrary, StoredPath},
         language::text,
         task::{TaskContext, TaskError},
         ui::viewport::{Line, LineSet, PointSet, Role},
@@ -100,10 +100,10 @@ pub(super) fn planned(
     let coverage = loaded.shown.parts[place].coverage;
     let surface = PaintSurface::of(reference, coverage).map_err(|error| UserError::of(&error))?;
     context.check()?;
-    let stored = loaded.shown.spray_paths.get(place).cloned().flatten();
+    let stored = loaded.shown.spray_paths.get(place).and_then(Option::as_ref);
     let failed = |error| UserError::of(&error);
-    let (coat, path, film) = match (request.shown, &stored) {
-        (ShownPath::Stored, Some(path)) => {
+    let (coat, path, film) = match (request.shown, stored) {
+        (ShownPath::Stored, Some(StoredPath { path, .. })) => {
             let film = simulate(&surface, path, coat, regions).map_err(failed)?;
             (*coat, path.clone(), film)
         }
@@ -126,7 +126,7 @@ pub(super) fn planned(
         points: coloured(&surface, &film, &coat),
         lines: lines(&path, &course, &coat),
         marks: marks(&path, &course, &coat),
-        is_stored: stored.is_some_and(|stored| path.is_as_written(&stored)),
+        is_stored: stored.is_some_and(|stored| path.is_as_written(&stored.path)),
         surface,
         path,
         film,

@@ -31,7 +31,7 @@ use crate::{
     library::{GivenNumbers, LibraryPlace, PartNumbers},
     pipeline::{self, Inspection, NamedRecipe, ProgressObserver as _, Unwatched},
     report::{CaptureLine, InspectionLine, segmentation_picture},
-    robot::{RobotFrame, spray::off_the_part},
+    robot::RobotFrame,
     serve::{
         Answer, Asked, Camera, CameraState, ClientEvent, Found, FrameOrigin, InspectionRecord,
         Inspector, ListenAddress, Listener, NewFrame, NumberedPart, PartFinder, PoseKind,
@@ -374,10 +374,10 @@ impl AnsweringSession<'_> {
             self.library_cache.note_numbers(&numbers);
             let shown = &loaded.shown;
             let parts = shown.parts.iter().zip(&shown.spray_paths);
-            let parts = parts.zip(&loaded.library.references);
-            let parts = parts.map(|((part, path), reference)| NumberedPart {
+            let parts = parts.map(|(part, stored)| NumberedPart {
                 number: numbers.of(&part.name).unwrap_or(0),
-                path: (path.clone()).filter(|path| off_the_part(path, reference).is_none()),
+                path: (stored.as_ref().filter(|stored| stored.off.is_none()))
+                    .map(|stored| stored.path.clone()),
                 is_simulated: part.simulated,
             });
             self.finder.parts = parts.collect();

@@ -30,6 +30,7 @@ fn kept(name: &str) -> KeptCase {
         metres_per_unit: None,
         block_side: None,
         is_simulated: true,
+        is_only_recent: false,
         empty_cell: None,
         empty_cell_crc32: None,
         shots: Vec::new(),
@@ -192,6 +193,23 @@ fn a_run_is_outdated_until_it_covers_the_cases_that_are_kept_now() {
     assert_eq!(bench.compare.num_covered, Some(2));
     bench.done(listed_as(&["a", "b", "c"], CaseDone::Restored("b".into())));
     assert_eq!(bench.compare.num_covered, None);
+    // A run that was cancelled or failed does not cover them either.
+    let CompareResult::Ran(of_one) = run(&bench, &["a"]) else {
+        unreachable!()
+    };
+    bench.compare.run = Some(of_one);
+    bench.compare.cancel();
+    assert_eq!(bench.compare.num_covered, Some(1));
+    bench.compare.num_covered = None;
+    let failed = UserError {
+        what: "the folder is gone".into(),
+        advice: String::new(),
+    };
+    let task = &mut bench.compare.task;
+    task.start("made up", move |_| Err(failed.into()));
+    assert!(task.run_waiting());
+    bench.compare.update(&mut bench.shell.context());
+    assert_eq!(bench.compare.num_covered, Some(1));
 }
 
 #[test]

@@ -15,7 +15,7 @@ use crate::{
     app::{
         inspection::{
             camera::Camera,
-            inspected::SceneOrScan,
+            inspected::{SceneOrScan, inspected_cell},
             library_cache::LibraryCache,
             source::{CellChoice, Origin, SceneSource},
         },
@@ -356,6 +356,41 @@ fn one_change_of_the_library_at_a_time() {
     );
     bench.work();
     assert_eq!(bench.names(), ["plate"]);
+}
+
+#[test]
+fn an_undo_while_the_library_is_changed_leaves_the_order_of_the_steps() {
+    let mut bench = Bench::new();
+    for (width, title) in [(80, "Plate"), (90, "Sheet")] {
+        bench.take(width);
+        bench.named(title);
+        bench.act(EnrolAction::Save);
+    }
+    let [plate, sheet] = ["plate", "sheet"].map(|name| PartName::new(name).expect("a name"));
+    bench.take(100);
+    bench.act(EnrolAction::Remove(plate));
+    bench.begin(EnrolAction::Remove(sheet));
+    // It would undo the draft's own step, which is before that of the library.
+    bench.begin(EnrolAction::Undo);
+    let last = bench.enrol.steps.done.last();
+    assert!(matches!(last, Some(UndoStep::Library(_))), "{last:?}");
+}
+
+#[test]
+fn what_was_saved_is_known_by_its_scene_not_by_its_name() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    let draft = bench.enrol.draft.as_ref().expect("a draft");
+    let (origin, scene) = (draft.subject.origin.clone(), draft.subject.scene().cloned());
+    bench.named("Plate");
+    bench.act(EnrolAction::Save);
+    // Another capture that was saved to the same file.
+    let mut inspected = inspected_cell(CellChoice::InTurn, 1);
+    inspected.origin = origin;
+    let saved = bench.enrol.saved_from.as_ref().expect("saved");
+    assert!(!saved.is_inspected_in(&inspected));
+    inspected.scene = scene.expect("a scene");
+    assert!(saved.is_inspected_in(&inspected));
 }
 
 #[test]
