@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use nalgebra::{Isometry2, Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
-    COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, PreparedScene,
+    COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, PreparedScene, THIRD,
     evidence::{Evidence, facing_view},
     piece_search::{PieceSample, Start},
 };
@@ -35,6 +35,8 @@ pub(super) struct ReferenceCandidate {
     pub(super) fit: FitQuality,
     pub(super) evidence: Evidence,
     pub(super) cost: f64,
+    /// Whether the first of the last levels was run.
+    pub(super) is_settled: bool,
     /// `None` as long as it is not refined to the end.
     pub(super) uncertainty: Option<Uncertainty>,
     pub(super) runner_up: Option<RunnerUp>,
@@ -78,7 +80,8 @@ pub(super) struct PoseTrial {
 const POSES_OF_A_WHOLE: usize = 2;
 /// Poses of a piece: it may lie in several places along the part.
 const POSES_OF_A_PIECE: usize = 3;
-/// Starts of a piece on all references that are refined.
+/// Starts of a piece on all references that are refined. Accepted pieces came from the first seven; eight lost a rival that
+/// fitted as well, and accepted the wrong door.
 const MOST_REFINED: usize = 10;
 /// Where the best start costs more than this, nothing enrolled is there: so few are refined, to say how far off it is.
 const HOPELESS_START: f64 = 1.3;
@@ -86,6 +89,10 @@ const FEW_REFINED: usize = 3;
 /// Where there is a score to beat, starts that cost more than this are not refined: of 14 surfaces accepted in that way,
 /// the best start of the worst cost 0.73.
 const WORTH_REFINING: f64 = 1.0;
+/// A reference on which the first pairs of a piece led to nothing cheaper is not looked at again, nor is one on which they
+/// led to something that costs this much more than the best: of 452 accepted pieces that loses three.
+const WORTH_A_SECOND_LOOK: f64 = 1.6;
+const WORSE_FIRST: f64 = 0.8;
 /// A start of a piece that costs this much more than the best one is not refined; nor is a pose weighed.
 pub(super) const WORSE_START: f64 = 0.5;
 const WORSE_POSE: f64 = 0.35;
@@ -103,31 +110,47 @@ impl PreparedScene<'_> {
         least_score: f64,
     ) -> Vec<Vec<PoseTrial>> {
         // What fits badly is of use only to say how far off it is.
-        let most_cost = if least_score > 0.0 {
-            WORTH_REFINING
+        let (most_first, most_cost) = if least_score > 0.0 {
+            (WORTH_A_SECOND_LOOK, WORTH_REFINING)
         } else {
-            f64::INFINITY
+            (f64::INFINITY, f64::INFINITY)
         };
         // The least cost so far saves work on the other references, in whatever order they come: what it prunes would be
         // dropped below anyway. Costs are not negative, so their bits sort as they do.
         let least = AtomicU64::new(f64::INFINITY.to_bits());
-        let of_reference = |number: usize| {
+        let known = || f64::from_bits(least.load(Ordering::Relaxed));
+        let first_looks = self.in_parallel(entries.len(), |number| {
             let entry = entries[number];
             let reference = &references[entry.reference];
+            let piece = self.piece_for(reference)?;
+            let placed = self.distinct_starts(reference, &entry.placements);
+            let placed = placed.into_iter().map(|start| start.1);
+            let limit = f64::min(known() + WORSE_FIRST, most_first);
+            let first = self.first_look(piece, reference, placed, limit);
+            least.fetch_min(first.cost().to_bits(), Ordering::Relaxed);
+            Some(first)
+        });
+        let least_of_first = known();
+        let of_references = self.in_parallel(entries.len(), |number| {
+            let first = first_looks[number].as_ref();
+            let worth_it = first.filter(|first| first.cost() < least_of_first + WORSE_FIRST);
+            let Some(first) = worth_it else {
+                return Vec::new();
+            };
+            if first.cost() >= WORTH_A_SECOND_LOOK {
+                return first.starts.clone();
+            }
+            let reference = &references[entries[number].reference];
             let Some(piece) = self.piece_for(reference) else {
                 return Vec::new();
             };
-            let placed = self.distinct_starts(reference, &entry.placements);
-            let placed = placed.into_iter().map(|start| start.1);
-            let known = f64::from_bits(least.load(Ordering::Relaxed));
-            let limit = f64::min(known + WORSE_START, most_cost);
-            let starts = self.coarse_starts(piece, reference, placed, limit);
+            let limit = f64::min(known() + WORSE_START, most_cost);
+            let starts = self.second_look(piece, reference, first, limit);
             if let Some(best) = starts.first() {
                 least.fetch_min(best.cost.to_bits(), Ordering::Relaxed);
             }
             starts
-        };
-        let of_references = self.in_parallel(entries.len(), of_reference);
+        });
         let mut starts: Vec<(usize, Start)> = of_references
             .into_iter()
             .enumerate()
@@ -266,20 +289,16 @@ impl PreparedScene<'_> {
         piece: Option<&PieceSample>,
     ) -> Option<PoseTrial> {
         let start = &trial.refined.target_from_source;
-        let mut finer = self.attempt(reference, trial.view, start, levels, piece)?;
-        let before = trial.refined.iterations.iter().copied();
-        finer.refined.iterations.splice(0..0, before);
-        Some(finer)
+        let finer = self.attempt(reference, trial.view, start, levels, piece)?;
+        let mut refined = trial.refined.clone();
+        refined.append(finer.refined);
+        Some(PoseTrial { refined, ..finer })
     }
 
     fn weighed(&self, reference: &Reference, trial: &PoseTrial) -> Option<ReferenceCandidate> {
         let pose = &trial.refined.target_from_source;
         let view = facing_view(reference, pose);
-        let surface = &self.source.surface;
-        let measured = &surface[..NUM_MEASURED.min(surface.len())];
-        let target = reference.target(view)?;
-        let closest = Correspondence::of_each(measured, &target, pose, Search::Field);
-        let (fit, evidence) = self.evaluate(reference, view, pose, &closest, NUM_LOOKED_FOR);
+        let (fit, evidence) = self.measured(reference, view, pose)?;
         Some(ReferenceCandidate {
             refined: trial.refined.clone(),
             cost: trial.cost,
@@ -288,8 +307,42 @@ impl PreparedScene<'_> {
             evidence,
             runner_up: None,
             rival: 0.0,
+            is_settled: false,
             uncertainty: None,
         })
+    }
+
+    /// The first figures of a pose.
+    fn measured(
+        &self,
+        reference: &Reference,
+        view: usize,
+        pose: &RigidTransform,
+    ) -> Option<(FitQuality, Evidence)> {
+        let surface = &self.source.surface;
+        let measured = &surface[..NUM_MEASURED.min(surface.len())];
+        let target = reference.target(view)?;
+        let closest = Correspondence::of_each(measured, &target, pose, Search::Field);
+        Some(self.evaluate(reference, view, pose, &closest, NUM_LOOKED_FOR))
+    }
+
+    /// The candidate after the first of the last levels, measured anew.
+    pub(super) fn settled(
+        &self,
+        reference: &Reference,
+        candidate: &ReferenceCandidate,
+    ) -> Option<ReferenceCandidate> {
+        let mut settled = candidate.clone();
+        let target = reference.target(candidate.view)?;
+        let start = &candidate.refined.target_from_source;
+        settled
+            .refined
+            .append(refine(&self.source, &target, start, &THIRD[..1]));
+        let pose = &settled.refined.target_from_source;
+        (settled.fit, settled.evidence) = self.measured(reference, candidate.view, pose)?;
+        settled.evidence.rival = candidate.rival;
+        settled.is_settled = true;
+        Some(settled)
     }
 
     /// Neighbouring views lead to nearly the same start: one or two of them are enough.

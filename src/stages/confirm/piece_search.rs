@@ -46,8 +46,11 @@ const FAR: f32 = 0.045;
 const MOST_OFF: f32 = 0.4;
 /// Share of the border tried first that must find the reference's.
 const LEAST_BORDER: f32 = 0.3;
-/// Poses of a reference that are scored.
+/// One pair in so many is looked up first, to tell which references are worth the others.
+const FIRST_SHARE: usize = 3;
+/// Poses of a reference that are scored, and those that the first pairs led to.
 const MOST_SCORED: usize = 40;
+const MOST_SCORED_FIRST: usize = 24;
 /// Poses kept of a reference.
 const MOST_KEPT: usize = 6;
 /// Poses that lie this close, turn (degrees) and shift (millimetres), lead to the same one.
@@ -124,42 +127,83 @@ impl PieceSample {
             pairs,
         }
     }
+
+    /// Number of pairs that are looked up first.
+    fn num_first(&self) -> usize {
+        self.pairs.len().div_ceil(FIRST_SHARE)
+    }
+}
+
+/// What the first pairs of a piece led to on a reference.
+#[derive(Clone)]
+pub(super) struct FirstLook {
+    rough: RoughPoses,
+    /// The best few, the cheapest first.
+    pub(super) starts: Vec<Start>,
+}
+
+impl FirstLook {
+    /// The least cost; infinite if nothing fits.
+    pub(super) fn cost(&self) -> f64 {
+        self.starts.first().map_or(f64::INFINITY, |best| best.cost)
+    }
 }
 
 impl PreparedScene<'_> {
-    /// The best few poses of a reference that cost less than `limit`, none of them refined; `others` are scored with them.
-    pub(super) fn coarse_starts(
+    /// Looks up the first of the piece's pairs in a reference, and gives poses that cost less than `limit`, none of them
+    /// refined; `others` are scored with them.
+    pub(super) fn first_look(
         &self,
         piece: &PieceSample,
         reference: &Reference,
         others: impl Iterator<Item = RigidTransform>,
         limit: f64,
-    ) -> Vec<Start> {
-        let mut poses = RoughPoses::default();
-        for border in reference.borders() {
-            for pair in &piece.pairs {
-                Self::align_border_pair(piece, reference, border, pair, &mut poses);
-            }
+    ) -> FirstLook {
+        let mut rough = RoughPoses::default();
+        rough.add(piece, reference, &piece.pairs[..piece.num_first()]);
+        let best = rough.all.iter().take(MOST_SCORED_FIRST);
+        let poses = best.map(|(_, pose)| pose.cast()).chain(others);
+        let starts = self.scored(piece, reference, poses, limit).collect();
+        FirstLook {
+            rough,
+            starts: self.best_distinct(starts, MOST_KEPT),
         }
-        poses.keep_best();
-        // The best first: the others need not come near its cost.
-        poses.all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut limit = limit;
-        let starts: Vec<Start> = poses
-            .all
-            .iter()
-            .map(|(_, pose)| pose.cast())
-            .chain(others)
-            .filter_map(|target_from_source| {
-                let cost = self.coarse_cost(piece, reference, &target_from_source, limit)?;
-                limit = limit.min(cost + WORSE_START);
-                Some(Start {
-                    cost,
-                    target_from_source,
-                })
-            })
-            .collect();
+    }
+
+    /// Looks up the other pairs, and gives the best few poses of both that cost less than `limit`.
+    pub(super) fn second_look(
+        &self,
+        piece: &PieceSample,
+        reference: &Reference,
+        first: &FirstLook,
+        limit: f64,
+    ) -> Vec<Start> {
+        let FirstLook {
+            mut rough,
+            mut starts,
+        } = first.clone();
+        rough.add(piece, reference, &piece.pairs[piece.num_first()..]);
+        let poses = rough.all.iter().map(|(_, pose)| pose.cast());
+        starts.extend(self.scored(piece, reference, poses, limit));
         self.best_distinct(starts, MOST_KEPT)
+    }
+
+    /// The poses that cost less than `limit`, and not much more than one before them: the best should come first.
+    fn scored(
+        &self,
+        piece: &PieceSample,
+        reference: &Reference,
+        poses: impl Iterator<Item = RigidTransform>,
+        mut limit: f64,
+    ) -> impl Iterator<Item = Start> {
+        poses.filter_map(move |target_from_source| {
+            let cost = self.coarse_cost(piece, reference, &target_from_source, limit)?;
+            limit = limit.min(cost + WORSE_START);
+            Some(Start {
+                cost,
+                target_from_source,
+            })
+        })
     }
 
     /// Other places along the sheet around a pose that cost hardly more than the pose does, the cheapest first: a smooth
@@ -201,19 +245,6 @@ impl PreparedScene<'_> {
             }
         }
         kept
-    }
-
-    /// All poses in which a pair of the piece's border lies on one of the reference's, as far as the first points agree.
-    fn align_border_pair(
-        piece: &PieceSample,
-        reference: &Reference,
-        border: &ReferenceBorder,
-        ours: &OrientedPair,
-        poses: &mut RoughPoses,
-    ) {
-        border.visit_pairs_like(&ours.pair, DISTANCE_OFF, ANGLE_OFF, |theirs| {
-            try_pose(piece, reference, border, ours, theirs, poses);
-        });
     }
 
     /// How badly a pose fits, 0 for a perfect fit: the part on the reference, its border on the reference's, and the
@@ -312,6 +343,7 @@ impl PreparedScene<'_> {
 }
 
 /// The poses of a reference that pairs led to, by how far off the first points are.
+#[derive(Clone)]
 struct RoughPoses {
     all: Vec<(f32, Isometry3<f32>)>,
     /// What is further off is not among the best.
@@ -328,6 +360,20 @@ impl Default for RoughPoses {
 }
 
 impl RoughPoses {
+    /// Adds the poses in which one of these pairs lies on one of the reference's, as far as the first points agree; the best
+    /// come first.
+    fn add(&mut self, piece: &PieceSample, reference: &Reference, pairs: &[OrientedPair]) {
+        for border in reference.borders() {
+            for ours in pairs {
+                border.visit_pairs_like(&ours.pair, DISTANCE_OFF, ANGLE_OFF, |theirs| {
+                    try_pose(piece, reference, border, ours, theirs, self);
+                });
+            }
+        }
+        self.keep_best();
+        self.all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+
     fn push(&mut self, off: f32, turn: &Matrix3<f32>, shift: &Vector3<f32>) {
         let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*turn));
         self.all

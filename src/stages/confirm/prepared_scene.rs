@@ -150,11 +150,10 @@ impl<'a> PreparedScene<'a> {
         let mut candidate = candidate.clone();
         let target = reference.target(candidate.view)?;
         let start = candidate.refined.target_from_source;
-        let last = refine(&self.source, &target, &start, &THIRD);
-        candidate.refined.iterations.extend(last.iterations);
-        candidate.refined.stopped = last.stopped;
-        candidate.refined.target_from_source = last.target_from_source;
-        let (source, pose) = (&self.source, &last.target_from_source);
+        candidate
+            .refined
+            .append(refine(&self.source, &target, &start, &THIRD));
+        let (source, pose) = (&self.source, &candidate.refined.target_from_source);
         let closest = Correspondence::of_each(&source.surface, &target, pose, Search::Tree);
         candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2]));
         (candidate.fit, candidate.evidence) =

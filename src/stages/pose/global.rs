@@ -301,10 +301,8 @@ fn sorted(mut trials: Vec<PoseTrial>) -> Vec<PoseTrial> {
 
 impl PoseTrial {
     fn refine(&mut self, source: &AlignmentSource, target: &AlignmentTarget<'_>, levels: &[Level]) {
-        let refined = refine(source, target, &self.refined.target_from_source, levels);
-        self.refined.target_from_source = refined.target_from_source;
-        self.refined.stopped = refined.stopped;
-        self.refined.iterations.extend(refined.iterations);
+        let start = &self.refined.target_from_source;
+        self.refined.append(refine(source, target, start, levels));
     }
 
     fn unrefined(target_from_source: RigidTransform) -> Self {

@@ -106,6 +106,15 @@ pub struct Refined {
     pub stopped: Stopped,
 }
 
+impl Refined {
+    /// Goes on with a refinement that began at this pose.
+    pub fn append(&mut self, next: Self) {
+        self.target_from_source = next.target_from_source;
+        self.iterations.extend(next.iterations);
+        self.stopped = next.stopped;
+    }
+}
+
 /// Refines one start through all levels.
 pub fn refine(
     source: &AlignmentSource,
