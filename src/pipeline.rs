@@ -319,8 +319,16 @@ impl Inspection {
         }
     }
 
-    /// True if the segmented part reaches the edge of the picture, so that some of it may be missing.
+    /// True if some of the part is outside the picture: of an accepted part, if some of its reference lies beyond the field of
+    /// view at the pose found; otherwise, if the segmented part reaches the end of the readings, which may also be its shadow.
     pub fn touches_edge(&self) -> bool {
+        // Of 86 accepted simulated frames, all 39 of whole parts had 0, and 43 of the 47 others had 1 % or more.
+        const LEAST_OUTSIDE: f64 = 0.005;
+        let pose = self.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let accepted = pose.filter(|_| self.verdict.is_accepted());
+        if let Some(sight) = accepted.and_then(|pose| pose.fit.sight) {
+            return sight.outside >= LEAST_OUTSIDE;
+        }
         let part = self.segmentation.part.as_ref();
         part.is_ok_and(|part| part.touches_edge)
     }

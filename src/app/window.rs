@@ -8,7 +8,7 @@ use egui::{CentralPanel, Frame, LayerId, Ui};
 use super::{
     inspection::{camera::Camera, inspected::Inspected, library_cache::LibraryCache},
     shell::{
-        action::{Action, DialogRequest, Effect, apply},
+        action::{Action, DialogRequest, Effect, apply, remove_notices},
         closing::{self, Closing},
         context::Services,
         current_trace, dialogs,
@@ -16,7 +16,7 @@ use super::{
         inspector, keys,
         live::{self, LiveAction},
         message::{Event, Message},
-        notice::Notice,
+        notice::{Notice, NoticeTopic},
         notices, operator_bars, path_entry, rail,
         robot::RobotCell,
         roles::{self, RoleAction},
@@ -52,7 +52,10 @@ use crate::{
     robot::{cell_check::CellCheckFolder, frame_poses::FRAME_POSES},
 };
 
+mod data_lock;
 mod hosting;
+
+use self::data_lock::DataLock;
 
 /// Options for opening the window.
 #[derive(Clone, Debug, Default)]
@@ -93,6 +96,8 @@ pub struct Window {
     gpu: Result<ViewportGpu, ViewError>,
     /// Time of the last input, seconds of egui's clock.
     touched: f64,
+    /// Tells a second window that this one is open.
+    data_lock: DataLock,
 }
 
 impl Window {
@@ -118,6 +123,9 @@ impl Window {
         let is_first_start = settings.as_ref().is_some_and(|path| !path.exists());
         language.unwrap_or_default().make_current();
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
+        let data_lock = DataLock::take(history.as_deref());
+        // The other window keeps its settings and its draft there.
+        let settings = settings.filter(|_| !data_lock.is_taken);
         let kept = Arc::new(HistoryBuffer::new(history));
         let repaint = ctx.clone();
         let runner = TaskRunner::new(move || repaint.request_repaint());
@@ -157,11 +165,19 @@ impl Window {
             installed: None,
             gpu: gpu.clone(),
             touched: ctx.input(|input| input.time),
+            data_lock,
         };
         let language = window.state.session.chosen_language.or(language);
         window.state.session.language = language.unwrap_or_default();
         window.state.session.language.make_current();
         window.state.notices.extend(trouble.map(Notice::from));
+        let is_second = window.data_lock.is_taken;
+        if is_second {
+            let advice = text!("shell-second-window-advice");
+            let notice = Notice::look(text!("shell-second-window"), advice);
+            let notices = &mut window.state.notices;
+            notices.push(notice.about(NoticeTopic::SecondWindow));
+        }
         if let (true, Some(recipes)) = (is_first_start, recipes) {
             window.use_default_recipe(recipes);
         }
@@ -170,7 +186,7 @@ impl Window {
         window.with_robot(ctx, RobotCell::load_remembered);
         let session = &window.state.session;
         // If robots were answered before, follow the source: answering them takes frames.
-        let follows = remembered_live || session.answering.is_on;
+        let follows = (remembered_live || session.answering.is_on) && !is_second;
         let is_opened = scene.is_some();
         let first = match scene {
             Some(path) => Some(Action::Open(path)),
@@ -179,6 +195,8 @@ impl Window {
             }
             // It has no frame yet.
             None if session.source.is_watched() => None,
+            // Both windows would count the part that hangs there.
+            None if is_second && matches!(session.source, Source::Camera(_)) => None,
             None => Some(Action::Capture),
         };
         window.state.load_library();
@@ -441,6 +459,7 @@ impl Window {
                 actions.extend(digits.chain([RoleAction::Enter]).map(Action::Role));
             } else {
                 let now = ctx.input(|input| input.time);
+                remove_notices(&mut self.state, NoticeTopic::Serial);
                 let notice = self.state.session.enter_scanned(&code, now);
                 actions.extend(notice.map(Action::Notify));
             }

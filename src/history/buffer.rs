@@ -25,7 +25,7 @@ use super::{
     open::OpenedHistory,
     retention::{PruneResult, Retention, Usage},
     store::History,
-    traceability::Traceability,
+    traceability::TraceChange,
     waiting::wait,
 };
 use crate::{
@@ -56,8 +56,8 @@ struct Inner {
     retention: Retention,
     /// Oldest first.
     waiting: VecDeque<NewEntry>,
-    /// Traceability that arrived after the rows of its part were written, oldest first.
-    untraced: VecDeque<(HungId, Traceability)>,
+    /// Changes of traceability that arrived after the rows of their part were written, oldest first.
+    untraced: VecDeque<(HungId, TraceChange)>,
     /// Number of the newest row, written or waiting; a waiting one is listed with its negative.
     last: i64,
     num_lost: usize,
@@ -150,18 +150,17 @@ impl HistoryBuffer {
         self.tell(HistoryEvent::Added { ticket, number });
     }
 
-    /// Adds traceability that arrived after a part's verdict to all inspections of the part, written or waiting. Fills only
-    /// what they lack.
-    pub fn trace_part(&self, hung: &HungId, known: &Traceability, now: Instant) {
+    /// Changes the traceability of all inspections of a part after its verdict, written or waiting.
+    pub fn trace_part(&self, hung: &HungId, change: &TraceChange, now: Instant) {
         let mut inner = self.lock();
         for entry in &mut inner.waiting {
             let summary = &mut entry.record.summary;
             if summary.hung == *hung {
-                summary.trace = std::mem::take(&mut summary.trace).or(known);
+                summary.trace = std::mem::take(&mut summary.trace).changed(change);
             }
         }
         if self.place.is_some() {
-            inner.untraced.push_back((hung.clone(), known.clone()));
+            inner.untraced.push_back((hung.clone(), change.clone()));
             if inner.next_try.is_none_or(|at| at <= now) {
                 self.write_waiting(&mut inner, now);
             }
@@ -353,12 +352,12 @@ impl HistoryBuffer {
             }
         }
         while inner.waiting.is_empty()
-            && let Some((hung, known)) = inner.untraced.pop_front()
+            && let Some((hung, change)) = inner.untraced.pop_front()
         {
             let history = inner.history.as_mut();
-            let traced = history.map(|history| history.trace_part(&hung, &known));
+            let traced = history.map(|history| history.trace_part(&hung, &change));
             if let Err(error) = traced.transpose() {
-                inner.untraced.push_front((hung, known));
+                inner.untraced.push_front((hung, change));
                 self.failed(inner, &error, now);
                 return numbers;
             }

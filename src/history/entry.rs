@@ -74,6 +74,11 @@ impl From<&Verdict> for StoredVerdict {
     }
 }
 
+/// Returns true if a part counts as OK: it was accepted, and no true label says that it is another part, or none.
+pub(super) fn is_ok(verdict: StoredVerdict, part: Option<&str>, label: Option<&Truth>) -> bool {
+    verdict == StoredVerdict::Accepted && label.is_none_or(|label| label.part() == part)
+}
+
 /// Start of a mirror image's title; the part's title follows.
 const MIRRORED: &str = "Mirror image of ";
 
@@ -123,11 +128,14 @@ impl Summary {
         self.title.strip_prefix(MIRRORED).filter(|_| is_unknown)
     }
 
+    /// True if the part counts as OK.
+    pub fn is_ok(&self) -> bool {
+        is_ok(self.verdict, self.part.as_deref(), self.label.as_ref())
+    }
+
     /// True if it was accepted and its true label says that it is another part, or none.
     pub fn is_wrongly_accepted(&self) -> bool {
-        let label = self.label.as_ref();
-        self.verdict == StoredVerdict::Accepted
-            && label.is_some_and(|label| label.part() != self.part.as_deref())
+        self.verdict == StoredVerdict::Accepted && !self.is_ok()
     }
 
     /// Returns the lower-case text in which a filter looks for its words.

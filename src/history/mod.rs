@@ -61,7 +61,7 @@ pub use self::{
     shots::{ShotRecord, read_shots},
     store::{History, Page},
     table::write_table,
-    traceability::Traceability,
+    traceability::{TraceChange, Traceability},
     writer::Writer,
 };
 #[cfg(feature = "plant")]

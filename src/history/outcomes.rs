@@ -1,16 +1,18 @@
 //! Outcomes of parts for statistics: one per part, without the data for opening an inspection.
 
+use std::collections::BTreeMap;
+
 use jiff::Timestamp;
 use rusqlite::{OptionalExtension as _, params_from_iter, types::Value};
 
 use super::{
-    entry::{InspectionDetail, Record, StoredVerdict},
+    entry::{InspectionDetail, Record, StoredVerdict, is_ok},
     error::HistoryError,
     filter::Filter,
     schema::{WITH_REFUSALS, version},
     store::History,
 };
-use crate::pipeline::RefusalKind;
+use crate::{library::Truth, pipeline::RefusalKind};
 
 /// Outcome of one part.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,6 +21,8 @@ pub struct PartOutcome {
     pub at: Timestamp,
     /// The verdict.
     pub verdict: StoredVerdict,
+    /// True if the part counts as OK, see [`Summary::is_ok`](super::Summary::is_ok).
+    pub is_ok: bool,
     /// Name of the part found, accepted or not; `None` if it is unknown or there is none.
     pub part: Option<String>,
     /// Why it was not accepted.
@@ -58,6 +62,7 @@ impl From<&Record> for PartOutcome {
         Self {
             at: summary.at,
             verdict: summary.verdict,
+            is_ok: summary.is_ok(),
             part: summary.part.clone(),
             reason: RefusalReason::of(detail),
         }
@@ -88,6 +93,7 @@ impl History {
     }
 
     fn read_outcomes(&self, filter: &Filter) -> rusqlite::Result<Vec<PartOutcome>> {
+        let labels = self.labels(filter)?;
         let (asked, values) = outcomes_query(filter, version(&self.file)?);
         let mut asked = self.file.prepare(&asked)?;
         let mut sentence = self.file.prepare(
@@ -113,13 +119,32 @@ impl History {
                     })
                     .optional()?,
             };
+            let part: Option<String> = row.get(3)?;
             outcomes.push(PartOutcome {
                 at: at.unwrap_or(Timestamp::UNIX_EPOCH),
                 verdict,
-                part: row.get(3)?,
+                is_ok: is_ok(verdict, part.as_deref(), labels.get(&number)),
+                part,
                 reason,
             });
         }
         Ok(outcomes)
+    }
+
+    /// Returns the true labels of the matching rows that have one, by number. Few have one, and it is not in the index.
+    fn labels(&self, filter: &Filter) -> rusqlite::Result<BTreeMap<i64, Truth>> {
+        let (condition, values) = filter.condition();
+        let asked =
+            format!("SELECT number, label FROM inspection WHERE label IS NOT NULL AND {condition}");
+        let mut asked = self.file.prepare(&asked)?;
+        let mut rows = asked.query(params_from_iter(values))?;
+        let mut labels = BTreeMap::new();
+        while let Some(row) = rows.next()? {
+            let label: String = row.get(1)?;
+            if let Ok(label) = serde_json::from_str(&label) {
+                labels.insert(row.get(0)?, label);
+            }
+        }
+        Ok(labels)
     }
 }

@@ -10,7 +10,7 @@ use super::{
     frames::FrameRecord,
     hung::HungId,
     schema::{WITH_RECIPE_NAMES, WITH_REFUSALS, WITH_TRACEABILITY, version},
-    traceability::Traceability,
+    traceability::{TraceChange, Traceability},
 };
 use crate::{
     geometry::sixteen_numbers,
@@ -69,7 +69,7 @@ pub(super) fn insert(
     let (parent, gives_way) = match &head {
         Some(head) if entry.takes_over_from(head) => (None, Some(head)),
         Some(head) => {
-            trace_row(file, head, &summary.trace)?;
+            trace_row(file, head, head.trace.clone().or(&summary.trace))?;
             (Some(head.number), None)
         }
         None => (None, None),
@@ -150,11 +150,11 @@ pub(super) fn insert(
     Ok(number)
 }
 
-/// Adds late traceability to all inspections of a part.
+/// Changes the traceability of all inspections of a part.
 pub(super) fn trace_part(
     file: &mut Connection,
     hung: &HungId,
-    known: &Traceability,
+    change: &TraceChange,
 ) -> rusqlite::Result<()> {
     let file = file.transaction_with_behavior(TransactionBehavior::Immediate)?;
     let columns = columns(&file)?;
@@ -164,14 +164,13 @@ pub(super) fn trace_part(
     let rows = rows.collect::<rusqlite::Result<Vec<Summary>>>()?;
     drop(asked);
     for row in &rows {
-        trace_row(&file, row, known)?;
+        trace_row(&file, row, row.trace.clone().changed(change))?;
     }
     file.commit()
 }
 
-/// Adds late traceability to an inspection; keeps what it already has.
-fn trace_row(file: &Connection, row: &Summary, known: &Traceability) -> rusqlite::Result<()> {
-    let trace = row.trace.clone().or(known);
+/// Writes another traceability of an inspection.
+fn trace_row(file: &Connection, row: &Summary, trace: Traceability) -> rusqlite::Result<()> {
     if trace == row.trace {
         return Ok(());
     }

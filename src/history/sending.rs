@@ -295,7 +295,7 @@ impl RowReader {
 mod tests {
     use super::*;
     use crate::{
-        history::{FILE, KeepFrames, Retention, StoredVerdict, Traceability},
+        history::{FILE, KeepFrames, Retention, StoredVerdict, TraceChange, Traceability},
         kit::{history_entry, moment, new_history, open_history},
         library::Truth,
     };
@@ -367,10 +367,10 @@ mod tests {
         assert_eq!(history.num_unsent().expect("asked"), 1);
         // A serial number comes after the verdict.
         let hung = other.known(1).expect("there").summary.hung;
-        let known = Traceability {
+        let known = TraceChange::Fill(Traceability {
             serial: "TL-4711".into(),
             ..Traceability::default()
-        };
+        });
         other.trace_part(&hung, &known).expect("written");
         let changed = history.unsent(10).expect("read");
         assert_eq!(numbers(&changed), [2, 1]);

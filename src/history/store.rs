@@ -17,7 +17,7 @@ use super::{
     retention::{KeepFrames, Retention},
     rows::{columns, detail_columns, head_of, insert, json, record_of, summary_of, trace_part},
     shots,
-    traceability::Traceability,
+    traceability::TraceChange,
 };
 use crate::{library::Truth, scan::Shot, stages::scene::SceneCloud};
 
@@ -274,9 +274,9 @@ impl History {
         self.change(number, |row| remark.trim().clone_into(&mut row.remark))
     }
 
-    /// Adds traceability that arrived after a part's verdict to all inspections of the part. Fills only what they lack.
-    pub fn trace_part(&mut self, hung: &HungId, known: &Traceability) -> Result<(), HistoryError> {
-        trace_part(&mut self.file, hung, known).map_err(|error| self.error(error))
+    /// Changes the traceability of all inspections of a part after its verdict.
+    pub fn trace_part(&mut self, hung: &HungId, change: &TraceChange) -> Result<(), HistoryError> {
+        trace_part(&mut self.file, hung, change).map_err(|error| self.error(error))
     }
 
     /// Sets the true label of an inspection; `None` clears it.

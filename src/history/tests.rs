@@ -359,6 +359,26 @@ fn only_an_accepted_part_with_the_label_of_another_is_wrongly_accepted() {
 }
 
 #[test]
+fn a_part_that_was_reported_as_wrong_does_not_count_as_ok() {
+    let (_folder, mut history) = new_history();
+    for seconds in 1..=3 {
+        let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+        history.add(&entry, &ALL).expect("written");
+    }
+    for (number, label) in [(2, "fender"), (3, "grille")] {
+        let label = Truth::Part(label.into());
+        history.set_label(number, Some(&label)).expect("written");
+    }
+    let outcomes = history.outcomes(&Filter::default()).expect("asked");
+    let are_ok: Vec<bool> = outcomes.iter().map(|outcome| outcome.is_ok).collect();
+    assert_eq!(are_ok, [true, true, false]);
+    for (number, outcome) in (1..).zip(outcomes) {
+        let record = history.known(number).expect("there");
+        assert_eq!(PartOutcome::from(&record), outcome);
+    }
+}
+
+#[test]
 fn the_newest_accepted_parts_keep_their_frames_until_they_are_labelled() {
     let (_folder, mut history) = new_history();
     let rule = Retention {
@@ -892,10 +912,10 @@ fn a_serial_number_that_comes_later_is_added_to_the_inspections_of_its_part_that
     for entry in &entries {
         history.add(entry, &ALL).expect("written");
     }
-    let known = Traceability {
+    let known = TraceChange::Fill(Traceability {
         serial: "TL-4711".into(),
         ..Traceability::default()
-    };
+    });
     for entry in &entries {
         let hung = &entry.record.summary.hung;
         history.trace_part(hung, &known).expect("written");
@@ -908,6 +928,15 @@ fn a_serial_number_that_comes_later_is_added_to_the_inspections_of_its_part_that
         ..Filter::default()
     };
     assert_eq!(numbers(&history, &found), [1]);
+    // It belongs to another part.
+    let other = TraceChange::ClearSerial("TL-4711".into());
+    for entry in &entries {
+        let hung = &entry.record.summary.hung;
+        history.trace_part(hung, &other).expect("written");
+    }
+    let serial = |number| history.known(number).expect("there").summary.trace.serial;
+    assert_eq!([1, 2, 3].map(serial), ["", "", "TL-1"]);
+    assert!(numbers(&history, &found).is_empty());
 }
 
 #[cfg(unix)]

@@ -18,6 +18,15 @@ pub struct Traceability {
     pub operator: String,
 }
 
+/// A change of a part's traceability after its verdict.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TraceChange {
+    /// Fill these entries where they are empty.
+    Fill(Traceability),
+    /// Clear the serial number, if it is this one: it is of another part.
+    ClearSerial(String),
+}
+
 impl Traceability {
     /// Maximum length of an entry, characters.
     pub const MAX_LETTERS: usize = 64;
@@ -48,5 +57,16 @@ impl Traceability {
             order: or(self.order, &other.order),
             operator: or(self.operator, &other.operator),
         }
+    }
+
+    /// Returns these entries after a change.
+    #[must_use]
+    pub fn changed(mut self, change: &TraceChange) -> Self {
+        match change {
+            TraceChange::Fill(known) => return self.or(known),
+            TraceChange::ClearSerial(serial) if self.serial == *serial => self.serial.clear(),
+            TraceChange::ClearSerial(_) => {}
+        }
+        self
     }
 }

@@ -16,7 +16,7 @@ use super::{
     entry::{NewEntry, StoredVerdict},
     hung::HungId,
     retention::Retention,
-    traceability::Traceability,
+    traceability::TraceChange,
 };
 use crate::library::Truth;
 
@@ -29,7 +29,7 @@ const MAX_INSPECTIONS: usize = 4096;
 #[derive(Debug)]
 enum Job {
     Add(u64, Box<NewEntry>),
-    Trace(HungId, Traceability),
+    Trace(HungId, TraceChange),
     Remark(i64, String),
     Label(i64, Option<Truth>),
     Retention(Retention),
@@ -112,9 +112,9 @@ impl Writer {
         self.post(Job::Add(ticket, Box::new(entry)));
     }
 
-    /// Queues traceability that arrived after a part's verdict.
-    pub fn trace(&self, hung: HungId, known: Traceability) {
-        self.post(Job::Trace(hung, known));
+    /// Queues a change of a part's traceability after its verdict.
+    pub fn trace(&self, hung: HungId, change: TraceChange) {
+        self.post(Job::Trace(hung, change));
     }
 
     /// Queues a remark.
@@ -180,7 +180,7 @@ fn work(keeper: &HistoryBuffer, job: Job, counts: &Counts) {
             counts.scenes.fetch_sub(num_scenes, Ordering::Relaxed);
             keeper.add(ticket, *entry, Instant::now());
         }
-        Job::Trace(hung, known) => keeper.trace_part(&hung, &known, Instant::now()),
+        Job::Trace(hung, change) => keeper.trace_part(&hung, &change, Instant::now()),
         Job::Remark(number, remark) => keeper.set_remark(number, &remark),
         Job::Label(number, label) => keeper.set_label(number, label.as_ref()),
         Job::Retention(retention) => keeper.set_retention(retention),

@@ -49,6 +49,9 @@ pub struct InspectionLine<'a> {
     /// `serial`, `order` and `operator`, as far as known.
     #[serde(flatten)]
     trace: Option<&'a Traceability>,
+    /// What really hung there, if a person reported the acceptance as wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reported_as: Option<&'a str>,
 }
 
 /// Additional fields for several frames that were inspected together.
@@ -197,6 +200,7 @@ impl<'a> InspectionLine<'a> {
             recipe: None,
             scan: None,
             trace: None,
+            reported_as: None,
         }
     }
 
@@ -214,6 +218,15 @@ impl<'a> InspectionLine<'a> {
     pub fn traced(self, trace: &'a Traceability) -> Self {
         Self {
             trace: Some(trace),
+            ..self
+        }
+    }
+
+    /// Adds what really hung there, if a person reported the acceptance as wrong: a part, `not_enrolled` or `nothing`.
+    #[must_use]
+    pub fn reported_as(self, actual: Option<&'a str>) -> Self {
+        Self {
+            reported_as: actual,
             ..self
         }
     }

@@ -15,7 +15,10 @@ use partsight::{
             state::State,
         },
         ui::viewport::DrawnShape,
-        workspaces::enrol::{EnrolAction, EnrolWorkspace, draft::Field},
+        workspaces::{
+            enrol::{EnrolAction, EnrolWorkspace, draft::Field},
+            history::HistoryWorkspace,
+        },
     },
     files::save_cloud,
     library::{LibraryFolder, PartName},
@@ -23,11 +26,11 @@ use partsight::{
     simulate::{PartKind, PartModel, Side},
 };
 
-use crate::kit::facing_part;
+use crate::kit::{copy_library, facing_part};
 
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, act_in, drop_file, enrol_of, history_of, open_with,
-    plain_options, press, settle, wait_until,
+    plain_options, press, settle, wait_for, wait_until,
 };
 
 fn open_at(library: &Path, size: Vec2) -> WindowHarness {
@@ -52,6 +55,12 @@ fn state(harness: &WindowHarness) -> &State {
 
 fn capture(harness: &mut WindowHarness, kind: PartKind, side: Side) {
     act(harness, Action::UseCell(CellChoice::Part(kind, side)));
+}
+
+/// Presses a key while a source is followed, when nothing settles.
+fn press_key(harness: &mut WindowHarness, modifiers: Modifiers, key: Key) {
+    harness.key_press_modifiers(modifiers, key);
+    harness.run_steps(4);
 }
 
 fn press_keys(harness: &mut WindowHarness, modifiers: Modifiers, key: Key) {
@@ -257,6 +266,97 @@ fn a_capture_of_a_followed_folder_is_enrolled_and_not_inspected() {
         (false, "4711")
     );
     assert_eq!(history_of(&harness).num_rows(), before);
+}
+
+#[test]
+fn after_a_save_the_newest_file_of_a_followed_folder_is_the_current_part_and_live_goes_on() {
+    let (library, folder) = (library(), tempfile::tempdir().expect("a folder"));
+    copy_library(library.path());
+    let mut harness = open_at(library.path(), USUAL);
+    let context = harness.ctx.clone();
+    let watched = Action::Chosen(DialogRequest::WatchedFolder, folder.path().to_owned());
+    harness.state_mut().act(watched, &context);
+    let num_inspected = |state: &State| {
+        let status = state.session.live.status.as_ref();
+        let running = status.filter(|status| status.source == SourceState::Running);
+        running.map(|status| status.num_inspected)
+    };
+    wait_until(&mut harness, |state| num_inspected(state) == Some(0));
+    // Nothing settles while a folder is followed.
+    let arrives = |harness: &mut WindowHarness, name: &str, kind, side, number| {
+        let scene = facing_part(kind, side, 5);
+        save_cloud(&folder.path().join(name), &scene.cloud).expect("written");
+        wait_until(harness, |state| num_inspected(state) == Some(number));
+        harness.run_steps(2);
+    };
+    let apply = |harness: &mut WindowHarness, action| {
+        let window = harness.state_mut();
+        let done = window.with(&context, |enrol: &mut EnrolWorkspace, cx| {
+            enrol.state_mut().apply(action, cx);
+        });
+        done.expect("Enrol is there");
+    };
+    arrives(&mut harness, "a.pcd", PartKind::Fender, Side::Right, 1);
+    let to_enrol = Action::GoTo(WorkspaceKind::Enrol);
+    harness.state_mut().act(to_enrol, &context);
+    apply(&mut harness, EnrolAction::TakeShown);
+    wait_for(&mut harness, |window| {
+        let enrol = window.workspace::<EnrolWorkspace>().expect("there");
+        let draft = enrol.state().draft.as_ref();
+        draft.is_some_and(|draft| draft.ready().is_some())
+    });
+    let title = Field::Title("Wing".into());
+    apply(&mut harness, EnrolAction::Write(title));
+    arrives(&mut harness, "b.pcd", PartKind::Grille, Side::Left, 2);
+    state(&harness).session.trace.set_serial("4711");
+    apply(&mut harness, EnrolAction::Save);
+    wait_until(&mut harness, |state| num_inspected(state) == Some(1));
+    assert!(names(library.path()).contains(&"wing".to_owned()));
+    // In the operator's view hangs what arrived last, and not what was enrolled.
+    press_key(&mut harness, Modifiers::COMMAND, Key::K);
+    let session = &state(&harness).session;
+    let shown = session.shown.as_ref().expect("inspected");
+    let verdict = &shown.inspected.inspection.verdict;
+    assert!(
+        matches!(verdict, Verdict::Part { part, .. } if part == "grille"),
+        "{verdict:?}"
+    );
+    assert!(session.is_live() && !shown.is_outdated);
+    assert_eq!(shown.inspected.library.parts.len(), 9);
+    assert_eq!(session.trace.get().serial, "4711");
+    // It is another inspection of the same part.
+    wait_for(&mut harness, |window| {
+        let history = window.workspace::<HistoryWorkspace>().expect("there");
+        let newest = history.state().row(0);
+        newest.is_some_and(|row| row.num_below == 1)
+    });
+    let num_rows = history_of(&harness).num_rows();
+    assert_eq!(num_rows, 3, "with the first frame of the window");
+    arrives(&mut harness, "c.pcd", PartKind::Grille, Side::Left, 2);
+    let shown = state(&harness).session.shown.as_ref().expect("inspected");
+    assert_eq!(shown.inspected.trace().serial, "4711");
+}
+
+#[test]
+fn a_capture_that_was_enrolled_from_is_not_current_once_another_was_inspected() {
+    let library = library();
+    let mut harness = open(library.path());
+    press(&mut harness, "Use the inspected scene");
+    write(&mut harness, "Title", "Door");
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    capture(&mut harness, PartKind::Grille, Side::Left);
+    let scene = |harness: &WindowHarness| {
+        let shown = state(harness).session.shown.as_ref().expect("inspected");
+        shown.inspected.origin.title()
+    };
+    let newest = scene(&harness);
+    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
+    press(&mut harness, "Save");
+    assert_eq!(names(library.path()), ["door"]);
+    assert_eq!(scene(&harness), newest);
+    // A newer capture for Enrol leaves no verdict on what hung there before.
+    press_keys(&mut harness, Modifiers::NONE, Key::Space);
+    assert!(state(&harness).session.is_old());
 }
 
 #[test]
@@ -892,6 +992,11 @@ fn one_more_reference_needs_no_title_and_is_unsaved_work_without_one() {
     assert!(kept.contains("\"reference_of\":\"wing\""), "{kept}");
     press(&mut harness, "Save");
     assert_eq!(names(library.path()), ["wing", "wing_2"]);
+    let tile = harness.get_by_label("Enrolled: wing_2");
+    assert_eq!(
+        tile.accesskit_node().value().as_deref(),
+        Some("Just saved · Reference of: Wing")
+    );
 }
 
 #[test]

@@ -34,7 +34,7 @@ use partsight::{
 use crate::kit::{HangingPart, facing_part};
 
 use super::{
-    operator::{pass_time, scan, wait_for_serial},
+    operator::{open_operators, pass_time, scan, wait_for_serial},
     set_up::{
         SMALL, USUAL, WindowHarness, act, history_of, open, open_with, plain_options, settle,
         wait_for, wait_until,
@@ -430,6 +430,77 @@ fn a_lost_source_is_a_notice_until_it_comes_back_by_itself() {
     assert!(says(&harness, "The source is back"));
     assert!(!says(&harness, "the folder does not exist"));
     assert!(harness.state().state().session.is_live());
+}
+
+#[test]
+fn a_capture_from_a_lost_camera_leaves_live_trying_and_one_that_is_taken_ends_it() {
+    let (options, wire) = wired_options();
+    let mut harness = open_operators(options);
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0]);
+    wire.send(Step::Unplugged).expect("the camera is open");
+    wait_until(&mut harness, |state| {
+        let status = state.session.live.status.as_ref();
+        status.is_some_and(|status| matches!(status.source, SourceState::Lost(_)))
+    });
+    harness.key_press(Key::Space);
+    harness.run_steps(4);
+    assert!(harness.state().state().session.is_live());
+    assert!(!says(&harness, "Live stopped"));
+    // The operator reads what to do, and the engineer why.
+    assert!(says(&harness, "No camera") && says(&harness, "call maintenance"));
+    assert!(!says(&harness, "the folder does not exist"));
+    act_live(&mut harness, Action::Role(RoleAction::Switch));
+    act_live(&mut harness, Action::Role(RoleAction::Enter));
+    assert!(says(&harness, "the folder does not exist"));
+    act_live(&mut harness, Action::Role(RoleAction::Switch));
+
+    sees(&mut harness, &wire, [0.0]);
+    harness.key_press(Key::Space);
+    settle(&mut harness);
+    assert!(!harness.state().state().session.is_live());
+    assert!(says(&harness, "Live stopped: one frame was captured"));
+}
+
+#[test]
+fn a_second_window_on_the_same_data_says_so_and_does_not_start_live_by_itself() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let start = || {
+        let options = WindowOptions {
+            settings: Some(folder.path().join("settings.toml")),
+            history: Some(folder.path().join("history")),
+            ..plain_options()
+        };
+        let mut harness: WindowHarness = Harness::builder().with_size(USUAL).build_eframe(|cc| {
+            let render_state = cc.wgpu_render_state.as_ref();
+            Window::new(&cc.egui_ctx, render_state, options).expect("threads")
+        });
+        harness.run_steps(4);
+        harness
+    };
+    let says_so = |harness: &WindowHarness| says(harness, "already open with this data folder");
+    let mut first = start();
+    let captures = folder.path().join("captures");
+    std::fs::create_dir(&captures).expect("made");
+    let watched = Action::Chosen(DialogRequest::WatchedFolder, captures);
+    act_live(&mut first, watched);
+    eframe::App::on_exit(first.state_mut());
+    drop(first);
+    // The lock's file is still there.
+    let first = start();
+    assert!(first.state().state().session.is_live() && !says_so(&first));
+    let mut second = start();
+    assert!(!second.state().state().session.is_live() && says_so(&second));
+    act_live(&mut second, Action::Role(RoleAction::Switch));
+    assert!(says_so(&second), "in the operator's view, too");
+    // A person may start it.
+    act_live(&mut second, Action::Live(LiveAction::Toggle));
+    assert!(second.state().state().session.is_live() && says_so(&second));
+    act_live(&mut second, Action::Live(LiveAction::Toggle));
+    eframe::App::on_exit(second.state_mut());
+    drop((first, second));
+    let next = start();
+    assert!(next.state().state().session.is_live() && !says_so(&next));
 }
 
 #[test]

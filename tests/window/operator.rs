@@ -16,6 +16,7 @@ use partsight::{
         shell::{
             action::{Action, DialogRequest},
             live::SourceState,
+            notice::Notice,
             robot::{AnswerSetup, RobotAction},
             roles::RoleAction,
             session::{UserRole, WorkspaceKind},
@@ -462,19 +463,21 @@ fn a_serial_number_scanned_after_the_verdict_is_of_the_part_that_hangs_there_and
     assert!(shows(&harness, "Serial number LATE77 → Fender, left, "));
     assert!(shows(&harness, "· LATE77"), "in the banner");
     assert_eq!(waiting(&harness), "");
-    // It can be moved to the next part and back.
-    for (button, serial) in [
-        ("Give it to the next part", "LATE77"),
-        ("Give it to this part", ""),
+    // It is written at once.
+    wait_for_serial(&mut harness, 0, "LATE77");
+    // It can be moved to the next part and back, and its row follows.
+    for (button, serial, of_row) in [
+        ("Give it to the next part", "LATE77", ""),
+        ("Give it to this part", "", "LATE77"),
     ] {
         harness.get_by_label(button).click();
         harness.run_steps(4);
         assert_eq!(waiting(&harness), serial);
         assert_eq!(shows(&harness, "For the next part"), !serial.is_empty());
+        wait_for_serial(&mut harness, 0, of_row);
     }
     pass_time(&mut harness);
-    wait_for_serial(&mut harness, 0, "LATE77");
-    assert!(!shows(&harness, "Give it to"), "it is written");
+    assert!(!shows(&harness, "Give it to"), "it stays");
     // It is added to the row of that part: nothing was inspected again.
     let num_below = |harness: &WindowHarness| history_of(harness).row(0).map(|row| row.num_below);
     assert_eq!(num_below(&harness), Some(0));
@@ -529,12 +532,50 @@ fn a_part_that_is_labelled_as_another_one_is_no_longer_ok() {
     let mut harness = open_operators(plain_options());
     harness.get_by_label("OK");
     press(&mut harness, "Wrong part?");
+    harness.get_by_label("Choose the actual part");
     press(&mut harness, "Actual part · Not set ▼");
     press(&mut harness, "Actual part: Not enrolled");
-    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    assert!(!shows(&harness, "Choose the actual part"));
+    harness.get_by_label("Reported as wrong");
+    harness.key_press(Key::Escape);
+    settle(&mut harness);
+    let workspace = harness.state().state().session.workspace;
+    assert_eq!(workspace, WorkspaceKind::Inspect);
     harness.get_by_label("NOK");
     harness.get_by_label("Reported as wrong");
     harness.get_by_label("Do not start the robot: tell the engineer");
+    // The engineer's card says it too.
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    press(&mut harness, "Switch");
+    harness.get_by_label("Reported as wrong");
+    harness.get_by_label("Actual part: Not enrolled");
+    assert!(harness.query_by_label("Accepted").is_none());
+}
+
+#[test]
+fn two_notices_show_at_once_and_cover_no_control() {
+    let mut harness = open_operators(plain_options());
+    for name in ["First", "Second", "Third"] {
+        let notice = Notice::look(format!("{name} trouble"), format!("{name} advice"));
+        act(&mut harness, Action::Notify(notice));
+    }
+    assert!(!shows(&harness, "First trouble"));
+    let dismiss = harness.get_all_by_label("Dismiss").map(|node| node.rect());
+    let covered = ["Second trouble.", "Third trouble."]
+        .map(|what| harness.get_by_label(what).rect())
+        .into_iter()
+        .chain(dismiss)
+        .reduce(egui::Rect::union)
+        .expect("some");
+    for role in [Role::Button, Role::TextInput] {
+        for node in harness.get_all_by_role(role) {
+            let label = node.accesskit_node().label().unwrap_or_default();
+            let is_free = label.starts_with("Dismiss") || !node.rect().intersects(covered);
+            assert!(is_free, "{label}: {:?}, {covered:?}", node.rect());
+        }
+    }
+    press(&mut harness, "Dismiss all");
+    assert!(!shows(&harness, "trouble"));
 }
 
 #[test]

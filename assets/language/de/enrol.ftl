@@ -87,6 +87,7 @@ enrol-num-parts =
     }
 enrol-damaged = Beschädigt
 enrol-simulated = Simuliert
+enrol-tile-reference = Ref. von { $part }
 enrol-enrolled = Eingelernt: { $part }
 enrol-just-renamed = Soeben umbenannt
 enrol-just-brought-back = Wiederhergestellt
@@ -166,7 +167,7 @@ enrol-draft-back = Der nicht gespeicherte Entwurf ist wieder da
 enrol-draft-differs = Der Entwurf behält jetzt andere Punkte: Seine Szene oder das Rezept hat sich geändert
 enrol-draft-differs-advice = Vor dem Speichern prüfen, was behalten wird
 enrol-draft-no-scene = Die Szene des nicht gespeicherten Entwurfs ist nicht mehr zu haben
-enrol-draft-no-scene-advice = Das Teil noch einmal aufnehmen: die Eingaben sind erhalten
+enrol-draft-no-scene-advice = Das Teil noch einmal aufnehmen: eingegebener Titel, Name und Notizen sind erhalten
 enrol-draft-not-used = Der Entwurf in { $path } wird nicht verwendet: { $why }
 enrol-draft-set-aside = Er wurde nach { $path } verschoben
 enrol-draft-not-kept = Der Entwurf wird nicht aufbewahrt: { $why }

@@ -89,6 +89,7 @@ history-again-hint = Mit dem aktuellen Rezept und der aktuellen Bibliothek; Änd
 history-frame-gone = Das Bild zu „{ $scene }“ wurde nicht aufbewahrt
 history-frame-gone-advice = Künftig mehr Bilder aufbewahren: „Bilder…“ über der Liste
 history-actual-part = Tatsächliches Teil
+history-choose-actual-part = Das tatsächliche Teil wählen
 history-remark = Bemerkung
 history-remark-hint = Alles Wissenswerte
 history-your-remark = Eigene Bemerkung

@@ -41,7 +41,6 @@ live-no-more-frames = { $source } hat keine weiteren Bilder
 live-inspects-each = Jede Aufnahme im Ordner wird geprüft, sobald sie gespeichert ist
 live-ended = Live ist beendet: es wurde ein Bild aufgenommen
 live-ended-past = Live ist beendet: eine frühere Prüfung wurde geöffnet oder wiederholt
-live-ended-saved = Live ist beendet: die eingelernte Aufnahme wird geprüft
 live-ended-advice = L drücken, um Live wieder einzuschalten
 live-source-back = Die Quelle ist wieder da
 

@@ -87,6 +87,7 @@ enrol-num-parts =
     }
 enrol-damaged = Damaged
 enrol-simulated = Simulated
+enrol-tile-reference = Ref. of { $part }
 enrol-enrolled = Enrolled: { $part }
 enrol-just-renamed = Just renamed
 enrol-just-brought-back = Just brought back
@@ -166,7 +167,7 @@ enrol-draft-back = The unsaved draft is back
 enrol-draft-differs = The draft now keeps other points: its scene or the recipe has changed
 enrol-draft-differs-advice = Check what is kept before you save the part
 enrol-draft-no-scene = The scene of the unsaved draft cannot be restored
-enrol-draft-no-scene-advice = Take the part again: what you entered is kept
+enrol-draft-no-scene-advice = Take the part again: the title, name and notes that you entered are kept
 enrol-draft-not-used = The draft in { $path } is not used: { $why }
 enrol-draft-set-aside = It was moved to { $path }
 enrol-draft-not-kept = The draft is not kept: { $why }

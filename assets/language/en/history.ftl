@@ -89,6 +89,7 @@ history-again-hint = Use the current recipe and library; changes are shown here
 history-frame-gone = The frame of { $scene } is not kept
 history-frame-gone-advice = Keep more frames from now on: Frames… above the list
 history-actual-part = Actual part
+history-choose-actual-part = Choose the actual part
 history-remark = Remark
 history-remark-hint = Anything worth remembering
 history-your-remark = Your remark

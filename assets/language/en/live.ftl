@@ -41,7 +41,6 @@ live-no-more-frames = { $source } has no more frames
 live-inspects-each = Each capture in the folder is inspected as soon as it is saved
 live-ended = Live stopped: one frame was captured
 live-ended-past = Live stopped: a past inspection was opened or repeated
-live-ended-saved = Live stopped: the enrolled capture is inspected
 live-ended-advice = Press L to start Live again
 live-source-back = The source is back
 

@@ -87,6 +87,7 @@ enrol-num-parts =
     }
 enrol-damaged = Dañada
 enrol-simulated = Simulada
+enrol-tile-reference = Ref. de { $part }
 enrol-enrolled = Registrada: { $part }
 enrol-just-renamed = Recién renombrada
 enrol-just-brought-back = Recién recuperada
@@ -166,7 +167,7 @@ enrol-draft-back = El borrador sin guardar se ha recuperado
 enrol-draft-differs = El borrador conserva ahora otros puntos: su escena o la receta ha cambiado
 enrol-draft-differs-advice = Compruebe qué se conserva antes de guardar la pieza
 enrol-draft-no-scene = La escena del borrador sin guardar ya no está disponible
-enrol-draft-no-scene-advice = Capture la pieza otra vez: los datos introducidos se conservan
+enrol-draft-no-scene-advice = Capture la pieza otra vez: se conservan el título, el nombre y las notas introducidos
 enrol-draft-not-used = El borrador de { $path } no se usa: { $why }
 enrol-draft-set-aside = Se ha movido a { $path }
 enrol-draft-not-kept = El borrador no se conserva: { $why }

@@ -89,6 +89,7 @@ history-again-hint = Con la receta y la biblioteca actuales; los cambios se mues
 history-frame-gone = La imagen de «{ $scene }» no se ha conservado
 history-frame-gone-advice = Conservar más imágenes en adelante: Imágenes… encima de la lista
 history-actual-part = Pieza real
+history-choose-actual-part = Elegir la pieza real
 history-remark = Observación
 history-remark-hint = Lo que convenga recordar
 history-your-remark = Observación propia

@@ -41,7 +41,6 @@ live-no-more-frames = { $source } no tiene más imágenes
 live-inspects-each = Cada captura de la carpeta se inspecciona en cuanto se guarda
 live-ended = En vivo ha terminado: se capturó una imagen
 live-ended-past = En vivo ha terminado: se abrió o repitió una inspección anterior
-live-ended-saved = En vivo ha terminado: se inspecciona la captura registrada
 live-ended-advice = Pulsar L para volver a «En vivo»
 live-source-back = La fuente ha vuelto
 

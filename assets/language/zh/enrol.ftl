@@ -86,6 +86,7 @@ enrol-num-parts =
     }
 enrol-damaged = 已损坏
 enrol-simulated = 仿真
+enrol-tile-reference = 参考：{ $part }
 enrol-enrolled = 已注册：{ $part }
 enrol-just-renamed = 刚刚重命名
 enrol-just-brought-back = 刚刚恢复
@@ -165,7 +166,7 @@ enrol-draft-back = 未保存的草稿已恢复
 enrol-draft-differs = 草稿现在保留的点不同：其场景或配方已更改
 enrol-draft-differs-advice = 保存零件前请检查保留的内容
 enrol-draft-no-scene = 无法再次获得未保存草稿的场景
-enrol-draft-no-scene-advice = 请重新采集零件：已输入的内容已保留
+enrol-draft-no-scene-advice = 请重新采集零件：已输入的标题、名称和说明已保留
 enrol-draft-not-used = 未使用 { $path } 中的草稿：{ $why }
 enrol-draft-set-aside = 已将其移至 { $path }
 enrol-draft-not-kept = 草稿未保留：{ $why }

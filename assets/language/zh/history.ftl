@@ -88,6 +88,7 @@ history-again-hint = 使用当前的配方和零件库；变化会显示在此�
 history-frame-gone = “{ $scene }”的深度帧未保留
 history-frame-gone-advice = 今后请保留更多深度帧：列表上方的“深度帧…”
 history-actual-part = 实际零件
+history-choose-actual-part = 请选择实际零件
 history-remark = 备注
 history-remark-hint = 任何值得记录的内容
 history-your-remark = 您的备注

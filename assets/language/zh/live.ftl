@@ -29,7 +29,6 @@ live-no-more-frames = { $source } 没有更多帧
 live-inspects-each = 文件夹中的每次采集保存后立即检测
 live-ended = 实时检测已停止：采集了一帧
 live-ended-past = 实时检测已停止：打开或重复了历史检测
-live-ended-saved = 实时检测已停止：正在检测已注册的零件
 live-ended-advice = 按 L 重新开始实时检测
 live-source-back = 来源已恢复
 

@@ -21,10 +21,7 @@ use crate::{
         ui::viewport::{PointSet, Role},
     },
     capture::CaptureWarning,
-    geometry::{
-        cloud::{Grid, PointCloud},
-        rigid::RigidTransform,
-    },
+    geometry::{cloud::PointCloud, rigid::RigidTransform},
     history::{HungId, InspectionContext, NewEntry, Traceability},
     library::Library,
     pipeline::{
@@ -100,9 +97,6 @@ pub struct Inspected {
     pub part_points: Vec<Point3<f32>>,
     /// Whether the spray path does not aim at that part.
     pub off_the_part: Option<OffThePart>,
-    /// True if the part reaches the border of what the camera can see. The readings may end earlier, for example at the shadow
-    /// of a part that lies well inside.
-    pub reaches_border: bool,
     /// Data of the 3-D view.
     pub view: SceneFigure,
     /// State of following the source, if this is one of its frames.
@@ -383,7 +377,6 @@ impl FinishedInspection {
             None => entry,
         };
         Inspected {
-            reaches_border: inspection.touches_edge() && reaches_border(&scene, &inspection),
             origin,
             at,
             scene,
@@ -403,26 +396,6 @@ impl FinishedInspection {
             entry,
         }
     }
-}
-
-/// True if points of the part lie at the border of the field of view: inside the picture where depth is registered to a colour
-/// camera, else at the border of the picture.
-fn reaches_border(scene: &SceneCloud, inspection: &Inspection) -> bool {
-    // As for the end of the readings: a few stray pixels do not count.
-    const LEAST: usize = 10;
-    const BEYOND: i64 = 3;
-    let part = inspection.segmentation.part.as_ref().ok();
-    let view = scene.cloud.grid.zip(scene.field_of_view());
-    let Some((part, (Grid { width, .. }, view))) = part.zip(view) else {
-        return false;
-    };
-    let is_at_border = |i: &&u32| {
-        let (u, v) = (i64::from(**i) % width as i64, i64::from(**i) / width as i64);
-        let around = [(-BEYOND, 0), (BEYOND, 0), (0, -BEYOND), (0, BEYOND)];
-        around.iter().any(|(du, dv)| !view.contains(u + du, v + dv))
-    };
-    let mut at_border = part.indices.iter().filter(is_at_border);
-    at_border.nth(LEAST - 1).is_some()
 }
 
 /// Inspects a frame of the simulated cell with the built-in recipe.
@@ -454,55 +427,5 @@ mod tests {
         let known = found.iter().filter(|d| d.is_finite());
         let mean = known.clone().sum::<f32>() / known.clone().count() as f32;
         assert!(known.count() > 10_000 && mean.abs() < 0.002, "{mean}");
-    }
-
-    #[test]
-    fn a_part_reaches_the_border_once_enough_of_its_points_lie_there() {
-        let mut inspected = inspected_cell(CellChoice::InTurn, 1);
-        assert!(!inspected.reaches_border, "it hangs in the middle");
-        let mut with = |indices: Vec<u32>| {
-            let part = inspected.inspection.segmentation.part.as_mut();
-            part.expect("a part").indices = indices;
-            reaches_border(&inspected.scene, &inspected.inspection)
-        };
-        let grid = inspected.scene.cloud.grid.expect("organised");
-        let (width, height) = (grid.width as u32, grid.height as u32);
-        let inside = (height / 2) * width + width / 2;
-        assert!(!with((inside..inside + 20).collect()));
-        for first in [0, (height - 1) * width] {
-            assert!(with((first..first + 10).collect()));
-            assert!(!with((first..first + 9).collect()), "stray pixels");
-        }
-    }
-
-    #[test]
-    fn depth_that_ends_inside_the_picture_has_its_border_there() {
-        // As registered to a colour camera.
-        let (width, height, margin) = (640, 480, 40);
-        let is_inside = |u: usize, v: usize| {
-            let [columns, rows] = [width, height].map(|size| margin..size - margin);
-            columns.contains(&u) && rows.contains(&v)
-        };
-        let points = (0..width * height).map(|i| {
-            let is_reading = is_inside(i % width, i / width);
-            let z = if is_reading { 1.0 } else { f32::NAN };
-            Point3::new(z, z, z)
-        });
-        let cloud = PointCloud {
-            points: points.collect(),
-            grid: Some(Grid { width, height }),
-            ..PointCloud::default()
-        };
-        let scene = SceneCloud::new(cloud, None);
-        let mut inspection = inspected_cell(CellChoice::InTurn, 1).inspection;
-        let mut in_row = |v: usize| {
-            let part = inspection.segmentation.part.as_mut().expect("a part");
-            let first = (v * width + width / 2) as u32;
-            part.indices = (first..first + 20).collect();
-            reaches_border(&scene, &inspection)
-        };
-        assert!(in_row(margin) && in_row(height - margin - 1));
-        // A part that lies well inside may be the outermost there, beside its shadow.
-        assert!(!in_row(margin + 20));
     }
 }

@@ -286,7 +286,9 @@ pub(in crate::app) fn report(
     let name = scene_name(&inspected.origin);
     let scene = name.display().to_string();
     let name = unused_name(folder, &name);
-    let line = InspectionLine::of(&scene, &inspected.inspection).to_json();
+    let line = InspectionLine::of(&scene, &inspected.inspection)
+        .reported_as(report.verdict.reported_as.as_deref())
+        .to_json();
     let stages = stage_pictures(&inspected.scene, &inspected.inspection);
     let mut out = ReportFolder::make(folder).map_err(trouble)?;
     let path = out.write(&name, &line, &stages).map_err(trouble)?;

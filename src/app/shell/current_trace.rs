@@ -3,7 +3,8 @@
 //!
 //! A serial number belongs to the part on the screen if its verdict counts and it has no number yet, else to the part that is
 //! inspected next. This suits operators who scan each label after the verdict as well as those who scan it before. A number
-//! that came after the verdict can be moved to the next part until it is written.
+//! that came after the verdict is written at once. For a while it can be moved to the next part, which takes it from the row
+//! again. A number that another part of the shift has is in doubt: the next one replaces it.
 
 use std::{
     collections::VecDeque,
@@ -12,7 +13,11 @@ use std::{
 
 use egui::{Align2, Context, RichText, TextEdit, Ui, WidgetInfo, vec2};
 
-use super::{message::Event, notice::Notice, session::Session};
+use super::{
+    message::Event,
+    notice::{Notice, NoticeTopic},
+    session::Session,
+};
 use crate::{
     app::{
         inspection::inspected::Inspected,
@@ -20,15 +25,15 @@ use crate::{
         ui::{theme::space, widgets::text_button},
     },
     error::lock,
-    history::{HungId, StoredVerdict, Summary, Traceability},
+    history::{HungId, StoredVerdict, Summary, TraceChange, Traceability},
 };
 
 /// Width of the label before a field, logical pixels.
 const NAME: f32 = 76.0;
-/// How long a serial number that came after the verdict can be moved to the next part, seconds: until then it is not written.
+/// How long a serial number that came after the verdict can be moved to the next part, seconds.
 const MOVABLE: f64 = 30.0;
-/// Maximum number of parts whose written late serial number is kept, for their inspections that are still in memory.
-const MAX_WRITTEN: usize = 100;
+/// Maximum number of earlier parts whose late serial number is kept, for their inspections that are still in memory.
+const MAX_EARLIER: usize = 100;
 
 /// Traceability of the next inspection. Clones share it; whoever inspects takes it when the verdict counts.
 #[derive(Clone, Debug, Default)]
@@ -39,21 +44,25 @@ struct EnteredTrace {
     trace: Traceability,
     /// True unless the serial number is still being typed.
     is_complete: bool,
+    /// The serial number entered last, if another part of the shift has it.
+    doubtful: Option<String>,
     /// The last serial number that came after the verdict on its part.
     late: Option<LateSerial>,
     /// Traceability of earlier parts whose serial number came after the verdict, newest first.
-    written: VecDeque<(HungId, Traceability)>,
+    earlier: VecDeque<(HungId, Traceability)>,
+    /// Changes that are not written yet.
+    changes: Vec<(HungId, TraceChange)>,
 }
 
 /// A serial number that came after the verdict on its part.
 #[derive(Debug)]
 struct LateSerial {
     hung: HungId,
-    /// Traceability of the part, with the number.
+    /// Traceability of the part, with the number unless it was moved to the next part.
     trace: Traceability,
     /// Names number and part to the user.
     says: String,
-    /// Until when the number can be moved to the next part, seconds of egui's clock; `None` once it is written.
+    /// Until when the number can be moved to the next part, seconds of egui's clock; `None` once it stays.
     until: Option<f64>,
 }
 
@@ -105,31 +114,54 @@ impl CurrentTrace {
         entered.is_complete && !Traceability::cleaned(&entered.trace.serial).is_empty()
     }
 
-    /// Gives this part a serial number after its verdict.
+    /// Gives this part a serial number after its verdict, in place of a doubtful one.
     fn give(&self, part: &Inspected, serial: &str, now: f64) {
-        let serial = Traceability::cleaned(serial);
+        let former = self.of_part(part);
+        let trace = Traceability {
+            serial: Traceability::cleaned(serial),
+            ..former.clone()
+        };
+        let hung = part.hung();
         let mut entered = lock(&self.0);
+        if !former.serial.is_empty() {
+            let change = TraceChange::ClearSerial(former.serial);
+            entered.changes.push((hung.clone(), change));
+        }
+        let change = TraceChange::Fill(trace.clone());
+        entered.changes.push((hung.clone(), change));
         entered.late = Some(LateSerial {
-            hung: part.hung().clone(),
-            says: names_part(&serial, &part.entry.record.summary),
-            trace: Traceability {
-                serial,
-                ..part.trace().clone()
-            },
+            hung: hung.clone(),
+            says: names_part(&trace.serial, &part.entry.record.summary),
+            trace,
             until: Some(now + MOVABLE),
         });
     }
 
-    /// Moves the serial number that came last after a verdict to the next part, unless it is written.
+    /// Moves the serial number that came last after a verdict to the next part, unless its time is over.
     fn move_to_next(&self) {
         let entered = &mut *lock(&self.0);
-        if let Some(late) = entered.late.take_if(|late| late.until.is_some()) {
-            entered.trace.serial = late.trace.serial;
+        if let Some(late) = &mut entered.late
+            && late.until.take().is_some()
+        {
+            let serial = std::mem::take(&mut late.trace.serial);
+            let change = TraceChange::ClearSerial(serial.clone());
+            entered.changes.push((late.hung.clone(), change));
+            entered.trace.serial = serial;
             entered.is_complete = true;
         }
     }
 
-    /// True if this part's serial number came after its verdict.
+    /// Notes that the serial number entered last is in doubt, or that none is.
+    fn doubt(&self, serial: Option<String>) {
+        lock(&self.0).doubtful = serial;
+    }
+
+    /// True if this serial number is the one in doubt.
+    fn is_doubtful(&self, serial: &str) -> bool {
+        lock(&self.0).doubtful.as_deref() == Some(serial)
+    }
+
+    /// True if this part's serial number came after its verdict, also if it was then moved to the next part.
     pub(in crate::app) fn is_late_of(&self, part: &HungId) -> bool {
         let entered = lock(&self.0);
         entered.late.as_ref().is_some_and(|late| late.hung == *part)
@@ -140,10 +172,10 @@ impl CurrentTrace {
         let own = part.trace().clone();
         let entered = lock(&self.0);
         let late = entered.late.iter().map(|late| (&late.hung, &late.trace));
-        let written = entered.written.iter().map(|(hung, trace)| (hung, trace));
-        let mut all = late.chain(written);
+        let earlier = entered.earlier.iter().map(|(hung, trace)| (hung, trace));
+        let mut all = late.chain(earlier);
         match all.find(|(hung, _)| *hung == part.hung()) {
-            Some((_, late)) => own.or(late),
+            Some((_, late)) => late.clone(),
             None => own,
         }
     }
@@ -153,20 +185,20 @@ impl CurrentTrace {
         lock(&self.0).late.as_ref()?.until
     }
 
-    /// Returns a serial number that came after the verdict on its part, to be written: once it can no longer be moved because
-    /// its time is over or another part is on the screen.
-    fn settle(&self, shown: Option<&HungId>, now: f64) -> Option<(HungId, Traceability)> {
+    /// Returns the changes to be written. A serial number can no longer be moved once its time is over or another part is on
+    /// the screen.
+    fn settle(&self, shown: Option<&HungId>, now: f64) -> Vec<(HungId, TraceChange)> {
         let entered = &mut *lock(&self.0);
-        let late = entered.late.as_mut()?;
-        let until = late.until?;
-        if now < until && shown == Some(&late.hung) {
-            return None;
+        if let Some(late) = &mut entered.late
+            && let Some(until) = late.until
+            && (now >= until || shown != Some(&late.hung))
+        {
+            late.until = None;
+            let earlier = (late.hung.clone(), late.trace.clone());
+            entered.earlier.push_front(earlier);
+            entered.earlier.truncate(MAX_EARLIER);
         }
-        late.until = None;
-        let written = (late.hung.clone(), late.trace.clone());
-        entered.written.push_front(written.clone());
-        entered.written.truncate(MAX_WRITTEN);
-        Some(written)
+        std::mem::take(&mut entered.changes)
     }
 
     /// Replaces an entry by an edited text, unless it has changed since the user saw it as `before`: a serial number that was
@@ -218,10 +250,17 @@ impl Session {
     fn takes_serial(&self) -> Option<&Inspected> {
         let part = self.current_result()?;
         let is_part = part.entry.record.summary.verdict != StoredVerdict::NoPart;
-        let takes = is_part
-            && self.trace.of_part(part).serial.is_empty()
-            && self.trace.movable_until().is_none();
-        takes.then_some(part)
+        let serial = self.trace.of_part(part).serial;
+        let is_free = serial.is_empty() && self.trace.movable_until().is_none();
+        (is_part && (is_free || self.trace.is_doubtful(&serial))).then_some(part)
+    }
+
+    /// True if a part of this shift other than the latest has this serial number.
+    fn is_in_shift(&self, serial: &str) -> bool {
+        let latest = self.latest(|_| true).map(Inspected::hung);
+        let mut rows = self.shift.last.iter();
+        !serial.is_empty()
+            && rows.any(|row| row.trace.serial == serial && Some(&row.hung) != latest)
     }
 
     /// Names the serial number of the part on the screen, if it has one, and says whether the number can be moved.
@@ -230,7 +269,8 @@ impl Session {
         if let Some(late) = &lock(&self.trace.0).late
             && late.hung == *shown.inspected.hung()
         {
-            return Some((late.says.clone(), late.until.is_some()));
+            let is_there = !late.trace.serial.is_empty();
+            return is_there.then(|| (late.says.clone(), late.until.is_some()));
         }
         let part = self.current_result()?;
         let serial = &part.trace().serial;
@@ -239,10 +279,13 @@ impl Session {
 
     /// Gives a complete serial number to its part, or keeps it for the next one.
     fn enter_serial(&self, serial: &str, now: f64) {
+        let serial = Traceability::cleaned(serial);
         match self.takes_serial() {
-            Some(part) => self.trace.give(part, serial, now),
-            None => self.trace.set_serial(serial),
+            Some(part) => self.trace.give(part, &serial, now),
+            None => self.trace.set_serial(&serial),
         }
+        let is_doubtful = self.is_in_shift(&serial);
+        self.trace.doubt(is_doubtful.then_some(serial));
     }
 
     /// Enters a scanned serial number, unless the part on the screen has it already. Returns what to tell the user.
@@ -262,10 +305,10 @@ impl Session {
             self.trace.take_waiting();
         }
         self.enter_serial(&serial, now);
-        let mut rows = self.shift.last.iter();
-        if rows.any(|row| row.trace.serial == serial) {
+        if self.trace.is_doubtful(&serial) {
             let what = text!("operator-serial-in-shift", serial = serial);
-            return Some(Notice::look(what, text!("operator-serial-in-shift-next")));
+            let notice = Notice::look(what, text!("operator-serial-in-shift-next"));
+            return Some(notice.about(NoticeTopic::Serial));
         }
         if part.is_none() && !former.is_empty() && former != serial {
             let what = text!(
@@ -274,7 +317,7 @@ impl Session {
                 former = former.clone()
             );
             let next = text!("operator-serial-replaced-next", former = former);
-            return Some(Notice::look(what, next));
+            return Some(Notice::look(what, next).about(NoticeTopic::Serial));
         }
         // Other pages do not show to which part it goes.
         let is_seen = self.is_operator_view();
@@ -287,23 +330,26 @@ impl Session {
     }
 }
 
-/// Returns the event that writes a serial number which came after the verdict on its part, once it can no longer be moved.
-pub(in crate::app) fn settle(session: &Session, now: f64) -> Option<Event> {
+/// Returns the events that write serial numbers which came after the verdict on their part, or were moved from there.
+pub(in crate::app) fn settle(session: &Session, now: f64) -> Vec<Event> {
     let latest = session.latest(|_| true).map(Inspected::hung);
-    let (hung, trace) = session.trace.settle(latest, now)?;
-    // Live's next frames of this part have it.
-    lock(&session.live.parts).traced(&hung, &trace);
-    Some(Event::TracedLate(hung, trace))
+    let mut events = Vec::new();
+    for (hung, change) in session.trace.settle(latest, now) {
+        // Live's next frames of this part have it.
+        lock(&session.live.parts).traced(&hung, &change);
+        events.push(Event::TracedLate(hung, change));
+    }
+    events
 }
 
 /// As [`settle`], in each frame of the window.
-pub(in crate::app) fn update(session: &Session, ctx: &Context) -> Option<Event> {
+pub(in crate::app) fn update(session: &Session, ctx: &Context) -> Vec<Event> {
     let now = ctx.input(|input| input.time);
-    let event = settle(session, now);
+    let events = settle(session, now);
     if let Some(until) = session.trace.movable_until() {
         ctx.request_repaint_after_secs((until - now).max(0.0) as f32);
     }
-    event
+    events
 }
 
 /// One of the entries.
@@ -408,6 +454,20 @@ mod tests {
         }
     }
 
+    /// What is to be written now: to which part a serial number is added (`+`), and from which one it is taken (`-`).
+    fn written(session: &Session, now: f64) -> Vec<(HungId, String)> {
+        let changes = settle(session, now).into_iter().map(|event| {
+            let Event::TracedLate(hung, change) = event else {
+                panic!("{event:?}");
+            };
+            match change {
+                TraceChange::Fill(trace) => (hung, format!("+{}", trace.serial)),
+                TraceChange::ClearSerial(serial) => (hung, format!("-{serial}")),
+            }
+        });
+        changes.collect()
+    }
+
     fn hung(session: &Session) -> HungId {
         let shown = session.shown.as_ref().expect("shown");
         shown.inspected.hung().clone()
@@ -422,20 +482,19 @@ mod tests {
         assert!(known.what.contains("already"), "{known:?}");
         session.enter_scanned("4712", 2.0);
         assert_eq!(session.trace.get().serial, "4712");
-        // It is written when another part is on the screen.
-        assert!(settle(&session, 3.0).is_none());
+        // It is written at once.
         let first = hung(&session);
+        assert_eq!(
+            written(&session, 3.0),
+            [(first.clone(), "+4711".to_owned())]
+        );
         let session = showing(session, CellChoice::InTurn);
-        let Some(Event::TracedLate(part, trace)) = settle(&session, 4.0) else {
-            panic!("not written");
-        };
-        assert_eq!((&part, &*trace.serial), (&first, "4711"));
-        assert!(settle(&session, 99.0).is_none(), "once");
+        assert!(written(&session, 4.0).is_empty(), "once");
         // An inspection that is still in memory shows it.
         let inspected = Arc::clone(&session.shown.as_ref().expect("shown").inspected);
         session.enter_scanned("4713", 5.0);
         let mut before = inspected_cell(CellChoice::InTurn, 1);
-        before.entry.record.summary.hung = part;
+        before.entry.record.summary.hung = first;
         assert_eq!(session.trace.of_part(&before).serial, "4711");
         assert_eq!(session.trace.of_part(&inspected).serial, "4713");
         // An empty cell, or a result that does not count any more, takes none.
@@ -454,7 +513,7 @@ mod tests {
     }
 
     #[test]
-    fn a_late_serial_number_moves_to_the_next_part_and_back_until_it_is_written() {
+    fn a_late_serial_number_is_written_at_once_and_moves_to_the_next_part_and_back_for_a_while() {
         let session = showing(Session::default(), CellChoice::InTurn);
         session.enter_scanned("4711", 0.0);
         let (says, is_movable) = session.serial_on_screen().expect("given");
@@ -466,16 +525,65 @@ mod tests {
         session.trace.move_to_next();
         assert!(session.serial_on_screen().is_none());
         assert_eq!(session.trace.get().serial, "4711");
+        // The row has it no longer.
+        let part = hung(&session);
+        let moved = ["+4711", "-4711"].map(|change| (part.clone(), change.to_owned()));
+        assert_eq!(written(&session, 0.5), moved);
         session.enter_serial(&session.trace.take_waiting(), 1.0);
-        assert!(session.trace.is_late_of(&hung(&session)));
-        assert!(settle(&session, 1.0 + MOVABLE).is_some());
+        assert!(session.trace.is_late_of(&part));
+        assert_eq!(
+            written(&session, 1.0 + MOVABLE),
+            [(part, "+4711".to_owned())]
+        );
         session.trace.move_to_next();
-        assert_eq!(session.trace.get().serial, "", "it is written");
+        assert_eq!(session.trace.get().serial, "", "it stays");
         assert!(
             session
                 .serial_on_screen()
                 .is_some_and(|(_, is_movable)| !is_movable)
         );
+    }
+
+    #[test]
+    fn the_scan_after_a_number_of_another_part_replaces_it_on_its_part() {
+        let mut row = inspected_cell(CellChoice::InTurn, 1).entry.record.summary;
+        row.trace.serial = "A-001".into();
+        let in_shift = || {
+            let mut session = Session::default();
+            session.shift.last.push(row.clone());
+            session
+        };
+        // Scanned after the verdict, however long that was ago.
+        let session = showing(in_shift(), CellChoice::InTurn);
+        let warning = session.enter_scanned("A-001", 0.0).expect("said");
+        assert!(warning.what.contains("A-001 is already"), "{warning:?}");
+        let part = hung(&session);
+        assert_eq!(
+            written(&session, 99.0),
+            [(part.clone(), "+A-001".to_owned())]
+        );
+        session.enter_scanned("A-002", 100.0);
+        let changes = ["-A-001", "+A-002"].map(|change| (part.clone(), change.to_owned()));
+        assert_eq!(written(&session, 101.0), changes);
+        assert_eq!(session.trace.get().serial, "", "none is for the next part");
+        let shown = session.shown.as_ref().expect("shown");
+        assert_eq!(session.trace.of_part(&shown.inspected).serial, "A-002");
+        // The one after that is for the next part again.
+        session.enter_scanned("A-003", 102.0);
+        assert_eq!(session.trace.get().serial, "A-003");
+
+        // Scanned before the verdict.
+        let session = in_shift();
+        session.enter_scanned("A-001", 0.0);
+        let mut session = showing(session, CellChoice::InTurn);
+        let trace = session.trace.take(true);
+        let shown = session.shown.as_mut().expect("shown");
+        let inspected = Arc::get_mut(&mut shown.inspected).expect("not shared");
+        inspected.entry.record.summary.trace = trace;
+        session.enter_scanned("A-002", 1.0);
+        let shown = session.shown.as_ref().expect("shown");
+        assert_eq!(session.trace.of_part(&shown.inspected).serial, "A-002");
+        assert_eq!(session.trace.get().serial, "");
     }
 
     #[test]

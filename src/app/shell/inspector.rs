@@ -29,7 +29,7 @@ use crate::{
         task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
         user_error::UserError,
     },
-    capture::{CaptureWarning, SourceSpec},
+    capture::SourceSpec,
     error::lock,
     history::{HungId, StoredVerdict, Traceability},
     stages::scene::EmptyCell,
@@ -52,6 +52,8 @@ pub struct Inspector {
     pub former_source: Option<Source>,
     /// True while the window starts, when an opened file may show a part that was inspected before.
     pub is_start: bool,
+    /// True if the running capture has ended Live and the operator is to be told once it is taken.
+    has_ended_live: bool,
 }
 
 /// Result of a run.
@@ -77,6 +79,7 @@ impl Inspector {
             num_captures: 0,
             former_source: None,
             is_start: false,
+            has_ended_live: false,
         }
     }
 
@@ -103,8 +106,14 @@ impl State {
         // Enrol opens it by itself.
         if self.session.workspace != WorkspaceKind::Enrol {
             self.inspector.former_source.get_or_insert(former);
+            return self.capture();
         }
-        self.capture()
+        let taken = self.capture();
+        if self.session.is_live() {
+            // Live goes on with its own source.
+            self.session.source = former;
+        }
+        taken
     }
 
     /// Takes a scene from the source, to be inspected, or to be enrolled if Enrol is in front. Capturing for inspection stops
@@ -147,15 +156,21 @@ impl State {
                 );
                 notify(self, stopped.about(NoticeTopic::Following));
             }
+            if !self.session.is_live() && self.session.source.followed().is_some() {
+                // Another part may hang there now.
+                live::outdate_shown(self);
+            }
             return Some(Effect::Take(source, title));
+        }
+        if self.session.source.followed().is_some() && live::tell_if_lost(self) {
+            // Live goes on trying.
+            return None;
         }
         if self.session.is_watching() {
             notify(self, Notice::done(text!("live-inspects-each")));
             return None;
         }
-        if self.session.role == UserRole::Operator {
-            self.tell_what_ends_live(text!("live-ended"));
-        }
+        let ends_live = self.session.role == UserRole::Operator && self.session.is_live();
         let source = match (source, &self.session.empty_cell) {
             (SceneOrScan::Scene(source), Some(cell)) => {
                 let source = SceneSource::Before(Arc::clone(cell), Box::new(source));
@@ -165,14 +180,14 @@ impl State {
         };
         let job = self.session.inspect_job(source);
         self.inspect(title, job);
+        self.inspector.has_ended_live = ends_live;
         None
     }
 
     /// Says what ends Live, if a source is followed.
     fn tell_what_ends_live(&mut self, what: String) {
         if self.session.is_live() {
-            let ended = Notice::look(what, text!("live-ended-advice"));
-            notify(self, ended.about(NoticeTopic::LiveEnded));
+            notify(self, live_ended(what));
         }
     }
 
@@ -266,15 +281,12 @@ impl State {
         }
     }
 
-    /// The hung part in front, if this is its scene.
-    fn part_in(&self, saved: &SceneOrScan) -> Option<PartAtHand> {
-        let inspected = &self
-            .session
-            .shown
-            .as_ref()
-            .filter(|shown| !shown.is_past)?
-            .inspected;
-        let is_it = match (saved, &inspected.scan) {
+    /// True if this is the scene in front.
+    fn is_in_front(&self, saved: &SceneOrScan) -> bool {
+        let Some(Shown { inspected, .. }) = &self.session.shown else {
+            return false;
+        };
+        match (saved, &inspected.scan) {
             (SceneOrScan::Scene(SceneSource::AtHand(scene, _)), None) => {
                 Arc::ptr_eq(scene, &inspected.scene)
             }
@@ -282,28 +294,31 @@ impl State {
                 Arc::ptr_eq(&choice.set, &scan.fused.choice.set)
             }
             _ => false,
-        };
-        is_it.then(|| PartAtHand::of(inspected))
+        }
     }
 
-    /// Uses the changed library and inspects what was saved in it, else the scene in front.
+    /// Uses the changed library, and inspects with it what hangs there now: if Live is on, what the source shows, else the
+    /// capture that was saved, if it is the newest, else the scene in front.
     pub(in crate::app) fn library_changed(
         &mut self,
         library: &Arc<LibraryView>,
         saved: Option<SceneOrScan>,
     ) {
+        if self.session.is_live() {
+            self.use_library(library);
+            return live::restart_consensus(self);
+        }
+        // It brings the library that it was inspected with.
+        live::show_unseen(self);
         self.use_library(library);
         let (title, purpose) = (text!("shell-inspecting-again"), ReinspectionPurpose::New);
-        if let Some(saved) = saved {
-            self.tell_what_ends_live(text!("live-ended-saved"));
-            let part = self.part_in(&saved);
+        let is_saved = saved.is_some();
+        if let Some(saved) = saved.filter(|saved| !self.is_in_front(saved)) {
             // An enrolled part does not belong to an order.
-            let part = part.unwrap_or_else(|| PartAtHand::Past(Traceability::default()));
+            let part = PartAtHand::Past(Traceability::default());
             let job = self.session.inspect_job(saved);
             self.inspect_part(title, job, purpose, part);
-        } else if self.session.is_live() {
-            live::restart_consensus(self);
-        } else if self.inspector.running().is_none() {
+        } else if is_saved || self.inspector.running().is_none() {
             self.inspect_shown(&title, purpose);
         }
     }
@@ -332,6 +347,7 @@ impl State {
         let inspector = &mut self.inspector;
         inspector.generation = self.generation;
         inspector.purpose = purpose;
+        inspector.has_ended_live = false;
         inspector.library_cache.clone()
     }
 
@@ -450,6 +466,11 @@ fn run(
     Ok(InspectorResult::Inspected(Arc::new(inspected)))
 }
 
+/// A notice of what ended Live.
+fn live_ended(what: String) -> Notice {
+    Notice::look(what, text!("live-ended-advice")).about(NoticeTopic::LiveEnded)
+}
+
 /// Polls the tasks; returns the event for all workspaces.
 pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
     library_loader::update(state);
@@ -459,7 +480,13 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
     }
     match event? {
         TaskEvent::Partial(result) | TaskEvent::Done(result) => match result {
-            InspectorResult::Inspected(inspected) => return Some(show(state, inspected)),
+            InspectorResult::Inspected(inspected) => {
+                let event = show(state, inspected);
+                if std::mem::take(&mut state.inspector.has_ended_live) {
+                    notify(state, live_ended(text!("live-ended")));
+                }
+                return Some(event);
+            }
             InspectorResult::PosesWanted(order, error) => {
                 notify(state, error.into());
                 return Some(Event::PosesWanted(*order));
@@ -507,13 +534,7 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         remove_notices(state, NoticeTopic::Following);
     }
     for warning in &inspected.warnings {
-        let notice = match (warning, &inspected.origin) {
-            (CaptureWarning::File(warning), Origin::File { path, .. }) => {
-                Notice::of_file(path, warning)
-            }
-            _ => Notice::from(UserError::of(warning)).about(NoticeTopic::Scene),
-        };
-        notify(state, notice);
+        notify(state, Notice::of_scene(&inspected.origin, warning));
     }
     state.use_library(&inspected.library);
     let shots = inspected.scan.as_ref();
@@ -609,11 +630,17 @@ mod tests {
         update(&mut state);
         live::outdate_shown(&mut state);
         let library = state.session.library.clone().expect("loaded");
-        for step in 0..4 {
+        for step in 0..5 {
             match step {
                 0 => state.inspect_again(),
                 1 => state.inspect_shown("Again", ReinspectionPurpose::New),
                 2 => state.library_changed(&library, None),
+                3 => {
+                    // It was enrolled from the scene in front.
+                    let shown = state.session.shown.as_ref();
+                    let saved = shown.map(|shown| shown.inspected.again());
+                    state.library_changed(&library, saved);
+                }
                 // It is loaded, and then the scene is inspected again.
                 _ => {
                     let chosen = Action::Chosen(DialogRequest::Library, "reference_parts".into());

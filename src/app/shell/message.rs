@@ -14,7 +14,7 @@ use crate::{
         library_cache::LibraryView,
         scan_choice::ScanOrder,
     },
-    history::{HungId, NewEntry, Traceability},
+    history::{HungId, NewEntry, TraceChange, Traceability},
     pipeline::NamedRecipe,
     robot::{Convention, RobotFrame},
 };
@@ -50,11 +50,12 @@ pub enum Message {
     UseProgramSetup(ProgramSetup),
     /// Start or stop recording the followed source.
     ToggleRecording,
-    /// The library was changed: use it, and inspect `saved`, or else the scene in front unless another inspection is running.
+    /// The library was changed: use it. If Live is on, it starts over; else inspect `saved`, or the scene in front unless
+    /// another inspection is running.
     LibraryChanged {
         /// The changed library.
         library: Arc<LibraryView>,
-        /// The saved scene or scan, if it can be inspected.
+        /// The saved scene or scan, if it can be inspected and nothing newer was captured.
         saved: Option<SceneOrScan>,
     },
     /// Inspect this, and show the result.
@@ -107,8 +108,8 @@ pub enum Event {
     },
     /// A part left the followed source before its verdict counted, or following stopped before.
     Left(Box<NewEntry>),
-    /// The serial number of this part, which has been recorded, came after its verdict.
-    TracedLate(HungId, Traceability),
+    /// The traceability of this part, which has been recorded, changed after its verdict.
+    TracedLate(HungId, TraceChange),
     /// The poses of these shots were not found: the user has to choose their file.
     PosesWanted(ScanOrder),
     /// Ask the user where to save the report of the inspection in front.

@@ -3,7 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use crate::{
-    app::{language::text, user_error::UserError},
+    app::{
+        inspection::source::{Origin, file_name},
+        language::text,
+        user_error::UserError,
+    },
+    capture::CaptureWarning,
     files::{FileWarning, import::ImportOptions},
 };
 
@@ -44,6 +49,10 @@ pub enum NoticeTopic {
     Case,
     /// Why no robot program can be written: removed once arm, nozzle or gun are changed.
     Program,
+    /// A doubtful serial number: removed once another one is scanned.
+    Serial,
+    /// Another window is open with the same data folder: shown in both views.
+    SecondWindow,
 }
 
 impl NoticeTopic {
@@ -57,6 +66,7 @@ impl NoticeTopic {
                 | Self::CoatName
                 | Self::Case
                 | Self::Program
+                | Self::Serial
         )
     }
 }
@@ -109,6 +119,20 @@ impl Notice {
         }
     }
 
+    /// Makes a notice of a problem found while a scene was read.
+    pub fn of_scene(origin: &Origin, warning: &CaptureWarning) -> Self {
+        match (warning, origin) {
+            (CaptureWarning::File(warning), Origin::File { path, .. }) => {
+                Self::of_file(path, warning)
+            }
+            (CaptureWarning::File(warning), _) => {
+                let notice = Self::from(UserError::of(warning)).about(NoticeTopic::Scene);
+                notice.naming(&origin.shown_title())
+            }
+            _ => Self::from(UserError::of(warning)).about(NoticeTopic::Scene),
+        }
+    }
+
     /// Makes a notice of a warning about a file.
     pub fn of_file(path: &Path, warning: &FileWarning) -> Self {
         let mut notice = Self::from(UserError::of(warning)).about(NoticeTopic::Scene);
@@ -123,7 +147,13 @@ impl Notice {
                 notice.advice = text!("shell-too-wide-advice");
             }
         }
-        notice
+        notice.naming(&file_name(path))
+    }
+
+    /// Names the scene that the notice is about.
+    fn naming(self, scene: &str) -> Self {
+        let what = text!("shell-about-scene", scene = scene, what = &self.what);
+        Self { what, ..self }
     }
 
     /// Says what the notice is about.
@@ -218,6 +248,22 @@ mod tests {
         ] {
             assert_eq!(other.in_millimetres, None, "{other:?}");
             assert!(!other.advice.contains("millimetres"), "{other:?}");
+            assert!(other.what.starts_with("door.stl"), "{other:?}");
         }
+    }
+
+    #[test]
+    fn a_notice_about_a_capture_names_it() {
+        let origin = Origin::Frame {
+            name: "left2_00.png".into(),
+            is_simulated: false,
+        };
+        let warning = CaptureWarning::File(FileWarning::SurplusBytes { num: 7 });
+        let notice = Notice::of_scene(&origin, &warning);
+        assert!(
+            notice.what.starts_with("left2_00.png: 7 bytes"),
+            "{notice:?}"
+        );
+        assert_eq!(notice.topic, NoticeTopic::Scene);
     }
 }

@@ -1,4 +1,5 @@
-//! The strip of notices below the work: the work shrinks to make room, so that nothing is covered.
+//! The strip of notices below the work: the work shrinks to make room, so that nothing is covered. In the operator's view the
+//! newest two are over the picture, which has no controls.
 
 use egui::{
     Align, Area, Context, Frame, Id, Layout, Margin, Order, Panel, Rect, RichText, Ui, pos2,
@@ -7,6 +8,7 @@ use egui::{
 use super::{
     action::Action,
     notice::{Notice, NoticeKind},
+    operator_bars::column_width,
     state::State,
 };
 use crate::app::language::text;
@@ -17,7 +19,7 @@ use crate::app::ui::{
 
 /// Margin around the notices, logical pixels.
 const EDGE: f32 = 6.0;
-/// Number of notices that are dismissed one by one.
+/// Number of notices that are dismissed one by one, and that the operator's view shows.
 const FEW: usize = 2;
 /// Time without motion after which the pointer is at rest, seconds.
 const REST: f32 = 0.6;
@@ -31,8 +33,15 @@ fn display_seconds(kind: NoticeKind) -> Option<f64> {
     }
 }
 
-/// Reserves room at the bottom of the window; [`ui`] draws the notices there.
+/// Reserves room at the bottom of the window, or finds it in the operator's view; [`ui`] draws the notices there.
 pub(in crate::app) fn room(ui: &mut Ui, state: &State) -> Option<Rect> {
+    if state.session.is_operator_view() {
+        let view = ui.available_rect_before_wrap();
+        let right = view.right() - column_width(view.width());
+        let top = view.bottom() - height(ui.ctx());
+        let room = view.with_max_x(right).with_min_y(top);
+        return (!state.notices.is_empty()).then(|| room.shrink(EDGE));
+    }
     let theme = Theme::of(ui);
     let wanted = if state.notices.is_empty() {
         0.0
@@ -96,7 +105,12 @@ pub(in crate::app) fn ui(
             ui.set_width(room.width());
             ui.spacing_mut().item_spacing.y = EDGE;
             let newest = state.notices.len().saturating_sub(1);
-            for (place, notice) in state.notices.iter().enumerate() {
+            let num_hidden = if state.session.is_operator_view() {
+                state.notices.len().saturating_sub(FEW)
+            } else {
+                0
+            };
+            for (place, notice) in state.notices.iter().enumerate().skip(num_hidden) {
                 let with_all = place == newest && newest >= FEW;
                 plate(ui, place, notice, with_all, actions);
             }

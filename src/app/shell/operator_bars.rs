@@ -25,6 +25,13 @@ use crate::app::{
 pub(in crate::app) const LOWER: f32 = 76.0;
 /// Height of its buttons, logical pixels.
 const BUTTON: f32 = 52.0;
+/// Width of the column beside the picture in a wide and in a narrow window, logical pixels.
+pub(in crate::app) const COLUMN: [f32; 2] = [400.0, 320.0];
+
+/// Returns the width of the column beside the picture in a window of this width.
+pub(in crate::app) fn column_width(window: f32) -> f32 {
+    COLUMN[usize::from(window <= 1100.0)]
+}
 
 /// Draws both bars.
 pub(in crate::app) fn ui(

@@ -2,8 +2,9 @@
 //!
 //! In the operator's view no field needs the focus for it. Typed keys are held back for a moment: a code that ends in time is
 //! the serial number; anything else was typed by hand and is passed on to the shortcuts. The same holds in front of a dialog,
-//! with a shorter moment: a scan does not change its text field, and its Enter does not confirm the dialog. A text field
-//! elsewhere keeps all its keys.
+//! with a shorter moment: a scan does not change its text field, and its Enter does not confirm the dialog. While that field has
+//! the focus, only keys that come at a scanner's speed over several frames are a scan: in a slow frame, keys of a hand arrive
+//! together. A text field elsewhere keeps all its keys.
 
 use egui::{Context, Event, Id, Key};
 
@@ -13,6 +14,10 @@ const GAP: f64 = 0.15;
 const GAP_IN_DIALOG: f64 = 0.05;
 /// Minimum number of letters of a code.
 const LEAST_LETTERS: usize = 3;
+/// While a dialog's text field has the focus: minimum number of frames before the end of a code, and maximum time for each of its
+/// letters, seconds.
+const LEAST_FRAMES: usize = 3;
+const MAX_PER_LETTER: f64 = 0.03;
 
 /// What typed keys are for, unless they are a code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +37,8 @@ enum Holding {
     OnPage,
     /// For a dialog: keys typed by hand keep their order.
     InDialog,
+    /// For a dialog whose text field has the focus.
+    InField,
 }
 
 impl Holding {
@@ -39,7 +46,7 @@ impl Holding {
     fn gap(self) -> f64 {
         match self {
             Self::Never | Self::OnPage => GAP,
-            Self::InDialog => GAP_IN_DIALOG,
+            Self::InDialog | Self::InField => GAP_IN_DIALOG,
         }
     }
 }
@@ -49,7 +56,11 @@ impl Holding {
 struct Held {
     events: Vec<Event>,
     text: String,
+    /// When the first and the last of them came, seconds of egui's clock.
+    first: f64,
     last: f64,
+    /// Number of frames in which they came.
+    num_frames: usize,
 }
 
 /// Returns the code of a scanner once it is complete. Must be called before anything else reads the keys.
@@ -58,10 +69,11 @@ pub(in crate::app) fn listen(ctx: &Context, target: KeyTarget) -> Option<String>
     let mut held: Held = ctx
         .data_mut(|data| data.remove_temp(id))
         .unwrap_or_default();
-    let holding = match target {
-        KeyTarget::Dialog => Holding::InDialog,
-        KeyTarget::Page if ctx.text_edit_focused() => Holding::Never,
-        KeyTarget::Page => Holding::OnPage,
+    let holding = match (target, ctx.text_edit_focused()) {
+        (KeyTarget::Page, true) => Holding::Never,
+        (KeyTarget::Page, false) => Holding::OnPage,
+        (KeyTarget::Dialog, true) => Holding::InField,
+        (KeyTarget::Dialog, false) => Holding::InDialog,
     };
     let was_held = !held.events.is_empty();
     let code = ctx.input_mut(|input| held.hold_back(&mut input.events, input.time, holding));
@@ -83,6 +95,9 @@ pub(in crate::app) fn listen(ctx: &Context, target: KeyTarget) -> Option<String>
 impl Held {
     fn hold_back(&mut self, events: &mut Vec<Event>, now: f64, holding: Holding) -> Option<String> {
         let (mut code, mut others, mut is_typed) = (None, Vec::new(), false);
+        if holding == Holding::InField && now - self.last > holding.gap() {
+            self.pass_on(&mut others);
+        }
         for event in std::mem::take(events) {
             let is_of_code = holding != Holding::Never
                 && match &event {
@@ -97,9 +112,10 @@ impl Held {
                         key: Key::Enter | Key::Tab,
                         pressed: true,
                         ..
-                    } if self.text.chars().count() >= LEAST_LETTERS => {
+                    } if self.is_code(now, holding) => {
                         code = Some(std::mem::take(&mut self.text));
                         self.events.clear();
+                        self.num_frames = 0;
                         continue;
                     }
                     Event::Key {
@@ -114,21 +130,41 @@ impl Held {
                 self.events.push(event);
                 is_typed = true;
             } else {
-                if holding == Holding::InDialog && acts_on_text(&event) {
-                    others.append(&mut self.events);
-                    self.text.clear();
+                let keeps_order = matches!(holding, Holding::InDialog | Holding::InField);
+                if keeps_order && acts_on_text(&event) {
+                    self.pass_on(&mut others);
                 }
                 others.push(event);
             }
         }
         if is_typed {
+            if self.num_frames == 0 {
+                self.first = now;
+            }
+            self.num_frames += 1;
             self.last = now;
         } else if holding == Holding::Never || now - self.last > holding.gap() {
-            others.splice(0..0, self.events.drain(..));
-            self.text.clear();
+            let later = std::mem::take(&mut others);
+            self.pass_on(&mut others);
+            others.extend(later);
         }
         *events = others;
         code
+    }
+
+    /// True if the held keys are a code, which ends now.
+    fn is_code(&self, now: f64, holding: Holding) -> bool {
+        let num = self.text.chars().count();
+        let is_fast =
+            self.num_frames >= LEAST_FRAMES && now - self.first <= MAX_PER_LETTER * num as f64;
+        num >= LEAST_LETTERS && (is_fast || holding != Holding::InField)
+    }
+
+    /// Passes on the held keys: they were typed by hand.
+    fn pass_on(&mut self, others: &mut Vec<Event>) {
+        others.append(&mut self.events);
+        self.text.clear();
+        self.num_frames = 0;
     }
 }
 
@@ -244,7 +280,30 @@ mod tests {
         assert_eq!(events, before);
     }
     #[test]
-    fn in_a_dialog_a_code_goes_to_no_field_and_keys_of_a_hand_keep_their_order() {
+    fn in_a_field_only_what_comes_like_a_scanner_over_several_frames_is_a_code() {
+        let all = typed("15151");
+        let heard = |num_events: usize, frame_time: f64| {
+            let mut held = Held::default();
+            let (mut codes, mut passed) = (Vec::new(), Vec::new());
+            for (frame, events) in all.chunks(num_events).enumerate() {
+                let mut events = events.to_vec();
+                let now = 1.0 + frame_time * frame as f64;
+                codes.extend(held.hold_back(&mut events, now, Holding::InField));
+                passed.extend(events);
+            }
+            (codes, passed)
+        };
+        // One key in each frame, and at last Enter.
+        assert_eq!(heard(2, 0.012), (vec!["15151".to_owned()], Vec::new()));
+        // All in one frame, two keys in each slow frame, and quick fingers.
+        for (num_events, frame_time) in [(100, 0.0), (4, 0.3), (2, 0.15), (2, 0.045)] {
+            let nothing = Vec::<String>::new();
+            assert_eq!(heard(num_events, frame_time), (nothing, all.clone()));
+        }
+    }
+
+    #[test]
+    fn in_a_dialog_a_code_is_held_back_and_keys_of_a_hand_keep_their_order() {
         let mut held = Held::default();
         let mut events = typed("15151");
         let code = held.hold_back(&mut events, 1.0, Holding::InDialog);

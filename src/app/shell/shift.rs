@@ -1,7 +1,7 @@
 //! The parts of this shift, counted in the history for the operator's view.
 //!
 //! They are the parts of the source that the view follows, or followed before a file or a scan was opened. Opened files and
-//! scans, single frames of the simulated cell and enrolled captures that no longer hang there have other sources in the history.
+//! scans, single frames of the simulated cell and captures taken in Enrol have other sources in the history.
 
 use std::{cmp::Reverse, sync::Arc, time::Duration};
 
@@ -14,6 +14,7 @@ use super::{
 };
 use crate::{
     app::{
+        inspection::inspected::Inspected,
         language::text,
         task::{Task, TaskEvent, TaskRunner},
         user_error::UserError,
@@ -89,22 +90,45 @@ pub struct ShiftParts {
     pub since: Option<Zoned>,
     /// The source that they hung in front of; `None` while there was only a file or a scan.
     pub source: Option<Source>,
-    /// Accepted parts.
+    /// Accepted parts, except those that were reported as wrong.
     pub num_ok: usize,
-    /// Parts that were not accepted.
+    /// All other parts.
     pub num_not_ok: usize,
     /// The last parts, accepted or not, newest first.
     pub last: Vec<Summary>,
-    /// The part inspected last with its true label, if it had one when the parts were counted.
+    /// The latest part with its true label, if it has one; known in both views.
     pub labelled: Option<(HungId, Truth)>,
+}
+
+impl ShiftParts {
+    /// What really hung there, if the part was accepted as another one and a person has reported that.
+    pub(in crate::app) fn reported_as(&self, inspected: &Inspected) -> Option<&Truth> {
+        let (part, truth) = self.labelled.as_ref()?;
+        let summary = Summary {
+            label: Some(truth.clone()),
+            ..inspected.entry.record.summary.clone()
+        };
+        (*part == summary.hung && summary.is_wrongly_accepted()).then_some(truth)
+    }
+}
+
+/// What a count depends on.
+#[derive(Debug, PartialEq)]
+struct CountInputs {
+    /// Revision of the history.
+    num_events: u64,
+    since: Timestamp,
+    source: Option<Source>,
+    latest: Option<HungId>,
+    role: UserRole,
 }
 
 /// Counts the parts whenever the history has changed.
 #[derive(Debug)]
 pub struct ShiftWatch {
     counting: Task<ShiftParts>,
-    /// The revision of the history, the shift and the source of the last count.
-    counted: Option<(u64, Timestamp, Option<Source>)>,
+    /// The inputs of the last count.
+    counted: Option<CountInputs>,
     /// The source in use, or the one before, if that in use is a file or a scan.
     source: Option<Source>,
     /// When to repeat a failed count, seconds of egui's clock.
@@ -128,7 +152,8 @@ impl ShiftWatch {
     }
 }
 
-/// Takes over a finished count, and counts again in the operator's view if it is outdated.
+/// Takes over a finished count, and counts again if it is outdated. In the engineer's view only the true label of the latest part
+/// is looked up.
 pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ctx: &egui::Context) {
     let time = ctx.input(|input| input.time);
     match state.shift_watch.counting.poll() {
@@ -139,9 +164,6 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
     }
     if state.session.source.followed().is_some() {
         state.shift_watch.source = Some(state.session.source.clone());
-    }
-    if state.session.role != UserRole::Operator {
-        return;
     }
     let now = Zoned::now();
     let [Some(since), end] = state.session.shift_starts.around(&now) else {
@@ -155,20 +177,32 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
     }
     let is_retry = state.shift_watch.retry_at.is_some_and(|at| at <= time);
     let source = state.shift_watch.source.clone();
-    let wanted = Some((history.num_events(), since.timestamp(), source.clone()));
+    let role = state.session.role;
+    let latest = state.session.latest(|_| true);
+    let latest = latest.map(|part| part.hung().clone());
+    let wanted = Some(CountInputs {
+        num_events: history.num_events(),
+        since: since.timestamp(),
+        source: source.clone(),
+        latest: latest.clone(),
+        role,
+    });
     if is_retry || state.shift_watch.counted != wanted {
         state.shift_watch.counted = wanted;
         state.shift_watch.retry_at = None;
         let history = Arc::clone(history);
-        let latest = state.session.latest(|_| true);
-        let latest = latest.map(|part| part.hung().clone());
+        let former = state.session.shift.clone();
         let count = move |_: &_| {
-            let followed = source.as_ref().and_then(Source::followed);
-            let followed = followed.map_or_else(String::new, |spec| spec.to_string());
             let labelled = latest.map_or(Ok(None), |hung| label_of(&history, hung));
-            let parts = count(&history, since.clone(), &followed).and_then(|parts| {
+            let parts = if role == UserRole::Operator {
+                let followed = source.as_ref().and_then(Source::followed);
+                let followed = followed.map_or_else(String::new, |spec| spec.to_string());
+                count(&history, since, &followed).map(|parts| ShiftParts { source, ..parts })
+            } else {
+                Ok(former)
+            };
+            let parts = parts.and_then(|parts| {
                 Ok(ShiftParts {
-                    source,
                     labelled: labelled?,
                     ..parts
                 })
@@ -193,27 +227,33 @@ fn label_of(
 
 /// Counts the parts of a source since a moment: all inspections of a hung part are one part, and an empty cell is none.
 fn count(history: &HistoryBuffer, since: Zoned, source: &str) -> Result<ShiftParts, HistoryError> {
-    let mut parts = ShiftParts::default();
+    let all = Filter {
+        since: Some(since.timestamp()),
+        source: Some(source.to_owned()),
+        ..Filter::default()
+    };
+    let mut outcomes = history.outcomes(&all)?;
+    outcomes.retain(|part| part.verdict != StoredVerdict::NoPart);
+    let num_ok = outcomes.iter().filter(|part| part.is_ok).count();
+    let mut last = Vec::new();
     for verdict in StoredVerdict::ALL {
-        let num = match verdict {
-            StoredVerdict::Accepted => &mut parts.num_ok,
-            StoredVerdict::Rejected | StoredVerdict::Unknown => &mut parts.num_not_ok,
-            StoredVerdict::NoPart => continue,
-        };
-        let filter = Filter {
-            since: Some(since.timestamp()),
-            verdict: Some(verdict),
-            source: Some(source.to_owned()),
-            ..Filter::default()
-        };
-        let page = history.page(&filter, 0, MAX_LISTED)?;
-        *num += page.num_matching;
-        parts.last.extend(page.rows);
+        if verdict != StoredVerdict::NoPart {
+            let filter = Filter {
+                verdict: Some(verdict),
+                ..all.clone()
+            };
+            last.extend(history.page(&filter, 0, MAX_LISTED)?.rows);
+        }
     }
-    parts.last.sort_by_key(|row| Reverse(row.at));
-    parts.last.truncate(MAX_LISTED);
-    parts.since = Some(since);
-    Ok(parts)
+    last.sort_by_key(|row| Reverse(row.at));
+    last.truncate(MAX_LISTED);
+    Ok(ShiftParts {
+        since: Some(since),
+        num_ok,
+        num_not_ok: outcomes.len() - num_ok,
+        last,
+        ..ShiftParts::default()
+    })
 }
 
 #[cfg(test)]
@@ -221,7 +261,42 @@ mod tests {
     use std::time::Instant;
 
     use super::*;
-    use crate::kit::{history_entry, moment};
+    use crate::{
+        app::{
+            inspection::{inspected::inspected_cell, source::CellChoice},
+            shell::session::Shown,
+        },
+        kit::{history_entry, moment},
+    };
+
+    #[test]
+    fn a_part_that_was_reported_as_wrong_is_not_ok_and_both_views_know_it() {
+        for role in [UserRole::Operator, UserRole::Engineer] {
+            let mut state = State::default();
+            state.session.role = role;
+            let (history, ctx) = (Arc::new(HistoryBuffer::new(None)), egui::Context::default());
+            let inspected = Arc::new(inspected_cell(CellChoice::InTurn, 1));
+            let followed = state.session.source.followed().expect("the cell");
+            let mut entry = inspected.entry.clone();
+            entry.record.summary.source = followed.to_string();
+            history.add(1, entry, Instant::now());
+            history.set_label(-1, Some(&Truth::NotEnrolled));
+            state.session.shown = Some(Shown {
+                generation: 1,
+                inspected: Arc::clone(&inspected),
+                is_past: false,
+                session: None,
+                is_outdated: false,
+            });
+            update(&mut state, &history, &ctx);
+            assert!(state.shift_watch.counting.run_waiting());
+            update(&mut state, &history, &ctx);
+            let shift = &state.session.shift;
+            assert_eq!(shift.reported_as(&inspected), Some(&Truth::NotEnrolled));
+            let num = usize::from(role == UserRole::Operator);
+            assert_eq!((shift.num_ok, shift.num_not_ok), (0, num), "{role:?}");
+        }
+    }
 
     #[test]
     fn only_parts_of_the_source_that_is_followed_are_counted() {

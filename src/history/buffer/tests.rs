@@ -4,7 +4,9 @@ use std::fs;
 
 use super::*;
 use crate::{
-    history::{Filter, StoredVerdict, open::FILE, schema::APPLICATION, waiting::MAX_WAITING},
+    history::{
+        Filter, StoredVerdict, Traceability, open::FILE, schema::APPLICATION, waiting::MAX_WAITING,
+    },
     kit::{history_entry, moment, open_history, small_scene},
 };
 
@@ -243,13 +245,21 @@ fn a_serial_number_that_comes_later_waits_with_its_part_until_it_can_be_written(
     drop(inner);
     let other = rusqlite::Connection::open(folder.path().join(FILE)).expect("opened");
     other.execute_batch("BEGIN IMMEDIATE").expect("locked");
-    let known = |serial: &str| Traceability {
-        serial: serial.into(),
-        ..Traceability::default()
+    let known = |serial: &str| {
+        TraceChange::Fill(Traceability {
+            serial: serial.into(),
+            ..Traceability::default()
+        })
     };
     keeper.trace_part(&written, &known("TL-1"), begun);
     keeper.add(2, second, begun);
-    keeper.trace_part(&waiting, &known("TL-2"), begun);
+    for change in [
+        known("TL-3"),
+        TraceChange::ClearSerial("TL-3".into()),
+        known("TL-2"),
+    ] {
+        keeper.trace_part(&waiting, &change, begun);
+    }
     assert_eq!(failures(&keeper.take_news()), 1);
     let serial = |number| {
         let record = keeper.row(number).expect("asked").expect("there");

@@ -246,6 +246,7 @@ fn columns(report: &PoseReport) -> Vec<(String, String)> {
     add("serial", trace.serial.clone());
     add("order", trace.order.clone());
     add("operator", trace.operator.clone());
+    add("reported_as", word(verdict.reported_as.as_deref()));
     columns
 }
 

@@ -18,6 +18,7 @@ use serde::Serialize;
 use super::line::{TimingsLine, status_of};
 use crate::{
     history::Traceability,
+    library::Truth,
     pipeline::{Inspection, NamedRecipe, Recipe, RecipeBlock},
     robot::{Convention, RobotFrame},
     stages::{
@@ -128,6 +129,8 @@ pub struct VerdictBlock {
     pub approximate: bool,
     /// True if what was found reaches the picture's edge: some of it may be missing.
     pub touches_edge: bool,
+    /// What really hung there, if a person reported the acceptance as wrong: a part, `not_enrolled` or `nothing`.
+    pub reported_as: Option<String>,
 }
 
 /// An enrolled part that was looked for, and how likely it is.
@@ -230,6 +233,13 @@ impl PoseReport {
         }
     }
 
+    /// Adds what really hung there, if a person reported the acceptance as wrong.
+    #[must_use]
+    pub fn reported_as(mut self, actual: Option<&Truth>) -> Self {
+        self.verdict.reported_as = actual.map(|truth| truth.name().to_owned());
+        self
+    }
+
     /// Returns the report as indented JSON with a final line end.
     pub fn to_json(&self) -> String {
         let mut json =
@@ -265,6 +275,7 @@ impl VerdictBlock {
             advice,
             approximate: verdict.is_approximate(),
             touches_edge: inspection.touches_edge(),
+            reported_as: None,
         }
     }
 }

@@ -184,7 +184,8 @@ fn verdict(
 ) -> f32 {
     const INDENT: f32 = 16.0;
     let verdict = &report.verdict;
-    let ink = if verdict.accepted { GREEN } else { RED };
+    let is_good = verdict.accepted && verdict.reported_as.is_none();
+    let ink = if is_good { GREEN } else { RED };
     let title = headline(report, pictures);
     let wide = WIDTH - INDENT - 120.0;
     // As large as fits; only the smallest size is truncated.
@@ -199,16 +200,12 @@ fn verdict(
     sheet.text(&title, [MARGIN + INDENT, y], title_style, Anchor::Left);
     y += 21.0;
     let words = match (verdict.accepted, &report.refused_pose) {
+        (true, _) if !is_good => "REPORTED AS WRONG: do not move on this pose",
         (true, _) => "Accepted",
         (false, Some(_)) => "NOT ACCEPTED: do not move on this pose",
         (false, None) => "NOT ACCEPTED: there is no pose",
     };
-    mark(
-        sheet,
-        [MARGIN + INDENT + 5.0, y - 5.0],
-        verdict.accepted,
-        ink,
-    );
+    mark(sheet, [MARGIN + INDENT + 5.0, y - 5.0], is_good, ink);
     sheet.text(
         words,
         [MARGIN + INDENT + 18.0, y],
@@ -240,6 +237,12 @@ fn verdict(
     if let Some(nearest) = nearest.filter(|_| !verdict.accepted && !is_recognised(verdict)) {
         let nearest = pictures.title.unwrap_or(nearest);
         y = text(sheet, &format!("Nearest enrolled part: {nearest}"), BODY, y);
+    }
+    if let Some(actual) = &verdict.reported_as {
+        let actual = actual.replace('_', " ");
+        let says =
+            format!("It was accepted, but a person reported what really hung there: {actual}");
+        y = text(sheet, &says, STRONG, y);
     }
     if let Some(reason) = &verdict.reason {
         y = text(sheet, &facts::sentence(reason), BODY, y);

@@ -98,6 +98,24 @@ pub(super) fn robot() -> RobotFrame {
     }
 }
 
+/// The report of an accepted part that was reported as wrong.
+pub(super) fn reported() -> PoseReport {
+    let report = door().report(Some(&robot()), Convention::Kuka);
+    report.reported_as(Some(&Truth::Part("back_door".into())))
+}
+
+#[test]
+fn a_part_that_was_reported_as_wrong_says_what_it_is() {
+    let json = json(&reported());
+    assert_eq!(json["verdict"]["accepted"], true);
+    assert_eq!(json["verdict"]["reported_as"], "back_door");
+    let schema: serde_json::Value = serde_json::from_str(&PoseReport::json_schema()).expect("JSON");
+    assert_eq!(conforms(&json, &schema, &schema), Ok(()));
+    let other = door().report(Some(&robot()), Convention::Kuka);
+    let json = self::json(&other);
+    assert_eq!(json["verdict"]["reported_as"], serde_json::Value::Null);
+}
+
 fn json(report: &PoseReport) -> serde_json::Value {
     serde_json::from_str(&report.to_json()).expect("JSON")
 }

@@ -14,7 +14,7 @@ pub(in crate::app) use self::{
     set_up::set_up,
     state::{
         apply, close, give_way, outdate_shown, restart_consensus, show_unseen, source_changed,
-        update,
+        tell_if_lost, update,
     },
     status::{card, chip, words},
 };

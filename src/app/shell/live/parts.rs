@@ -10,7 +10,7 @@ use std::{
 use crate::{
     app::shell::current_trace::CurrentTrace,
     capture::SourceSpec,
-    history::{HungId, HungRows, NewEntry, Traceability},
+    history::{HungId, HungRows, NewEntry, TraceChange, Traceability},
 };
 
 /// The parts before a source, one after the other.
@@ -92,12 +92,12 @@ impl FollowedParts {
         (*part == hanging).then_some(trace)
     }
 
-    /// A serial number went to this part after its verdict.
-    pub(in crate::app) fn traced(&mut self, part: &HungId, trace: &Traceability) {
+    /// The traceability of this part changed after its verdict.
+    pub(in crate::app) fn traced(&mut self, part: &HungId, change: &TraceChange) {
         if let Some((counted, known)) = &mut self.counted
             && *counted == *part
         {
-            known.clone_from(trace);
+            *known = mem::take(known).changed(change);
         }
     }
 

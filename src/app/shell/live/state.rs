@@ -23,7 +23,7 @@ use crate::{
             current_trace::CurrentTrace,
             message::{Event, ReinspectionPurpose},
             notice::{Notice, NoticeTopic},
-            session::{Session, Shown, Source, WorkspaceKind},
+            session::{Session, Shown, Source, UserRole, WorkspaceKind},
             state::State,
         },
         task::{Task, TaskEvent, TaskRunner},
@@ -67,6 +67,8 @@ pub struct Follower {
     run: u64,
     /// The notice shown while the source is lost.
     lost: Option<Notice>,
+    /// The newest capture of a watched folder, to be inspected again.
+    again: Option<Arc<Inspected>>,
 }
 
 impl Follower {
@@ -81,6 +83,7 @@ impl Follower {
             session: 0,
             run: 0,
             lost: None,
+            again: None,
         }
     }
 
@@ -209,6 +212,7 @@ fn start(state: &mut State) {
         return;
     }
     state.follower.session += 1;
+    state.follower.again = None;
     state.session.failed = None;
     remove_notices(state, NoticeTopic::Following);
     remove_notices(state, NoticeTopic::LiveEnded);
@@ -240,6 +244,7 @@ fn follow_source(state: &mut State) {
         parts: Arc::clone(&state.session.live.parts),
         recorder: state.follower.recorder.clone(),
         run: state.follower.run,
+        again: state.follower.again.clone(),
     };
     state.session.live.is_on = true;
     state.session.live.status = None;
@@ -251,9 +256,25 @@ fn follow_source(state: &mut State) {
 /// Starts over after a change of something that verdicts depend on, so that no earlier verdict counts. Does nothing if no
 /// source is followed.
 pub(in crate::app) fn restart_consensus(state: &mut State) {
-    if state.session.is_live() {
-        follow_anew(state);
+    if !state.session.is_live() {
+        return;
     }
+    // A camera shows its part again; a folder does not.
+    if state.session.is_watching()
+        && let Some(newest) = newest(&state.session)
+    {
+        state.follower.again = Some(newest);
+    }
+    follow_anew(state);
+}
+
+/// The inspection of the newest capture, unless that has no result or may no longer hang there.
+fn newest(session: &Session) -> Option<Arc<Inspected>> {
+    let shown = session.shown.as_ref();
+    let shown = shown.filter(|shown| !shown.is_past && !shown.is_outdated);
+    let unseen = session.live.unseen.as_ref();
+    let newest = unseen.or(shown.map(|shown| &shown.inspected));
+    newest.filter(|_| session.failed.is_none()).cloned()
 }
 
 /// Stops following, if a source is followed, and closes the camera, because something else comes to the front.
@@ -345,10 +366,12 @@ pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
 fn take_record(state: &mut State, record: LiveRecord) -> Option<Event> {
     match record {
         LiveRecord::Counts { inspected, run } => {
+            remove_notices(state, NoticeTopic::Scene);
             for warning in &inspected.warnings {
-                notify(state, UserError::of(warning).into());
+                notify(state, Notice::of_scene(&inspected.origin, warning));
             }
             if run == state.follower.run {
+                state.follower.again = None;
                 show(state, Arc::clone(&inspected));
             }
             let purpose = ReinspectionPurpose::New;
@@ -364,6 +387,7 @@ fn take_record(state: &mut State, record: LiveRecord) -> Option<Event> {
             // In a watched folder it was the capture of another part, which has no verdict now. The notice stays until it is
             // dismissed: the next capture may come before anybody has looked.
             if run == state.follower.run && state.session.is_watching() {
+                state.follower.again = None;
                 state.session.live.unseen = None;
                 state.session.failed = Some(if is_fault {
                     UserError {
@@ -465,15 +489,15 @@ pub(in crate::app) fn outdate_shown(state: &mut State) {
     }
 }
 
-/// Shows a notice while the source is lost.
+/// Shows a notice while the source is lost. The operator's view says it in other words.
 fn watch_source(state: &mut State, source: &SourceState) {
     match source {
         SourceState::Lost(trouble) => {
             let notice = Notice::from(trouble.clone());
             if state.follower.lost.as_ref() != Some(&notice) {
                 dismiss_lost_notice(state);
-                notify(state, notice.clone());
                 state.follower.lost = Some(notice);
+                tell_if_lost(state);
             }
         }
         SourceState::Opening => {}
@@ -483,6 +507,17 @@ fn watch_source(state: &mut State, source: &SourceState) {
             }
         }
     }
+}
+
+/// Returns whether the source is lost, and shows the engineer why.
+pub(in crate::app) fn tell_if_lost(state: &mut State) -> bool {
+    let Some(lost) = state.follower.lost.clone() else {
+        return false;
+    };
+    if state.session.role == UserRole::Engineer {
+        notify(state, lost);
+    }
+    true
 }
 
 /// Removes the notice about the lost source; true if there was one.
@@ -511,7 +546,8 @@ mod tests {
                 roles::RoleAction,
             },
         },
-        capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
+        capture::{CaptureError, CaptureWarning, Captured, DepthSource, Image, NextCapture},
+        files::FileWarning,
         geometry::rigid::RigidTransform,
         history::StoredVerdict,
         kit::HangingPart,
@@ -648,6 +684,25 @@ mod tests {
         assert!(state.session.failed.is_none() && state.session.is_live());
     }
 
+    #[test]
+    fn a_warning_about_a_capture_goes_when_the_next_one_is_inspected() {
+        let mut state = watching();
+        toggle(&mut state);
+        let odd = CaptureWarning::File(FileWarning::SurplusBytes { num: 7 });
+        for warnings in [vec![odd], Vec::new()] {
+            let num = warnings.len();
+            let inspected = Arc::new(Inspected {
+                warnings,
+                ..inspected_cell(CellChoice::InTurn, 1)
+            });
+            let run = state.follower.run;
+            take_record(&mut state, LiveRecord::Counts { inspected, run });
+            let mut notices = state.notices.clone();
+            notices.retain(|notice| notice.topic == NoticeTopic::Scene);
+            assert_eq!(notices.len(), num, "{notices:?}");
+        }
+    }
+
     /// A capture without an inspection.
     fn skipped(state: &State, is_fault: bool) -> LiveRecord {
         LiveRecord::Skipped {
@@ -714,6 +769,44 @@ mod tests {
     }
 
     #[test]
+    fn after_a_save_the_newest_capture_of_a_folder_is_inspected_again_and_live_goes_on() {
+        let mut state = watching();
+        toggle(&mut state);
+        let (enrolled, record) = counts(&state, 1);
+        read(&mut state, vec![record], &enrolled);
+        apply_any(&mut state, Action::GoTo(WorkspaceKind::Enrol));
+        let (newest, record) = counts(&state, 2);
+        read(&mut state, vec![record], &newest);
+        state.session.trace.set_serial("4711");
+        // The second change comes before the first inspection is there.
+        for _ in 0..2 {
+            let saved = Some(enrolled.again());
+            state.library_changed(&enrolled.library, saved);
+            assert!(state.session.is_live() && state.notices.is_empty());
+            assert!(state.session.current_result().is_none());
+        }
+        let source = state.session.source.followed().expect("a folder");
+        assert!(state.follower.task.run_waiting());
+        let events = update(&mut state);
+        let mut events = events.iter().filter_map(|event| match event {
+            Event::Inspected { inspected, .. } => Some(inspected),
+            _ => None,
+        });
+        let again = events.next().expect("inspected");
+        assert!(Arc::ptr_eq(&again.scene, &newest.scene));
+        let summary = &again.entry.record.summary;
+        assert_eq!(
+            (&summary.hung, &summary.trace),
+            (newest.hung(), newest.trace())
+        );
+        assert_eq!(summary.source, source.to_string());
+        // The serial number is of the capture after it.
+        let next = events.next().expect("another capture");
+        assert_eq!(next.trace().serial, "4711");
+        assert!(events.all(|other| !Arc::ptr_eq(&other.scene, &enrolled.scene)));
+    }
+
+    #[test]
     fn a_serial_number_scanned_behind_another_workspace_is_of_the_part_inspected_last() {
         let mut state = watching();
         toggle(&mut state);
@@ -726,15 +819,15 @@ mod tests {
         state.session.enter_scanned("4711", 0.0);
         apply_any(&mut state, Action::GoTo(WorkspaceKind::History));
         let second = hung(&mut state, 2);
-        // The first is not the part at hand any more: its number is written.
-        let Some(Event::TracedLate(part, _)) = current_trace::settle(&state.session, 1.0) else {
-            panic!("not written");
+        let events = current_trace::settle(&state.session, 1.0);
+        let [Event::TracedLate(part, _)] = events.as_slice() else {
+            panic!("not written: {events:?}");
         };
-        assert_eq!(part, first);
+        assert_eq!(*part, first);
         state.session.enter_scanned("4712", 2.0);
         assert!(state.session.trace.is_late_of(&second));
         assert_eq!(state.session.trace.get().serial, "");
-        assert!(current_trace::settle(&state.session, 3.0).is_none());
+        assert_eq!(current_trace::settle(&state.session, 3.0).len(), 1);
         let known = state.session.enter_scanned("4712", 4.0).expect("said");
         assert!(known.what.contains("already"), "{known:?}");
     }

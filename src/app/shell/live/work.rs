@@ -11,10 +11,10 @@ use super::parts::FollowedParts;
 use crate::{
     app::{
         inspection::{
-            inspected::{FinishedInspection, Inspected, LiveFrameContext},
+            inspected::{FinishedInspection, InspectRequest, Inspected, LiveFrameContext, inspect},
             library_cache::LibraryCache,
             recording::Recorded,
-            source::Captured as SceneOrigin,
+            source::{Captured as SceneOrigin, SceneSource},
         },
         shell::current_trace::CurrentTrace,
         task::{TaskContext, TaskError},
@@ -51,6 +51,8 @@ pub(super) struct LiveStart {
     pub(super) recorder: SyncSender<LiveRecord>,
     /// Number of the run, for [`LiveRecord`].
     pub(super) run: u64,
+    /// The newest capture, if it is to be inspected again before the next ones.
+    pub(super) again: Option<Arc<Inspected>>,
 }
 
 impl LiveStart {
@@ -271,6 +273,13 @@ impl<'a> LiveSession<'a> {
 
     fn follow(mut self, feed: &Feed) -> Result<LiveAnswer, TaskError> {
         self.dropped_before = feed.status().num_dropped;
+        if let Some(before) = &self.request.again {
+            match guarded(|| self.inspect_again(before)) {
+                Ok(inspected) => inspected?,
+                Err(fault) => self.fails_at(before.origin.title(), &fault),
+            }
+            self.publish_status(feed);
+        }
         loop {
             self.context.check()?;
             match feed.wait(TURN) {
@@ -328,6 +337,27 @@ impl<'a> LiveSession<'a> {
         send(&self.request.recorder, record);
         // The next status is published, which wakes the window.
         self.told = None;
+    }
+
+    /// Inspects a capture again, as another inspection of its part.
+    fn inspect_again(&mut self, before: &Inspected) -> Result<(), TaskError> {
+        let mut scene = Arc::clone(&before.scene);
+        if scene.empty_cell.as_ref().map(Arc::as_ptr) != self.empty_cell.map(Arc::as_ptr) {
+            Arc::make_mut(&mut scene).empty_cell = self.empty_cell.cloned();
+        }
+        let request = InspectRequest {
+            source: SceneSource::AtHand(scene, before.origin.clone()),
+            recipe: Arc::clone(self.recipe),
+        };
+        let watching = SilentContext(self.context);
+        let mut inspected = inspect(&request, self.library_cache, &watching)?;
+        let summary = &mut inspected.entry.record.summary;
+        summary.source = self.spec.to_string();
+        summary.hung = before.hung().clone();
+        summary.trace = before.trace().clone();
+        self.num_inspected += 1;
+        self.record_counted(Arc::new(inspected));
+        Ok(())
     }
 
     /// Inspects a frame.
@@ -455,12 +485,19 @@ impl<'a> LiveSession<'a> {
         }
         drop(parts);
         let inspected = Arc::new(inspected);
-        self.inspected = Some(Arc::clone(&inspected));
         if matches!(role, FrameRole::First | FrameRole::Again) {
-            let run = self.request.run;
-            let record = LiveRecord::Counts { inspected, run };
-            send(&self.request.recorder, record);
+            self.record_counted(inspected);
+        } else {
+            self.inspected = Some(inspected);
         }
+    }
+
+    /// Keeps an inspection to be shown, and records it.
+    fn record_counted(&mut self, inspected: Arc<Inspected>) {
+        self.inspected = Some(Arc::clone(&inspected));
+        let run = self.request.run;
+        let record = LiveRecord::Counts { inspected, run };
+        send(&self.request.recorder, record);
     }
 
     /// Publishes the status if another frame was inspected or the state of the source has changed.

@@ -17,7 +17,7 @@ pub use super::session::UserRole;
 use super::{
     action::{Action, Effect, apply as apply_any, notify},
     live,
-    notice::Notice,
+    notice::{Notice, NoticeTopic},
     session::WorkspaceKind,
     state::State,
 };
@@ -190,8 +190,9 @@ pub(in crate::app) fn apply(state: &mut State, action: RoleAction) -> Option<Eff
 fn switch_to_operator(state: &mut State) {
     state.session.role = UserRole::Operator;
     state.roles.asked = None;
-    // They are about the engineer's work.
-    state.notices.clear();
+    // The others are about the engineer's work.
+    let is_everyones = |notice: &Notice| notice.topic == NoticeTopic::SecondWindow;
+    state.notices.retain(is_everyones);
     if !is_operators(state.session.workspace) {
         state.session.workspace = WorkspaceKind::Inspect;
         live::show_unseen(state);
@@ -218,6 +219,7 @@ fn enter(state: &mut State) -> Option<Effect> {
             }
             state.session.role = UserRole::Engineer;
             state.report_library();
+            live::tell_if_lost(state);
             return apply_any(state, *then?);
         }
         RoleQuestion::NewPin if digits.len() < pin::LEAST_DIGITS => {

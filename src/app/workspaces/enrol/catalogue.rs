@@ -44,6 +44,8 @@ struct CardContent<'a> {
     texture: Option<&'a egui::TextureHandle>,
     is_damaged: bool,
     latest: Option<String>,
+    /// Title of the part that it is a reference of.
+    reference_of: Option<&'a str>,
 }
 
 impl Catalogue {
@@ -94,6 +96,7 @@ impl Catalogue {
                         texture: None,
                         is_damaged: true,
                         latest: None,
+                        reference_of: None,
                     };
                     card(ui, &shown, enrol, actions);
                 }
@@ -103,13 +106,18 @@ impl Catalogue {
                 for (place, part) in parts {
                     let latest = enrol.latest.as_ref();
                     let latest = latest.filter(|latest| latest.name == part.name);
+                    let reference_of = part.reference_of().map(|of| library.title_of(of.as_str()));
+                    let [day, seen] = when(part);
+                    let beneath =
+                        reference_of.map_or(seen, |of| text!("enrol-tile-reference", part = of));
                     let shown = CardContent {
                         name: part.name.as_str(),
                         title: part.shown_title(),
-                        below: when(part),
+                        below: [day, beneath],
                         texture: thumbnails.of_part(place),
                         is_damaged: false,
                         latest: latest.map(|latest| latest.what.shown()),
+                        reference_of,
                     };
                     let response = card(ui, &shown, enrol, actions);
                     if latest.is_some() && !wants_more {
@@ -200,12 +208,20 @@ fn card(
         at.y += height + 2.0;
     }
     focus_ring(ui, rect, &response);
+    let reference = shown.reference_of;
+    let reference = reference.map(|of| text!("enrol-reference-choice", part = of));
+    let facts = [&shown.latest, &reference].map(Option::as_deref);
+    let facts: Vec<&str> = facts.into_iter().flatten().collect();
     response.widget_info(|| {
         let label = text!("enrol-enrolled", part = shown.title);
         let mut info = egui::WidgetInfo::selected(egui::Role::Button, true, is_open, label);
-        info.current_text_value.clone_from(&shown.latest);
+        info.current_text_value = (!facts.is_empty()).then(|| facts.join(" · "));
         info
     });
+    let response = match &reference {
+        Some(reference) => response.on_hover_text(reference),
+        None => response,
+    };
     if response.gained_focus() {
         response.scroll_to_me(None);
     }

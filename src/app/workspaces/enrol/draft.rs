@@ -1,6 +1,6 @@
 //! The part that is about to be enrolled, and the form that describes it.
 
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +14,7 @@ use crate::{
     library::{
         BadName, EnrolError, MAX_TITLE, PartMeta, PartName, PartNaming, SharedTitle, Similarity,
     },
+    stages::scene::SceneCloud,
 };
 
 /// The part that is about to be enrolled.
@@ -31,6 +32,8 @@ pub struct Draft {
     pub checked: Option<Result<Arc<Checked>, EnrolError>>,
     /// The form that describes the part.
     pub form: Form,
+    /// The scene that Inspect showed when the draft was taken, if any.
+    pub(super) in_front: Weak<SceneCloud>,
 }
 
 impl Draft {

@@ -1,7 +1,8 @@
 //! The draft file: if the program is killed, only seconds of work on the draft are lost.
 //!
 //! The file keeps what a person did: the form, the corrections and the origin of the scene, but not the scene itself. A
-//! frame of the simulated cell, a file or a scan can be obtained again; of a camera frame, only the form comes back.
+//! frame of the simulated cell, a file or a scan can be obtained again; of a camera frame, only what a person wrote into the
+//! form comes back, because the next frame may show another part.
 
 use std::{
     path::{Path, PathBuf},

@@ -1,15 +1,18 @@
 //! Gets another draft: from a scene, a file, or the shots of a scan.
 
-use std::{path::Path, sync::Arc};
+use std::{
+    path::Path,
+    sync::{Arc, Weak},
+};
 
 use super::{
     action::{EnrolAction, EnrolFile},
-    draft::Draft,
+    draft::{Draft, Field},
     kept::KeptDraft,
     selection::{Corrections, Selection},
     state::{DraftJob, EnrolState, form_of},
     subject::EnrolInput,
-    undo::UndoStep,
+    undo::{UndoStep, scene_in_front},
     work,
 };
 use crate::app::{
@@ -97,7 +100,10 @@ impl EnrolState {
         match self.shots.apply(action, used) {
             Ok(None) => {}
             Ok(Some((order, asked))) => {
-                if let ScanOrder::Open(files) = &order {
+                // Live goes on with its own source.
+                if let ScanOrder::Open(files) = &order
+                    && !cx.session.is_live()
+                {
                     cx.send(Message::UseSource(Source::Scan(files.clone())));
                 }
                 let title = order.title();
@@ -107,7 +113,8 @@ impl EnrolState {
         }
     }
 
-    /// Installs a new draft. The former one can be brought back; its form is kept, as it may describe the same part.
+    /// Installs a new draft. The former one can be brought back; its form is kept, as it may describe the same part. Of the
+    /// form of an earlier start, what a person wrote is kept.
     pub(super) fn taken(
         &mut self,
         subject: Arc<EnrolInput>,
@@ -130,9 +137,16 @@ impl EnrolState {
         let library = cx.session.library.as_deref();
         let replaced = self.replacing.as_ref().filter(|_| !is_again);
         let replaced = replaced.and_then(|name| form_of(name, library));
-        let written = former.as_ref().map(|former| &former.form);
-        let written = written.or_else(|| coming.as_ref().map(|coming| &coming.form));
-        let form = replaced.or_else(|| written.cloned()).unwrap_or_default();
+        let written = former.as_ref().map(|former| former.form.clone());
+        let written = written.or_else(|| {
+            let mut form = coming.as_ref()?.form.clone();
+            if !is_again {
+                // This scene may be of another part.
+                form.write(Field::ReferenceOf(None), library);
+            }
+            Some(form)
+        });
+        let form = replaced.or(written).unwrap_or_default();
         if let Some(former) = former {
             self.did(UndoStep::Draft(Some(Box::new(former))), cx);
         }
@@ -153,6 +167,11 @@ impl EnrolState {
             selection,
             checked: None,
             form,
+            in_front: if is_again {
+                Weak::new()
+            } else {
+                scene_in_front(cx.session)
+            },
         });
         if let Some(coming) = coming.filter(|_| is_again) {
             self.correct_again(coming, cx);

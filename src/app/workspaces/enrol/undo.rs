@@ -20,7 +20,7 @@ use crate::{
             source::SceneSource,
         },
         language::text,
-        shell::{context::ShellContext, message::Message, notice::Notice},
+        shell::{context::ShellContext, message::Message, notice::Notice, session::Session},
     },
     library::PartName,
     stages::scene::SceneCloud,
@@ -256,7 +256,9 @@ impl EnrolState {
             let kept = going.as_ref().filter(|_| way != UndoDirection::Back);
             self.saved_from = kept.and_then(|draft| SavedMatter::of(draft));
             if way == UndoDirection::First {
-                saved = going.as_deref().and_then(inspectable);
+                let newest = going.as_deref();
+                let newest = newest.filter(|draft| self.is_newest(draft, cx.session));
+                saved = newest.and_then(inspectable);
             }
             self.draft = coming.map(|draft| *draft);
             *other = going;
@@ -272,6 +274,13 @@ impl EnrolState {
         cx.send(Message::WithdrawUndo);
         cx.notify(notice);
         self.look(cx);
+    }
+
+    /// True if nothing has been captured since the draft's scene.
+    fn is_newest(&self, draft: &Draft, session: &Session) -> bool {
+        let is_last = draft.number == self.num_drafts && !self.is_taking_another();
+        let is_same_in_front = draft.in_front.ptr_eq(&scene_in_front(session));
+        is_last && is_same_in_front && session.live.unseen.is_none()
     }
 
     /// Puts the step of a failed change back, so that it can be undone or redone later.
@@ -370,6 +379,12 @@ impl EnrolState {
         self.steps.push(back);
         cx.send(Message::WithdrawUndo);
     }
+}
+
+/// The scene that Inspect shows, compared by identity.
+pub(super) fn scene_in_front(session: &Session) -> Weak<SceneCloud> {
+    let shown = session.shown.as_ref();
+    shown.map_or_else(Weak::new, |shown| Arc::downgrade(&shown.inspected.scene))
 }
 
 /// Returns the part of a draft that can be inspected; `None` for a mesh.

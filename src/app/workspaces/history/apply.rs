@@ -25,7 +25,7 @@ use crate::{
         task::TaskEvent,
         user_error::UserError,
     },
-    history::{HistoryEvent, HungId, NewEntry, PruneResult, Retention, SetAside, Traceability},
+    history::{HistoryEvent, HungId, NewEntry, PruneResult, Retention, SetAside, TraceChange},
     library::Truth,
 };
 
@@ -111,8 +111,8 @@ pub enum Direction {
 pub enum HistoryJob {
     /// Write an inspection; the ticket is returned with its number.
     Add(u64, Box<NewEntry>),
-    /// Add traceability that arrived after the verdict to the rows of its part.
-    Trace(HungId, Traceability),
+    /// Change the traceability in the rows of a part.
+    Trace(HungId, TraceChange),
     /// Write a remark.
     Remark(i64, String),
     /// Write a true label.
@@ -165,6 +165,7 @@ impl HistoryState {
             }
             HistoryAction::Remark(number, remark) => self.remark(number, remark),
             HistoryAction::Label(number, label) => {
+                self.asks_actual_part = false;
                 self.asked();
                 self.jobs.push(HistoryJob::Label(number, label));
             }
@@ -201,6 +202,7 @@ impl HistoryState {
         let is_other = self.selected != Some(number);
         self.selects(number);
         if is_other {
+            self.asks_actual_part = false;
             self.look(cx);
         }
     }
@@ -221,8 +223,8 @@ impl HistoryState {
                 ReinspectionPurpose::Past => self.remade(inspected, cx),
             },
             Event::Left(entry) => self.keep((**entry).clone(), None),
-            Event::TracedLate(hung, trace) => {
-                let job = HistoryJob::Trace(hung.clone(), trace.clone());
+            Event::TracedLate(hung, change) => {
+                let job = HistoryJob::Trace(hung.clone(), change.clone());
                 self.jobs.push(job);
             }
             Event::EngineerIn => {
@@ -232,9 +234,16 @@ impl HistoryState {
             }
             Event::WrongPart => {
                 self.choose_newest();
+                self.asks_actual_part = true;
                 self.look(cx);
             }
-            Event::PosesWanted(_) | Event::Export | Event::Escape | Event::Undo => {}
+            Event::Escape => {
+                let is_in_front = cx.session.workspace == WorkspaceKind::History;
+                if is_in_front && cx.session.role == UserRole::Operator {
+                    cx.send(Message::GoTo(WorkspaceKind::Inspect));
+                }
+            }
+            Event::PosesWanted(_) | Event::Export | Event::Undo => {}
         }
     }
 
@@ -246,6 +255,9 @@ impl HistoryState {
 
     /// Takes in the results of the tasks and of the file dialog.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        if cx.session.workspace != WorkspaceKind::History {
+            self.asks_actual_part = false;
+        }
         while let Some(event) = self.looking.poll() {
             match event {
                 TaskEvent::Partial(looked) | TaskEvent::Done(looked) => self.receive(*looked, cx),

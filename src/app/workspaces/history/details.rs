@@ -71,7 +71,12 @@ impl Details {
         // The bar is beside the figures, not over them.
         ui.spacing_mut().scroll.floating_allocated_width = space::SMALL;
         area.show(ui, |ui| {
-            verdict(ui, record, session);
+            verdict(ui, record, of_part, session);
+            if history.asks_actual_part {
+                ui.add_space(space::SMALL);
+                let text = RichText::new(text!("history-choose-actual-part"));
+                ui.label(text.font(font::body_strong()).color(Theme::of(ui).warning));
+            }
             let is_edited = self.remark.ui(ui, &of_part.summary, session, actions);
             // The next inspection must not take the place of one that is being edited.
             if is_edited && !history.is_chosen() {
@@ -134,29 +139,36 @@ impl Details {
     }
 }
 
-fn verdict(ui: &mut Ui, record: &Record, session: &Session) {
+fn verdict(ui: &mut Ui, record: &Record, of_part: &Record, session: &Session) {
     let theme = Theme::of(ui);
-    let summary = &record.summary;
+    let summary = Summary {
+        label: of_part.summary.label.clone(),
+        ..record.summary.clone()
+    };
+    let summary = &summary;
     let title = RichText::new(stored_title(summary)).font(font::title());
     ui.label(title);
-    let (sign, colour) = match summary.verdict {
-        StoredVerdict::Accepted => (Mark::Good, theme.accepted),
-        StoredVerdict::Rejected | StoredVerdict::Unknown | StoredVerdict::NoPart => {
-            (Mark::Bad, theme.rejected)
-        }
+    let (sign, colour) = if summary.is_ok() {
+        (Mark::Good, theme.accepted)
+    } else {
+        (Mark::Bad, theme.rejected)
     };
     // An empty cell is not a bad part: its title says all.
     if summary.verdict != StoredVerdict::NoPart {
         ui.horizontal(|ui| {
             line_mark(ui, 20.0, 9.0, sign);
-            let word = accepted_or_not(summary.verdict == StoredVerdict::Accepted);
+            let word = if summary.is_wrongly_accepted() {
+                text!("operator-reported-wrong")
+            } else {
+                accepted_or_not(summary.is_ok())
+            };
             let word = RichText::new(word).font(font::verdict());
             ui.label(word.color(colour));
         });
     }
     if summary.is_simulated {
         let text = text!("history-simulated");
-        ui.label(RichText::new(text).color(theme.warning));
+        ui.label(RichText::new(text).color(Theme::of(ui).warning));
     }
     let title_of = |name: &str| match &session.library {
         Some(library) => library.title_of(name).to_owned(),
@@ -165,7 +177,7 @@ fn verdict(ui: &mut Ui, record: &Record, session: &Session) {
     if let Some([reason, advice]) = stored_refusal(record, title_of) {
         ui.label(sentence(&reason));
         let advice = RichText::new(advice).font(font::body_strong());
-        ui.label(advice.color(theme.warning));
+        ui.label(advice.color(Theme::of(ui).warning));
     }
 }
 

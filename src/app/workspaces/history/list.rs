@@ -340,10 +340,10 @@ fn row(
 
 fn paint(painter: &Painter, rect: Rect, past: &Summary, layout: &Layout, theme: &Theme) {
     let sign = match past.verdict {
-        StoredVerdict::Accepted => Mark::Good,
-        StoredVerdict::Rejected | StoredVerdict::Unknown => Mark::Bad,
         // An empty cell is not a bad part.
         StoredVerdict::NoPart => Mark::Open,
+        _ if past.is_ok() => Mark::Good,
+        _ => Mark::Bad,
     };
     let at = pos2(rect.left() + 20.0, rect.center().y);
     mark(painter, at, 9.0, sign, theme);

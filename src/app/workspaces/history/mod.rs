@@ -123,7 +123,7 @@ impl HistoryWorkspace {
         for job in self.state.jobs.drain(..) {
             match job {
                 HistoryJob::Add(ticket, entry) => self.writer.add(ticket, *entry),
-                HistoryJob::Trace(hung, known) => self.writer.trace(hung, known),
+                HistoryJob::Trace(hung, change) => self.writer.trace(hung, change),
                 HistoryJob::Remark(number, remark) => self.writer.remark(number, remark),
                 HistoryJob::Label(number, label) => self.writer.label(number, label),
                 HistoryJob::Keep(rule) => self.writer.retention(rule),

@@ -35,6 +35,10 @@ const MARGIN: usize = 100;
 
 /// State of the workspace.
 #[derive(Debug)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "four independent facts about the list and what is told of it"
+)]
 pub struct HistoryState {
     /// The filter of the list.
     pub filter: ListFilter,
@@ -52,6 +56,8 @@ pub struct HistoryState {
     pub selected: Option<i64>,
     /// Whether the selection follows the newest inspection.
     selection: Selection,
+    /// True while the operator, who saw a wrong part, is to choose what the selected one really is.
+    pub(super) asks_actual_part: bool,
     /// The selected inspection in full, once fetched.
     pub record: Option<Arc<OpenedInspection>>,
     /// The retention rule, and the space that kept frames take.
@@ -141,6 +147,7 @@ impl HistoryState {
             visible: 0..0,
             selected: None,
             selection: Selection::Newest,
+            asks_actual_part: false,
             record: None,
             kept: Default::default(),
             frames: None,

@@ -29,20 +29,21 @@ const MAX_SHIFTS: usize = 21;
 /// Height of the plot, logical pixels.
 const HEIGHT: f32 = 220.0;
 
-/// Numbers of accepted and not accepted parts.
+/// Numbers of parts that are OK and not OK.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// Accepted parts.
+    /// Accepted parts, except those that were reported as wrong.
     pub num_ok: usize,
-    /// Not accepted parts.
+    /// All other parts.
     pub num_not_ok: usize,
 }
 
 impl Tally {
-    fn add(&mut self, verdict: StoredVerdict) {
-        *match verdict {
-            StoredVerdict::Accepted => &mut self.num_ok,
-            _ => &mut self.num_not_ok,
+    fn add(&mut self, is_ok: bool) {
+        *if is_ok {
+            &mut self.num_ok
+        } else {
+            &mut self.num_not_ok
         } += 1;
     }
 
@@ -50,7 +51,7 @@ impl Tally {
         self.num_ok + self.num_not_ok
     }
 
-    /// Percentage accepted.
+    /// Percentage that is OK.
     fn share(self) -> String {
         format!(
             "{:.1} %",
@@ -59,13 +60,15 @@ impl Tally {
     }
 }
 
-/// Groups of refusals.
+/// Groups of parts that are not OK.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ReasonGroup {
     /// By kind.
     Kind(RefusalKind),
     /// By an English sentence without names and figures, where the kind is unknown.
     Sentence(String),
+    /// Accepted, but reported as wrong.
+    ReportedWrong,
 }
 
 impl ReasonGroup {
@@ -83,6 +86,7 @@ impl ReasonGroup {
         match self {
             Self::Kind(kind) => refusal_kind(*kind),
             Self::Sentence(text) => text.clone(),
+            Self::ReportedWrong => text!("operator-reported-wrong"),
         }
     }
 }
@@ -147,18 +151,23 @@ pub(super) fn count(
             found.shifts.push((start, Tally::default()));
         }
         if let Some((_, tally)) = found.shifts.last_mut() {
-            tally.add(outcome.verdict);
+            tally.add(outcome.is_ok);
         }
         let title = match outcome.verdict {
             StoredVerdict::Unknown => None,
             _ => Some(title_of(outcome.part.as_deref().unwrap_or_default())),
         };
-        if let Some(reason) = &outcome.reason {
-            *reasons
-                .entry(ReasonGroup::of(reason, &title_of))
-                .or_default() += 1;
+        let reason = match &outcome.reason {
+            Some(reason) => Some(ReasonGroup::of(reason, &title_of)),
+            None if outcome.verdict == StoredVerdict::Accepted && !outcome.is_ok => {
+                Some(ReasonGroup::ReportedWrong)
+            }
+            None => None,
+        };
+        if let Some(reason) = reason {
+            *reasons.entry(reason).or_default() += 1;
         }
-        parts.entry(title).or_default().add(outcome.verdict);
+        parts.entry(title).or_default().add(outcome.is_ok);
     }
     found.parts = parts.into_iter().collect();
     found
@@ -369,6 +378,7 @@ mod tests {
         PartOutcome {
             at: format!("2026-11-21T{time}Z").parse().expect("a moment"),
             verdict,
+            is_ok: verdict == StoredVerdict::Accepted,
             part: Some(part.to_owned()),
             reason,
         }
@@ -415,6 +425,22 @@ mod tests {
                 (Some("fender".into()), fender)
             ]
         );
+    }
+
+    #[test]
+    fn an_accepted_part_that_was_reported_as_wrong_is_counted_as_not_ok() {
+        let accepted = outcome("07:00:00", StoredVerdict::Accepted, "door", None);
+        let wrong = PartOutcome {
+            is_ok: false,
+            ..accepted.clone()
+        };
+        let found = counted(&[accepted, wrong]);
+        let tally = Tally {
+            num_ok: 1,
+            num_not_ok: 1,
+        };
+        assert_eq!(found.parts, [(Some("Door, left".into()), tally)]);
+        assert_eq!(found.reasons, [(ReasonGroup::ReportedWrong, 1)]);
     }
 
     #[test]

@@ -199,7 +199,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline) {
     let bar = Rect::from_min_max(rect.min + vec2(0.0, 2.0), rect.max - vec2(0.0, 2.0));
     painter.rect_filled(bar, ROUNDING, theme.track);
     let width = bar.width() * score.clamp(0.0, 1.0) as f32;
-    let fill = if headline.is_accepted {
+    let fill = if headline.is_accepted && headline.actual.is_none() {
         theme.accepted
     } else if headline.is_open {
         theme.warning

@@ -12,7 +12,7 @@ use crate::{
             },
             text,
         },
-        shell::session::Session,
+        shell::{session::Session, truth_menu::truth_title},
         ui::{
             theme::{Theme, font, space},
             widgets::{Mark, line_mark, sentence, wrapped},
@@ -31,12 +31,24 @@ pub(super) struct Headline {
     pub(super) is_open: bool,
     /// True if nothing hangs there: an empty cell is not a bad part.
     is_no_part: bool,
+    /// Title of what really hung there, if the acceptance was reported as wrong.
+    pub(super) actual: Option<String>,
     /// Why it is not accepted, and what to do.
     pub(super) complaint: Option<(String, String)>,
 }
 
 impl Headline {
     pub(super) fn of(inspected: &Inspected, session: &Session) -> Self {
+        let verdict = Self::of_verdict(inspected, session);
+        let actual = session.shift.reported_as(inspected);
+        let actual = actual.filter(|_| verdict.is_accepted);
+        Self {
+            actual: actual.map(|truth| truth_title(Some(truth), &inspected.library)),
+            ..verdict
+        }
+    }
+
+    fn of_verdict(inspected: &Inspected, session: &Session) -> Self {
         if let Some(followed) = &inspected.followed
             && inspected.is_open()
         {
@@ -63,6 +75,7 @@ impl Headline {
                         is_accepted: true,
                         is_open: false,
                         is_no_part: false,
+                        actual: None,
                         complaint: None,
                     },
                     // The type is certain; model or make differs.
@@ -79,6 +92,7 @@ impl Headline {
                         is_accepted: false,
                         is_open: false,
                         is_no_part: false,
+                        actual: None,
                         complaint: Some((rejection(reason), rejection_advice(reason))),
                     },
                     Some(reason) if is_recognised([*score, *margin], &inspected.recipe.accept) => {
@@ -88,6 +102,7 @@ impl Headline {
                             is_accepted: false,
                             is_open: false,
                             is_no_part: false,
+                            actual: None,
                             complaint: Some((rejection(reason), rejection_advice(reason))),
                         }
                     }
@@ -105,6 +120,7 @@ impl Headline {
                         is_accepted: false,
                         is_open: false,
                         is_no_part: false,
+                        actual: None,
                         complaint: Some((rejection(reason), rejection_advice(reason))),
                     },
                 }
@@ -115,6 +131,7 @@ impl Headline {
                 is_accepted: false,
                 is_open: false,
                 is_no_part: true,
+                actual: None,
                 complaint: Some((unrecognisable(reason), unrecognisable_advice(reason))),
             },
         }
@@ -161,6 +178,7 @@ impl Headline {
             is_accepted: false,
             is_open: true,
             is_no_part: false,
+            actual: None,
             complaint: Some(complaint),
         }
     }
@@ -175,7 +193,10 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
         &font::far_names(),
         2,
     )));
-    let (sign, word, colour) = if headline.is_accepted {
+    let (sign, word, colour) = if headline.actual.is_some() {
+        let word = text!("operator-reported-wrong");
+        (Mark::Bad, word, theme.rejected)
+    } else if headline.is_accepted {
         (Mark::Good, accepted_or_not(true), theme.accepted)
     } else if headline.is_open {
         (Mark::Look, text!("inspect-not-accepted-yet"), theme.warning)
@@ -187,6 +208,10 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
             line_mark(ui, 32.0, 14.0, sign);
             ui.label(RichText::new(word).font(font::far_verdict()).color(colour));
         });
+    }
+    if let Some(actual) = &headline.actual {
+        let text = text!("shell-actual-part", part = actual);
+        wrapped(ui, &text, &font::far_reason(), theme.text);
     }
     if let Some(nearest) = &headline.nearest {
         ui.weak(text!("inspect-nearest", part = nearest));
@@ -218,7 +243,33 @@ pub(super) fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::inspection::{inspected::inspected_cell, source::CellChoice};
+    use crate::{
+        app::inspection::{inspected::inspected_cell, source::CellChoice},
+        library::Truth,
+    };
+
+    #[test]
+    fn a_part_that_was_reported_as_wrong_is_called_so_with_what_it_is() {
+        let found = inspected_cell(CellChoice::InTurn, 1);
+        let mut session = Session::default();
+        assert_eq!(Headline::of(&found, &session).actual, None);
+        session.shift.labelled = Some((found.hung().clone(), Truth::NotEnrolled));
+        let headline = Headline::of(&found, &session);
+        assert_eq!(headline.actual.as_deref(), Some("Not enrolled"));
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        let output = ctx.run_ui(egui::RawInput::default(), |root| ui(root, &headline));
+        let written = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
+            egui::Shape::Text(text) => Some(text.galley.text().to_owned()),
+            _ => None,
+        });
+        let written: Vec<String> = written.collect();
+        output.drop_without_applying_deltas();
+        for text in ["Reported as wrong", "Actual part: Not enrolled"] {
+            assert!(written.iter().any(|drawn| drawn == text), "{written:?}");
+        }
+        assert!(!written.iter().any(|drawn| drawn == "Accepted"));
+    }
 
     #[test]
     fn an_empty_cell_is_not_called_not_accepted() {

@@ -1,7 +1,7 @@
 //! The operator's view: which part, OK or not, and what to do next, legible across the shop.
 
 use egui::{
-    Align, CentralPanel, Color32, FontId, Frame, Label, Layout, Margin, Panel, RichText,
+    Align, CentralPanel, Color32, FontId, Frame, Id, Label, Layout, Margin, Panel, RichText,
     ScrollArea, Sense, Ui, Vec2, style::ScrollStyle, vec2,
 };
 
@@ -13,25 +13,35 @@ use crate::{
     app::{
         inspection::{inspected::Inspected, source::Origin},
         language::{history::recognised_part, results::stored_verdict, text},
-        shell::{current_trace, live::SourceState, session::Session},
+        shell::{
+            current_trace,
+            live::SourceState,
+            operator_bars::column_width,
+            session::{Session, Source},
+        },
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, fitted_middle, line_mark, mark, sentence, wrapped},
+            widgets::{Mark, fitted_middle, line_mark, mark, sentence, wrapped, wrapped_rows},
         },
     },
-    history::{StoredVerdict, Summary},
+    capture::SourceSpec,
+    history::StoredVerdict,
     pipeline::{Unrecognisable, Verdict},
     stages::pose::PoseEstimate,
 };
 
 /// Height of the banner in a high and in a low window, logical pixels.
 const BANNER: [f32; 2] = [190.0, 156.0];
-/// Width of the column on the right in a wide and in a narrow window, logical pixels.
-const COLUMN: [f32; 2] = [400.0, 320.0];
+/// Space above and below the column on the right in a high and in a low window, logical pixels.
+const COLUMN_MARGIN: [i8; 2] = [20, 12];
 /// Height of a line of the list of parts, logical pixels.
 const LINE: f32 = 40.0;
 /// Heights of the name and of a line below it, logical pixels.
 const TWO_LINES: [f32; 2] = [28.0, 26.0];
+/// Minimum height of the list of parts: two of them with their serial numbers, logical pixels.
+const LEAST_LIST: f32 = 2.0 * (TWO_LINES[0] + TWO_LINES[1]) + space::SMALL;
+/// Width of the sign before a warning, logical pixels.
+const SIGN: f32 = 24.0;
 /// Longest reason or advice that fits in the large type, characters.
 const LONG: usize = 60;
 
@@ -114,15 +124,7 @@ impl Banner {
                 None | Some(SourceState::Opening) => {
                     return Self::new(Tone::Open, text!("operator-opening-camera"), "", wait);
                 }
-                Some(SourceState::Lost(trouble)) => {
-                    let (what, advice) = (&trouble.what, &trouble.advice);
-                    return Self::new(
-                        Tone::Trouble,
-                        text!("operator-no-camera"),
-                        sentence(what),
-                        advice,
-                    );
-                }
+                Some(SourceState::Lost(_)) => return Self::of_lost(&session.source),
                 Some(SourceState::Running) => {}
             }
         } else if let Some(run) = &session.inspecting {
@@ -192,7 +194,9 @@ impl Banner {
             ..result
         };
         let serial = session.trace.of_part(inspected).serial;
-        if !serial.is_empty() {
+        // While the next part swings in, a frame may still belong to the one before.
+        let is_part = inspected.entry.record.summary.verdict != StoredVerdict::NoPart;
+        if is_part && !inspected.is_open() && !serial.is_empty() {
             verdict.reason = format!("{} · {serial}", verdict.reason);
         }
         if shown.is_past {
@@ -211,16 +215,33 @@ impl Banner {
         verdict
     }
 
+    /// The exact error is for the engineer.
+    fn of_lost(source: &Source) -> Self {
+        let (title, next) = if is_folder(source) {
+            (
+                text!("operator-no-folder"),
+                text!("operator-no-folder-next"),
+            )
+        } else {
+            (
+                text!("operator-no-camera"),
+                text!("operator-no-camera-next"),
+            )
+        };
+        Self::new(Tone::Trouble, title, text!("operator-lost"), next)
+    }
+
     fn of_result(inspected: &Inspected, session: &Session) -> Self {
         let Headline {
             title,
             is_accepted,
             is_open,
+            actual,
             complaint,
             ..
         } = Headline::of(inspected, session);
         let inspection = &inspected.inspection;
-        if is_accepted && is_reported_wrong(inspected, session) {
+        if actual.is_some() {
             let next = text!("operator-reported-wrong-next");
             return Self::new(Tone::NotOk, title, text!("operator-reported-wrong"), next);
         }
@@ -273,17 +294,15 @@ impl Banner {
     }
 }
 
-/// Says that a part reaches the edge of the picture, or that an accepted one may be another model. For an accepted part, only
-/// warn of what is certain: operators ignore a warning that appears on every other good part.
+/// Says that some of a part is outside the picture, or that an accepted one may be another model.
 fn caution(inspected: &Inspected, tone: Tone) -> String {
     let is_cut = inspected.inspection.touches_edge() && inspected.scan.is_none();
     match tone {
         Tone::NotOk if is_cut => text!("operator-reaches-edge"),
         Tone::Ok => {
-            let is_surely_cut = is_cut && inspected.reaches_border;
             let is_approximate = inspected.inspection.verdict.is_approximate();
             let cautions = [
-                is_surely_cut.then(|| text!("operator-reaches-edge-ok")),
+                is_cut.then(|| text!("operator-reaches-edge-ok")),
                 is_approximate.then(|| text!("operator-approximate-ok")),
             ];
             let cautions: Vec<String> = cautions.into_iter().flatten().collect();
@@ -293,17 +312,10 @@ fn caution(inspected: &Inspected, tone: Tone) -> String {
     }
 }
 
-/// True if a person has said that the accepted part is another one.
-fn is_reported_wrong(inspected: &Inspected, session: &Session) -> bool {
-    let labelled = session.shift.labelled.as_ref();
-    let truth = labelled.filter(|(part, _)| part == inspected.hung());
-    truth.is_some_and(|(_, truth)| {
-        let summary = Summary {
-            label: Some(truth.clone()),
-            ..inspected.entry.record.summary.clone()
-        };
-        summary.is_wrongly_accepted()
-    })
+/// True for a watched folder or a recording.
+fn is_folder(source: &Source) -> bool {
+    matches!(source, Source::Camera(spec)
+        if matches!(**spec, SourceSpec::Watched(_) | SourceSpec::Recording(_)))
 }
 
 /// Draws the operator's view; `picture` draws the part once there is an inspection.
@@ -312,8 +324,9 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, picture: impl FnOnce(&mut Ui)) 
     let banner = Banner::of(session);
     let size = ui.available_size();
     let [_, back] = banner.tone.colours(theme);
+    let is_low = usize::from(size.y <= 700.0);
     Panel::top("banner")
-        .exact_size(if size.y > 700.0 { BANNER[0] } else { BANNER[1] })
+        .exact_size(BANNER[is_low])
         .resizable(false)
         .frame(
             Frame::new()
@@ -322,16 +335,12 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, picture: impl FnOnce(&mut Ui)) 
         )
         .show(ui, |ui| banner_ui(ui, &banner));
     Panel::right("next step")
-        .exact_size(if size.x > 1100.0 {
-            COLUMN[0]
-        } else {
-            COLUMN[1]
-        })
+        .exact_size(column_width(size.x))
         .resizable(false)
         .frame(
             Frame::new()
                 .fill(theme.panel)
-                .inner_margin(Margin::symmetric(24, 20)),
+                .inner_margin(Margin::symmetric(24, COLUMN_MARGIN[is_low])),
         )
         .show(ui, |ui| column(ui, &banner, session));
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
@@ -410,23 +419,66 @@ fn robots_without_answer(ui: &mut Ui, session: &Session) {
     if !session.answering.is_on {
         return;
     }
-    if session.robot.is_none() {
-        warn(ui, &text!("operator-robots-without-pose"));
-    } else if !session.is_live() && session.source.followed().is_some() {
-        warn(ui, &text!("operator-robots-without-frames"));
-    } else if !session.is_live() {
-        warn(ui, &text!("operator-robots-without-source"));
-    }
+    let says = if session.robot.is_none() {
+        text!("operator-robots-without-pose")
+    } else if session.is_live() {
+        return;
+    } else if session.source.followed().is_some() {
+        text!("operator-robots-without-frames")
+    } else {
+        text!("operator-robots-without-source")
+    };
+    warn(ui, &says, &font::far_reason());
 }
 
-fn warn(ui: &mut Ui, says: &str) {
+fn warn(ui: &mut Ui, says: &str, font: &FontId) {
     let theme = Theme::of(ui);
     ui.add_space(space::SMALL);
     ui.horizontal_top(|ui| {
-        let (rect, _) = ui.allocate_exact_size(Vec2::splat(24.0), Sense::hover());
+        let (rect, _) = ui.allocate_exact_size(Vec2::splat(SIGN), Sense::hover());
         mark(ui.painter(), rect.center(), 10.0, Mark::Look, theme);
-        wrapped(ui, says, &font::far_reason(), theme.warning);
+        wrapped(ui, says, font, theme.warning);
     });
+}
+
+/// Draws the next step and the caution in the largest type that fits into this height. If even the smallest does not, they can
+/// be scrolled.
+fn next_ui(ui: &mut Ui, banner: &Banner, room: f32) {
+    let theme = Theme::of(ui);
+    // Of the next step and of the caution.
+    let types = [
+        [font::next_step(), font::far_reason()],
+        [font::far_reason(), font::far_reason()],
+        [font::body_strong(), font::body_strong()],
+    ];
+    let width = ui.available_width();
+    let height = |[next, caution]: &[FontId; 2]| {
+        let rows = |text: &str, font: &FontId, width: f32| {
+            let rows = wrapped_rows(ui.painter(), text, font, theme.text, width);
+            rows.size().y
+        };
+        let below = if banner.caution.is_empty() {
+            0.0
+        } else {
+            let width = width - SIGN - space::SMALL;
+            2.0 * space::SMALL + rows(&banner.caution, caution, width).max(SIGN)
+        };
+        rows(&banner.next, next, width) + below
+    };
+    let is_long = banner.next.chars().count() > LONG;
+    let smallest = types.len() - 1;
+    let fitting = (usize::from(is_long)..smallest).find(|place| height(&types[*place]) <= room);
+    let [next, caution] = &types[fitting.unwrap_or(smallest)];
+    ScrollArea::vertical()
+        .id_salt("next step")
+        .max_height(room.max(0.0))
+        .auto_shrink([false, true])
+        .show(ui, |ui| {
+            wrapped(ui, &banner.next, next, theme.text);
+            if !banner.caution.is_empty() {
+                warn(ui, &banner.caution, caution);
+            }
+        });
 }
 
 /// Draws what to do next, and the last parts.
@@ -437,23 +489,27 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
     let heading = |ui: &mut Ui, text: String| {
         ui.weak(text);
     };
+    // The scroll bars are beside the text, not over it.
+    ui.spacing_mut().scroll = ScrollStyle::solid();
     heading(ui, text!("operator-next"));
-    let is_long = banner.next.chars().count() > LONG;
-    let next = if is_long {
-        font::far_reason()
-    } else {
-        font::next_step()
-    };
-    wrapped(ui, &banner.next, &next, theme.text);
-    if !banner.caution.is_empty() {
-        warn(ui, &banner.caution);
-    }
-    ui.add_space(space::MEDIUM);
+    // What follows keeps its height, as it was last drawn.
+    let id = Id::unique("below the next step");
+    let below: f32 = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    let room = ui.available_height() - below - LEAST_LIST;
+    next_ui(ui, banner, room);
+    let top = ui.cursor().top();
+    ui.add_space(space::SMALL);
     current_trace::fields(ui, session);
     robots_without_answer(ui, session);
-    ui.add_space(space::MEDIUM);
+    ui.add_space(space::SMALL);
     heading(ui, text!("operator-last-parts"));
     ui.add_space(space::SMALL);
+    let drawn = ui.cursor().top() - top;
+    if (drawn - below).abs() > 0.5 {
+        ui.data_mut(|data| data.insert_temp(id, drawn));
+        ui.ctx()
+            .request_discard("what is below the next step has another height");
+    }
     if shift.last.is_empty() {
         let text = match shift.since {
             Some(_) => text!("operator-none-yet"),
@@ -463,15 +519,9 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
         return;
     }
     ui.spacing_mut().item_spacing.y = 0.0;
-    // The scroll bar is beside the times, not over them.
-    ui.spacing_mut().scroll = ScrollStyle::solid();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for row in &shift.last {
-            let is_ok = row.verdict == StoredVerdict::Accepted;
-            let is_wrong = row.is_wrongly_accepted();
-            let (sign, colour) = if is_wrong {
-                (Mark::Look, theme.warning)
-            } else if is_ok {
+            let (sign, colour) = if row.is_ok() {
                 (Mark::Good, theme.accepted)
             } else {
                 (Mark::Bad, theme.rejected)
@@ -489,6 +539,7 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
             let mirrored = row.mirror_of();
             let mirrored = mirrored.map(|part| text!("results-title-mirrored", part = part));
             let serial = Some(row.trace.serial.clone()).filter(|serial| !serial.is_empty());
+            let is_wrong = row.is_wrongly_accepted();
             let wrong = is_wrong.then(|| text!("operator-reported-wrong"));
             let below = [
                 (wrong, font::body()),
@@ -539,17 +590,67 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session) {
 mod tests {
     use std::sync::Arc;
 
-    use egui::{Galley, RawInput};
+    use egui::{Galley, Pos2, RawInput, Rect, Shape};
 
     use super::*;
     use crate::{
         app::{
-            inspection::{inspected::inspected_cell, source::CellChoice},
-            shell::session::Shown,
-            ui::widgets::wrapped_rows,
+            inspection::{
+                inspected::{LiveFrameContext, inspected_cell},
+                source::CellChoice,
+            },
+            language::Language,
+            shell::{live::LiveStatus, operator_bars::COLUMN, session::Shown},
+            ui::theme::ThemeChoice,
+            user_error::UserError,
         },
-        pipeline::Rejection,
+        pipeline::{
+            Rejection,
+            live::{LiveVerdict, MotionState},
+        },
     };
+
+    #[test]
+    fn two_of_the_last_parts_stay_visible_below_a_long_advice() {
+        let mut session = Session::default();
+        session.shift.since = Some(jiff::Zoned::now());
+        for serial in ["S-1", "S-2"] {
+            let mut row = inspected_cell(CellChoice::InTurn, 1).entry.record.summary;
+            row.trace.serial = serial.into();
+            session.shift.last.push(row);
+        }
+        let next = "Die Sichtseite zur Kamera drehen\nDie nächste Datei wird automatisch geprüft\n\
+            Soll es lackiert werden, den Einrichter bitten, es einzulernen";
+        let banner = Banner {
+            caution: "Es reicht bis an den Bildrand: So aufhängen, dass es ganz im Bild ist".into(),
+            ..Banner::new(Tone::NotOk, "Unbekanntes Teil", "", next)
+        };
+        let ctx = egui::Context::default();
+        Theme::install_fonts(&ctx);
+        Theme::install(ThemeChoice::default(), &ctx);
+        // The column in a window of 1024 × 768.
+        let size = vec2(COLUMN[1] - 48.0, 460.0);
+        let mut visible = Vec::new();
+        for _ in 0..3 {
+            let input = RawInput {
+                screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)),
+                ..RawInput::default()
+            };
+            let output = ctx.run_ui(input, |ui| column(ui, &banner, &session));
+            let texts = output.shapes.iter().filter_map(|drawn| match &drawn.shape {
+                Shape::Text(text) => {
+                    let is_whole = drawn.clip_rect.contains_rect(text.visual_bounding_rect());
+                    is_whole.then(|| text.galley.text().to_owned())
+                }
+                _ => None,
+            });
+            visible = texts.collect();
+            output.drop_without_applying_deltas();
+        }
+        for text in [next, "S-1", "S-2"] {
+            assert!(visible.iter().any(|drawn| drawn == text), "{visible:?}");
+        }
+    }
 
     #[test]
     fn a_part_at_the_edge_another_model_and_a_file_are_said_and_only_what_is_certain() {
@@ -573,11 +674,11 @@ mod tests {
             }
         };
         let cut: fn(&mut Inspected) = |inspected| {
-            if let Ok(part) = &mut inspected.inspection.segmentation.part {
-                part.touches_edge = true;
+            if let Some(Ok(pose)) = &mut inspected.inspection.pose
+                && let Some(sight) = &mut pose.fit.sight
+            {
+                sight.outside = 0.1;
             }
-            // Known with the result: no frame of the window goes through the points.
-            inspected.reaches_border = true;
             inspected.origin = camera();
         };
         let approximate: fn(&mut Inspected) = |inspected| {
@@ -618,6 +719,74 @@ mod tests {
         // It may show what hung there days ago.
         let next = banner(file, false).next;
         assert!(next.starts_with("From a file"), "{next}");
+    }
+
+    #[test]
+    fn only_a_steady_part_is_shown_with_its_serial_number() {
+        let reason = |choice, moves: bool| {
+            let mut inspected = inspected_cell(choice, 1);
+            inspected.entry.record.summary.trace.serial = "4711".into();
+            inspected.followed = moves.then_some(LiveFrameContext {
+                stillness: MotionState::Moving,
+                standing: LiveVerdict::Open,
+            });
+            let session = Session {
+                shown: Some(Shown {
+                    generation: 1,
+                    inspected: Arc::new(inspected),
+                    is_past: false,
+                    session: None,
+                    is_outdated: false,
+                }),
+                ..Session::default()
+            };
+            Banner::of(&session).reason
+        };
+        assert!(reason(CellChoice::InTurn, false).contains("4711"));
+        for (choice, moves) in [(CellChoice::InTurn, true), (CellChoice::Empty, false)] {
+            let reason = reason(choice, moves);
+            assert!(!reason.contains("4711"), "{reason}");
+        }
+    }
+
+    #[test]
+    fn a_lost_source_is_named_by_its_kind_in_the_language_of_the_window() {
+        let lost = |source| {
+            let mut session = Session {
+                source,
+                ..Session::default()
+            };
+            session.live.is_on = true;
+            session.live.status = Some(LiveStatus {
+                source: SourceState::Lost(UserError {
+                    what: "the folder does not exist".into(),
+                    advice: "Connect the drive".into(),
+                }),
+                stillness: None,
+                standing: LiveVerdict::Open,
+                rates: [None; 2],
+                latency: None,
+                num_inspected: 0,
+                num_dropped: 0,
+                num_averaged: 1,
+                recorded: None,
+            });
+            Banner::of(&session)
+        };
+        let folder = Source::Camera(Box::new("watch:captures".parse().expect("a source")));
+        Language::German.make_current();
+        let banners = [lost(folder), lost(Source::default())];
+        Language::English.make_current();
+        let expected = [
+            ("Ordner nicht erreichbar", "Netzlaufwerk"),
+            ("Keine Kamera", "Stecker"),
+        ];
+        for (banner, (title, next)) in banners.iter().zip(expected) {
+            assert_eq!(banner.title, title);
+            assert!(banner.next.starts_with(next), "{banner:?}");
+            assert!(banner.next.contains("Instandhaltung"), "{banner:?}");
+            assert!(!banner.reason.contains("folder"), "{banner:?}");
+        }
     }
 
     /// A frame of a camera that is not simulated.

@@ -352,10 +352,12 @@ impl InspectState {
         let robot = cx.session.robot_of(&inspected).cloned();
         let convention = cx.session.convention;
         let trace = cx.session.trace.of_part(&inspected);
+        let actual = cx.session.shift.reported_as(&inspected).cloned();
         self.writing
             .start(text!("inspect-writing-report"), move |_| {
                 let robot = robot.as_deref();
-                let report = report_files::report_of(&inspected, &trace, robot, convention);
+                let report = report_files::report_of(&inspected, &trace, robot, convention)
+                    .reported_as(actual.as_ref());
                 Ok(report_files::report(
                     &folder,
                     &inspected,

@@ -1,7 +1,7 @@
 use std::fs;
 
 use super::{
-    super::tests::{door, empty, refused, robot},
+    super::tests::{door, empty, refused, reported, robot},
     *,
 };
 
@@ -35,6 +35,18 @@ fn folder() -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("poses.csv");
     (folder, path)
+}
+
+#[test]
+fn the_last_cell_says_what_a_part_is_that_was_reported_as_wrong() {
+    let (_folder, path) = folder();
+    append_csv(&path, &door().report(Some(&robot()), Convention::Kuka)).expect("appended");
+    append_csv(&path, &reported()).expect("appended");
+    let last: Vec<String> = rows(&path)
+        .into_iter()
+        .filter_map(|mut row| row.pop())
+        .collect();
+    assert_eq!(last, ["reported_as", "", "back_door"]);
 }
 
 #[test]

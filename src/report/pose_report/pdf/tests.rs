@@ -1,6 +1,6 @@
 use super::*;
 use crate::{
-    report::pose_report::tests::{Inspected, door, empty, refused, robot},
+    report::pose_report::tests::{Inspected, door, empty, refused, reported, robot},
     robot::{Convention, RobotFrame},
 };
 
@@ -36,6 +36,16 @@ fn is_tidy(report: &PoseReport, pictures: &PdfPictures<'_>, what: &str) {
             );
         }
     }
+}
+
+#[test]
+fn a_part_that_was_reported_as_wrong_is_not_called_accepted() {
+    let report = reported();
+    let said = said(&report, &PdfPictures::default());
+    assert!(said.contains("REPORTED AS WRONG"), "{said}");
+    assert!(said.contains("really hung there: back door"), "{said}");
+    assert!(!said.lines().any(|line| line == "Accepted"), "{said}");
+    is_tidy(&report, &PdfPictures::default(), "reported as wrong");
 }
 
 #[test]

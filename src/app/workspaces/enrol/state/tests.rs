@@ -19,7 +19,7 @@ use crate::{
             library_cache::LibraryCache,
             source::{CellChoice, Origin, SceneSource},
         },
-        shell::{context::TestShell, notice::NoticeKind},
+        shell::{context::TestShell, notice::NoticeKind, session::Shown},
         ui::viewport::ViewCamera,
     },
     geometry::cloud::PointCloud,
@@ -32,6 +32,8 @@ struct Bench {
     enrol: EnrolState,
     shell: TestShell,
     notices: Vec<Notice>,
+    /// What the last change of the library asks to inspect.
+    saved: Option<SceneOrScan>,
     folder: tempfile::TempDir,
 }
 
@@ -45,6 +47,7 @@ impl Bench {
             enrol: EnrolState::new(&TaskRunner::without_threads()),
             shell,
             notices: Vec::new(),
+            saved: None,
             folder,
         }
     }
@@ -83,8 +86,9 @@ impl Bench {
                         }
                     }
                 }
-                Message::LibraryChanged { library, .. } => {
+                Message::LibraryChanged { library, saved } => {
                     self.shell.session.library = Some(library);
+                    self.saved = saved;
                 }
                 other => panic!("{other:?}"),
             }
@@ -521,6 +525,64 @@ fn of_a_draft_whose_scene_is_gone_the_words_come_back_with_the_next() {
         let draft = bench.enrol.draft.as_ref().expect("a draft");
         assert_eq!(draft.form, kept.form);
         assert!(draft.corrections.edits.is_empty() && bench.enrol.coming.is_none());
+    }
+}
+
+#[test]
+fn without_its_scene_a_draft_is_no_reference_of_another_part_any_more() {
+    let (kept, _) = corrected();
+    let mut bench = Bench::new();
+    let mut form = kept.form.clone();
+    form.title.clear();
+    let fender = PartName::new("fender").expect("a name");
+    form.write(Field::ReferenceOf(Some(fender)), None);
+    assert_eq!(form.name, "fender_2");
+    bench.bring_back(KeptDraft {
+        origin: Origin::Frame {
+            name: "Kinect frame 12".into(),
+            is_simulated: false,
+        },
+        form,
+        ..kept
+    });
+    bench.take(80);
+    let form = &bench.enrol.draft.as_ref().expect("a draft").form;
+    assert_eq!(
+        (&*form.name, &*form.notes, &form.reference_of),
+        ("", "bent", &None)
+    );
+}
+
+#[test]
+fn what_is_saved_is_inspected_only_if_nothing_newer_was_captured() {
+    let inspected = |generation| {
+        Some(Shown {
+            generation,
+            inspected: Arc::new(inspected_cell(CellChoice::InTurn, generation)),
+            is_past: false,
+            session: None,
+            is_outdated: false,
+        })
+    };
+    // In Inspect, in Enrol, nowhere.
+    for step in 0..3 {
+        let mut bench = Bench::new();
+        bench.shell.session.shown = inspected(1);
+        bench.take(80);
+        match step {
+            0 => bench.shell.session.shown = inspected(2),
+            1 => {
+                bench.take(60);
+                bench.act(EnrolAction::Undo);
+                bench.act(EnrolAction::Undo);
+            }
+            _ => {}
+        }
+        assert_eq!(bench.from().as_deref(), Some("80.pcd"));
+        bench.named("Plate");
+        bench.act(EnrolAction::Save);
+        assert_eq!(bench.names(), ["plate"]);
+        assert_eq!(bench.saved.is_some(), step == 2, "{step}");
     }
 }
 
