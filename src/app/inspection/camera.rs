@@ -1,7 +1,7 @@
 //! The camera in use, shared between threads; at most one is open.
 //!
 //! A continuous source is closed as soon as nobody uses its frames. A recording or a watched folder stays open between
-//! requests, so that each request gets the next frame.
+//! requests: each request gets the next frame of the recording, and the newest file of the folder that came since.
 
 use std::{
     collections::BTreeMap,
@@ -71,6 +71,8 @@ impl Advice for CameraError {
 
 /// Time to wait for a frame before checking for cancellation again.
 const TURN: Duration = Duration::from_millis(50);
+/// How long the next file of a watched folder may take to be read, if one waits.
+const NEWER: Duration = Duration::from_millis(400);
 
 impl Camera {
     /// Makes a handle that opens sources with `open`.
@@ -110,14 +112,20 @@ impl Camera {
         Ok(feed)
     }
 
-    /// Waits for the next frame of a source, until cancelled.
+    /// Waits for the next frame of a source, until cancelled; of a watched folder, for the newest of the files that wait.
     pub fn next(
         &self,
         spec: &SourceSpec,
         is_cancelled: &dyn Fn() -> bool,
     ) -> Result<Captured, CameraError> {
         let feed = self.feed(spec)?;
-        let found = wait(&feed, spec, is_cancelled);
+        let mut found = wait(&feed, spec, is_cancelled);
+        // What hangs there now is on the newest file, even if that cannot be read.
+        while matches!(spec, SourceSpec::Watched(_))
+            && let Some(newer) = feed.wait(NEWER)
+        {
+            found = taken(newer);
+        }
         drop(feed);
         self.rest();
         found
@@ -188,6 +196,13 @@ impl Camera {
     }
 }
 
+fn taken(item: FeedItem) -> Result<Captured, CameraError> {
+    match item {
+        FeedItem::Captured(captured) => Ok(captured),
+        FeedItem::Skipped(skipped) => Err(CameraError::Capture(skipped.error)),
+    }
+}
+
 fn wait(
     feed: &Feed,
     spec: &SourceSpec,
@@ -198,8 +213,7 @@ fn wait(
             return Err(CameraError::Cancelled);
         }
         match feed.wait(TURN) {
-            Some(FeedItem::Captured(captured)) => return Ok(captured),
-            Some(FeedItem::Skipped(skipped)) => return Err(CameraError::Capture(skipped.error)),
+            Some(item) => return taken(item),
             None => match feed.status().state {
                 FeedState::Failed(error) | FeedState::Lost { error, .. } => {
                     return Err(CameraError::Capture(error));
@@ -223,10 +237,16 @@ impl fmt::Debug for Camera {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Point3;
+
     use super::*;
     use crate::{
+        capture::{WatchedFrom, WatchedSpec},
         files::save_cloud,
-        geometry::depth_frame::{DepthFrame, Intrinsics},
+        geometry::{
+            cloud::PointCloud,
+            depth_frame::{DepthFrame, Intrinsics},
+        },
         stages::scene::{scene_from_frame, scene_from_image},
     };
 
@@ -246,6 +266,21 @@ mod tests {
         drop(followed);
         camera.rest();
         assert!(!is_open(&camera));
+    }
+
+    #[test]
+    fn of_the_files_that_wait_in_a_watched_folder_the_newest_is_taken() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for (name, x) in [("1.pcd", 0.1), ("2.pcd", 0.2), ("3.pcd", 0.3)] {
+            let cloud = PointCloud::from_points([Point3::new(x, 0.0, 1.0)]);
+            save_cloud(&folder.path().join(name), &cloud).expect("saved");
+        }
+        let spec = SourceSpec::Watched(WatchedSpec {
+            folder: folder.path().to_owned(),
+            from: WatchedFrom::All,
+        });
+        let newest = Camera::default().next(&spec, &|| false).expect("a file");
+        assert_eq!(newest.name, "3.pcd");
     }
 
     #[test]

@@ -206,7 +206,8 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline) {
     if !headline.is_no_part {
         ui.horizontal(|ui| {
             line_mark(ui, 32.0, 14.0, sign);
-            ui.label(RichText::new(word).font(font::far_verdict()).color(colour));
+            let fonts = [font::far_verdict(), font::far_reason()];
+            wrapped(ui, &word, &fitting_font(ui, &word, &fonts, 1), colour);
         });
     }
     if let Some(actual) = &headline.actual {

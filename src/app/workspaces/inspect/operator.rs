@@ -469,9 +469,16 @@ fn next_ui(ui: &mut Ui, banner: &Banner, room: f32) {
     let smallest = types.len() - 1;
     let fitting = (usize::from(is_long)..smallest).find(|place| height(&types[*place]) <= room);
     let [next, caution] = &types[fitting.unwrap_or(smallest)];
+    // A caution is worth more than the part before the last.
+    let is_short = height(&types[smallest]) > room && !banner.caution.is_empty();
+    let spare = if is_short {
+        TWO_LINES[0] + TWO_LINES[1]
+    } else {
+        0.0
+    };
     ScrollArea::vertical()
         .id_salt("next step")
-        .max_height(room.max(0.0))
+        .max_height((room + spare).max(0.0))
         .auto_shrink([false, true])
         .show(ui, |ui| {
             wrapped(ui, &banner.next, next, theme.text);
