@@ -39,7 +39,7 @@ impl LibraryFolder {
         })?
     }
 
-    /// As [`Self::set_spray_path`], but without the lock: for a library that is being built, which nobody else uses yet.
+    /// Like [`Self::set_spray_path`], but takes no lock: for a library that is still being built.
     pub fn write_spray_path(
         &self,
         name: &PartName,

@@ -7,7 +7,7 @@ use std::{
     collections::BTreeMap,
     fmt,
     sync::{Arc, Mutex, MutexGuard},
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use crate::{
@@ -73,6 +73,8 @@ impl Advice for CameraError {
 const TURN: Duration = Duration::from_millis(50);
 /// How long the next file of a watched folder may take to be read, if one waits.
 const NEWER: Duration = Duration::from_millis(400);
+/// How long newer files are waited for: a camera may save without a pause.
+const LONGEST: Duration = Duration::from_secs(3);
 
 impl Camera {
     /// Makes a handle that opens sources with `open`.
@@ -121,7 +123,10 @@ impl Camera {
         let feed = self.feed(spec)?;
         let mut found = wait(&feed, spec, is_cancelled);
         // What hangs there now is on the newest file, even if that cannot be read.
+        let until = Instant::now() + LONGEST;
         while matches!(spec, SourceSpec::Watched(_))
+            && Instant::now() < until
+            && !is_cancelled()
             && let Some(newer) = feed.wait(NEWER)
         {
             found = taken(newer);

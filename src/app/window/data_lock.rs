@@ -18,8 +18,8 @@ pub(super) struct DataLock {
 }
 
 impl DataLock {
-    /// Takes the lock. Where it cannot be taken for another reason, such as a network file system without locks, nobody holds
-    /// it.
+    /// Tries to take the lock. If that fails for another reason, for example on a network file system without locks, it counts
+    /// as free.
     pub(super) fn take(folder: Option<&Path>) -> Self {
         let file = folder.and_then(|folder| {
             disk::create_dir_all(folder).ok()?;

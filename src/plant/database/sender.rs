@@ -188,7 +188,7 @@ impl HistorySender {
 
 impl Drop for HistorySender {
     fn drop(&mut self) {
-        // Nobody is left to receive it.
+        // The receiver is gone.
         let _ = self.end();
     }
 }

@@ -254,7 +254,7 @@ impl MqttLink {
 
 impl Drop for MqttLink {
     fn drop(&mut self) {
-        // Nobody is left to receive it.
+        // The receiver is gone.
         let _ = self.take_leave();
     }
 }

@@ -46,7 +46,7 @@ const FAR: f32 = 0.045;
 const MOST_OFF: f32 = 0.4;
 /// Share of the border tried first that must find the reference's.
 const LEAST_BORDER: f32 = 0.3;
-/// One pair in so many is looked up first, to tell which references are worth the others.
+/// One in this many pairs is looked up first, to decide which references are worth the rest.
 const FIRST_SHARE: usize = 3;
 /// Poses of a reference that are scored, and those that the first pairs led to.
 const MOST_SCORED: usize = 40;

@@ -37,7 +37,7 @@ const MARGIN: usize = 100;
 #[derive(Debug)]
 #[expect(
     clippy::struct_excessive_bools,
-    reason = "four independent facts about the list and what is told of it"
+    reason = "independent flags of the list and its messages"
 )]
 pub struct HistoryState {
     /// The filter of the list.
